@@ -1,0 +1,19 @@
+include(CMakePackageConfigHelpers)
+
+install(TARGETS tethercalc EXPORT tethercalcTargets)
+install(TARGETS tethercalc_command RUNTIME)
+install(DIRECTORY include/tethercalc TYPE INCLUDE)
+install(FILES LICENSE README.md TYPE DOC)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/tethercalc")
+install(EXPORT tethercalcTargets NAMESPACE tethercalc:: DESTINATION "${package_folder}")
+configure_package_config_file(cmake/tethercalcConfig.cmake.in
+  "${PROJECT_BINARY_DIR}/tethercalcConfig.cmake" INSTALL_DESTINATION "${package_folder}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/tethercalcConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/tethercalcConfig.cmake"
+  "${PROJECT_BINARY_DIR}/tethercalcConfigVersion.cmake" DESTINATION "${package_folder}")
+
+configure_file(cmake/tethercalc.pc.in "${PROJECT_BINARY_DIR}/tethercalc.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/tethercalc.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

@@ -1,0 +1,46 @@
+// Aerodynamic drag of the drone, and the tilt at which thrust balances it.
+#pragma once
+
+namespace tethercalc {
+
+/// Drag of the drone as in the paper's section III-B. The areas include the drag coefficient; they
+/// are fitted, not measured with a ruler.
+struct AirframeDrag {
+  double front_area = 0;          ///< A_f, m²
+  double top_area = 0;            ///< A_t, m²
+  double linear_speed = 0;        ///< j, m/s: the speed at which linear and quadratic drag are equal
+  double fore_aft_asymmetry = 0;  ///< a in (−1, 1): drag is (1 + a) times larger flying forward
+                                  ///< and (1 − a) times flying backward
+};
+
+/// Effective area in m² for a tilt given by its tangent (of either sign):
+/// A_f·cos|θ| + A_t·sin|θ|, without trigonometry.
+[[nodiscard]] double effective_area(const AirframeDrag& drag, double tan_pitch);
+
+/// Drag in N against the motion, with the sign of `airspeed` (m/s, forward positive):
+/// ½·ρ·(A_f cos|θ| + A_t sin|θ|)·(v|v| + j·v)·(1 + a·sign v). `air_density` in kg/m³.
+[[nodiscard]] double airframe_drag_force(const AirframeDrag& drag, double air_density,
+                                         double airspeed, double tan_pitch);
+
+/// What `equilibrium_tan_pitch` balances.
+struct ForceBalance {
+  double weight = 0;          ///< N, > 0: drone and tether
+  double area_force_factor = 0;  ///< N/m², ≥ 0: airframe drag over effective area at this airspeed
+  double tether_drag = 0;     ///< N, ≥ 0, along the same direction
+  double front_area = 0;      ///< A_f, m², ≥ 0
+  double top_area = 0;        ///< A_t, m², ≥ 0
+};
+
+/// Tangent t ≥ 0 of the tilt that holds a steady speed: the root of
+/// weight·t = area_force_factor·(A_f + A_t·t)/√(1 + t²) + tether_drag (paper eq. (12)).
+///
+/// The root is unique: with g(t) = (A_f + A_t t)/√(1+t²), the difference
+/// weight·t − factor·g(t) − tether_drag is ≤ 0 at t = 0, convex while g is concave, and rising from
+/// where g stops being concave on, since g falls there. Newton's method from the right of the root
+/// therefore converges monotonically; it is used with a bracket all the same. Where `tan_limit` is
+/// exceeded the answer is +infinity: the drone would have to tilt further than allowed.
+/// `guess` ≥ 0 only saves iterations. Relative error of t below 1e-14.
+[[nodiscard]] double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit,
+                                           double guess = 0);
+
+}  // namespace tethercalc

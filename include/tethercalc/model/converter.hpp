@@ -1,0 +1,38 @@
+// The step-down converter on the drone, between the tether and the motors.
+#pragma once
+
+#include <vector>
+
+namespace tethercalc {
+
+/// Efficiency of a converter at one load.
+struct EfficiencyPoint {
+  double output_power = 0;  ///< W, ≥ 0
+  double efficiency = 1;    ///< in (0, 1]
+};
+
+/// A converter by its efficiency over load and the input voltage at which it cuts off.
+///
+/// Efficiency is linear between the points and constant outside them; a single point is a constant
+/// efficiency. On a piece η = a + b·P the input P/η rises with the output wherever a > 0, which
+/// `validate` demands, so input and output determine each other.
+struct Converter {
+  std::vector<EfficiencyPoint> efficiency{{0.0, 1.0}};  ///< by rising output power, never empty
+  double min_input_voltage = 0;                         ///< V, the cut-off U_minDC of the paper
+};
+
+/// Throws std::invalid_argument where the curve is empty, not by strictly rising output power, has
+/// an efficiency outside (0, 1], or would draw less power at a higher load.
+void validate(const Converter& converter);
+
+/// Efficiency at `output_power` in W (≥ 0).
+[[nodiscard]] double efficiency_at(const Converter& converter, double output_power);
+
+/// Input power in W that yields `output_power` in W (≥ 0). +infinity stays +infinity.
+[[nodiscard]] double converter_input_power(const Converter& converter, double output_power);
+
+/// Output power in W made of `input_power` in W: the inverse of `converter_input_power`. 0 where
+/// input_power ≤ 0.
+[[nodiscard]] double converter_output_power(const Converter& converter, double input_power);
+
+}  // namespace tethercalc

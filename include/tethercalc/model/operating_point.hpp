@@ -1,0 +1,41 @@
+// What a design does with a given conductor in steady hover or forward flight.
+#pragma once
+
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// Steady flight with one conductor cross-section. SI units; forces and thrusts per motor. NaN marks
+/// a quantity that does not exist: everything that needs the tilt where the tilt exceeds its limit,
+/// drone power where the motors cannot make the thrust, everything behind it where the line cannot
+/// deliver the power.
+struct OperatingPoint {
+  double cross_section = 0;      ///< m², one conductor
+  double tether_resistance = 0;  ///< Ω, loop
+  double tether_mass = 0;        ///< kg, airborne
+  double takeoff_mass = 0;       ///< kg, drone and airborne tether
+  double pitch = 0;              ///< rad, positive leaning into the motion
+  double available_power = 0;    ///< W at the converter input, at the lowest received voltage
+  double available_thrust = 0;   ///< N per motor from that power
+  double necessary_thrust = 0;   ///< N per motor
+  double headroom = 0;           ///< available over necessary thrust
+  double drone_power = 0;        ///< W at the converter input
+  double total_power = 0;        ///< W from the ground supply
+  double tether_loss = 0;        ///< W
+  double current = 0;            ///< A
+  double received_voltage = 0;   ///< V at the converter input
+
+  /// True where the tilt is within its limit, the motors make the thrust, and the power arrives at
+  /// no less than the converter's cut-off voltage.
+  bool flyable = false;
+};
+
+/// The operating point for conductors of `area` m² (> 0, finite) in `condition`.
+///
+/// Paper section III-A with the neutral-valued parameters of `Design` in place:
+/// T_nec = (m_d + m_t)g/(n cosθ); P_drone = converter(n·f·P_motor(T_nec)) + P_aux;
+/// T_avail = motor(converter⁻¹(P_avail − P_aux)/(n·f)); U·I = P_drone + I²R.
+/// The auxiliary power is drawn at the converter's input.
+[[nodiscard]] OperatingPoint evaluate(const Design& design, double area, Condition condition);
+
+}  // namespace tethercalc

@@ -1,0 +1,17 @@
+// The data folder as compiled into the program.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace tethercalc {
+
+struct EmbeddedFile {
+  std::string_view name;  ///< path below `data/`, e.g. "motors/holybro-air2216-920kv-10in.json"
+  std::string_view content;
+};
+
+/// Every file of `data/` in alphabetical order of its path.
+std::span<const EmbeddedFile> embedded_files();
+
+}  // namespace tethercalc
