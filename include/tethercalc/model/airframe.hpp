@@ -6,9 +6,9 @@ namespace tethercalc {
 /// Drag of the drone as in the paper's section III-B. The areas include the drag coefficient; they
 /// are fitted, not measured with a ruler.
 struct AirframeDrag {
-  double front_area = 0;          ///< A_f, m²
-  double top_area = 0;            ///< A_t, m²
-  double linear_speed = 0;        ///< j, m/s: the speed at which linear and quadratic drag are equal
+  double front_area = 0;    ///< A_f, m²
+  double top_area = 0;      ///< A_t, m²
+  double linear_speed = 0;  ///< j, m/s: the speed at which linear and quadratic drag are equal
   double fore_aft_asymmetry = 0;  ///< a in (−1, 1): drag is (1 + a) times larger flying forward
                                   ///< and (1 − a) times flying backward
 };
@@ -17,6 +17,11 @@ struct AirframeDrag {
 /// A_f·cos|θ| + A_t·sin|θ|, without trigonometry.
 [[nodiscard]] double effective_area(const AirframeDrag& drag, double tan_pitch);
 
+/// Drag in N per m² of effective area at `airspeed` (m/s, either sign), `air_density` in kg/m³:
+/// ½·ρ·(v² + j·|v|)·(1 + a·sign v). Never negative.
+[[nodiscard]] double area_force_factor(const AirframeDrag& drag, double air_density,
+                                       double airspeed);
+
 /// Drag in N against the motion, with the sign of `airspeed` (m/s, forward positive):
 /// ½·ρ·(A_f cos|θ| + A_t sin|θ|)·(v|v| + j·v)·(1 + a·sign v). `air_density` in kg/m³.
 [[nodiscard]] double airframe_drag_force(const AirframeDrag& drag, double air_density,
@@ -24,11 +29,11 @@ struct AirframeDrag {
 
 /// What `equilibrium_tan_pitch` balances.
 struct ForceBalance {
-  double weight = 0;          ///< N, > 0: drone and tether
-  double area_force_factor = 0;  ///< N/m², ≥ 0: airframe drag over effective area at this airspeed
-  double tether_drag = 0;     ///< N, ≥ 0, along the same direction
-  double front_area = 0;      ///< A_f, m², ≥ 0
-  double top_area = 0;        ///< A_t, m², ≥ 0
+  double weight = 0;             ///< N, > 0: drone and tether
+  double area_force_factor = 0;  ///< N/m², ≥ 0, at this airspeed
+  double tether_drag = 0;        ///< N, ≥ 0, along the same direction
+  double front_area = 0;         ///< A_f, m², ≥ 0
+  double top_area = 0;           ///< A_t, m², ≥ 0
 };
 
 /// Tangent t ≥ 0 of the tilt that holds a steady speed: the root of

@@ -30,9 +30,9 @@ struct Supply {
 };
 
 struct Flight {
-  double airspeed = 0;         ///< m/s in forward flight
-  double headwind = 0;         ///< m/s, added to the airspeed in both conditions
-  double air_density = 1.293;  ///< kg/m³
+  double airspeed = 0;                ///< m/s in forward flight
+  double headwind = 0;                ///< m/s, added to the airspeed in both conditions
+  double air_density = 1.293;         ///< kg/m³
   double gravity = standard_gravity;  ///< m/s²
 };
 
@@ -41,7 +41,8 @@ struct Requirements {
   Condition headroom_at = Condition::hover;
   Condition power_at = Condition::forward;  ///< where the power is minimised
   double max_pitch = std::numbers::pi / 4;  ///< rad, in (0, π/2)
-  bool buffer_battery = false;  ///< true: headroom is reported but not enforced (paper section III-A)
+  bool buffer_battery =
+      false;  ///< true: headroom is reported but not enforced (paper section III-A)
 };
 
 struct Design {

@@ -1,5 +1,5 @@
-// The electrical power one motor with its propeller needs for a thrust, and the thrust it makes of a
-// power: the data sheet's curve, both ways.
+// The electrical power one motor with its propeller needs for a thrust, and the thrust it makes of
+// a power: the data sheet's curve, both ways.
 #pragma once
 
 #include <cstddef>
@@ -29,9 +29,9 @@ class MotorCurve {
   /// filled field by field.
   MotorCurve();
 
-  /// `points` by rising thrust, SI units. Throws std::invalid_argument unless there are at least two
-  /// and thrust and power are finite, positive and strictly increasing. Measured data that is not
-  /// belongs through `isotonic_motor_points` first.
+  /// `points` by rising thrust, SI units. Throws std::invalid_argument unless there are at least
+  /// two and thrust and power are finite, positive and strictly increasing. Measured data that is
+  /// not belongs through `isotonic_motor_points` first.
   explicit MotorCurve(std::vector<MotorPoint> points);
 
   /// Electrical power in W for `thrust` in N; 0 for thrust ≤ 0; +infinity above `max_thrust()`.
@@ -44,8 +44,8 @@ class MotorCurve {
   /// just below it).
   [[nodiscard]] double power_slope(double thrust) const;
 
-  /// The largest convex curve nowhere above `power` (its lower convex hull), in W for `thrust` in N,
-  /// with the same limits. Where the measured curve is convex the two agree.
+  /// The largest convex curve nowhere above `power` (its lower convex hull), in W for `thrust` in
+  /// N, with the same limits. Where the measured curve is convex the two agree.
   [[nodiscard]] double convex_power(double thrust) const;
 
   /// Slope of `convex_power`, with the limits of `power_slope`.

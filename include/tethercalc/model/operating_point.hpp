@@ -5,10 +5,10 @@
 
 namespace tethercalc {
 
-/// Steady flight with one conductor cross-section. SI units; forces and thrusts per motor. NaN marks
-/// a quantity that does not exist: everything that needs the tilt where the tilt exceeds its limit,
-/// drone power where the motors cannot make the thrust, everything behind it where the line cannot
-/// deliver the power.
+/// Steady flight with one conductor cross-section. SI units; forces and thrusts per motor. NaN
+/// marks a quantity that does not exist: everything that needs the tilt where the tilt exceeds its
+/// limit, drone power where the motors cannot make the thrust, everything behind it where the line
+/// cannot deliver the power.
 struct OperatingPoint {
   double cross_section = 0;      ///< m², one conductor
   double tether_resistance = 0;  ///< Ω, loop
@@ -25,8 +25,8 @@ struct OperatingPoint {
   double current = 0;            ///< A
   double received_voltage = 0;   ///< V at the converter input
 
-  /// True where the tilt is within its limit, the motors make the thrust, and the power arrives at
-  /// no less than the converter's cut-off voltage.
+  /// True where the tilt is within its limit and the headroom at least 1: the motors make the
+  /// thrust, from power that arrives at no less than the lowest received voltage.
   bool flyable = false;
 };
 
@@ -37,5 +37,10 @@ struct OperatingPoint {
 /// T_avail = motor(converter⁻¹(P_avail − P_aux)/(n·f)); U·I = P_drone + I²R.
 /// The auxiliary power is drawn at the converter's input.
 [[nodiscard]] OperatingPoint evaluate(const Design& design, double area, Condition condition);
+
+class SteadyFlight;
+
+/// The same where many areas are evaluated in one condition.
+[[nodiscard]] OperatingPoint evaluate(const SteadyFlight& flight, double area);
 
 }  // namespace tethercalc

@@ -24,9 +24,9 @@ struct Tether {
   Conductor conductor;
   double conductor_temperature_C = 20;
   Insulation insulation;
-  double contact_resistance = 0;    ///< Ω, plugs and slip rings of the whole loop
-  double drag_coefficient = 1.0;    ///< C of a cylinder across the wind
-  double projection_factor = 0.75;  ///< k, mean projected width of the turning pair over 4(r+s)
+  double contact_resistance = 0;        ///< Ω, plugs and slip rings of the whole loop
+  double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
+  double projection_factor = 0.75;      ///< k, mean projected width of the turning pair over 4(r+s)
   std::optional<double> cross_section;  ///< m² of one conductor, where the cable is already chosen
 };
 

@@ -14,12 +14,12 @@ inline constexpr double zero_celsius_K = 273.15;
 
 /// Multiply by one of these to go from the practical unit to SI, divide to come back.
 namespace unit {
-inline constexpr double gram = 1e-3;                         ///< kg
-inline constexpr double millimetre = 1e-3;                   ///< m
-inline constexpr double square_millimetre = 1e-6;            ///< m²
-inline constexpr double gram_force = 1e-3 * standard_gravity;  ///< N
-inline constexpr double degree = std::numbers::pi / 180.0;   ///< rad
-inline constexpr double gram_per_cubic_centimetre = 1e3;     ///< kg/m³
+inline constexpr double gram = 1e-3;                             ///< kg
+inline constexpr double millimetre = 1e-3;                       ///< m
+inline constexpr double square_millimetre = 1e-6;                ///< m²
+inline constexpr double gram_force = 1e-3 * standard_gravity;    ///< N
+inline constexpr double degree = std::numbers::pi / 180.0;       ///< rad
+inline constexpr double gram_per_cubic_centimetre = 1e3;         ///< kg/m³
 inline constexpr double ohm_square_millimetre_per_metre = 1e-6;  ///< Ω·m
 }  // namespace unit
 

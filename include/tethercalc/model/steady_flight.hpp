@@ -1,0 +1,102 @@
+// A design in one flight condition, prepared for evaluation at many conductor sizes.
+#pragma once
+
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// Everything that steady flight needs as a function of the conductor's radius r, with what does
+/// not depend on r computed once. The tether's mass is a quadratic in r, its drag linear in r, its
+/// resistance linear in 1/r². `evaluate` and the solvers share these functions, so they cannot
+/// disagree. Refers to the design's motor and converter: the design must outlive it.
+///
+/// Radii are in m and positive; thrusts are in N per motor; powers in W; masses in kg.
+class SteadyFlight {
+ public:
+  SteadyFlight(const Design& design, Condition condition);
+
+  [[nodiscard]] double tether_mass(double radius) const {
+    return mass_0_ + radius * (mass_1_ + radius * mass_2_);
+  }
+  [[nodiscard]] double takeoff_mass(double radius) const {
+    return drone_mass_ + tether_mass(radius);
+  }
+  /// Derivative of the mass by the radius, kg/m.
+  [[nodiscard]] double mass_slope(double radius) const { return mass_1_ + 2 * radius * mass_2_; }
+
+  /// Radius at which the take-off mass is `mass`; negative where even the thinnest tether is
+  /// heavier.
+  [[nodiscard]] double radius_of_mass(double mass) const;
+
+  [[nodiscard]] double resistance(double radius) const {
+    return contact_resistance_ + resistance_area_ / (radius * radius);
+  }
+  /// Derivative of the resistance by the radius, Ω/m.
+  [[nodiscard]] double resistance_slope(double radius) const {
+    return -2 * resistance_area_ / (radius * radius * radius);
+  }
+  /// Radius at which the loop has `resistance`; +infinity where contacts alone have more.
+  [[nodiscard]] double radius_of_resistance(double resistance) const;
+
+  /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
+  [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const;
+
+  /// Sign of the tilt: −1 flying backward through the air, else +1.
+  [[nodiscard]] double pitch_sign() const { return pitch_sign_; }
+
+  /// Tangent of the design's largest allowed tilt.
+  [[nodiscard]] double tan_pitch_limit() const { return tan_pitch_limit_; }
+
+  /// Range of radii, [lo, hi], in which the tilt exceeds its limit, open at both ends and empty
+  /// where lo ≥ hi. (Weight grows with r², tether drag with r: there is at most one such range.)
+  struct Radii {
+    double lo = 0;
+    double hi = 0;
+  };
+  [[nodiscard]] Radii beyond_pitch_limit() const;
+
+  /// Necessary thrust and its derivative by the radius (N/m) for the tangent of the tilt there.
+  struct Thrust {
+    double value = 0;
+    double slope = 0;
+  };
+  [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const;
+  [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const;
+
+  /// Largest power at the converter's input over a loop of `resistance`.
+  [[nodiscard]] double available_power(double resistance) const {
+    return deliverable_ / resistance;
+  }
+  [[nodiscard]] double available_thrust(double available_power) const;
+
+  /// Loop resistance at which the available power is exactly `power` (> 0).
+  [[nodiscard]] double resistance_of_available_power(double power) const {
+    return deliverable_ / power;
+  }
+
+  /// Power at the converter's input for a thrust, +infinity where the motors cannot make it.
+  [[nodiscard]] double drone_power(double thrust) const {
+    return input_power(design_->drone.motor.power(thrust));
+  }
+  /// The same for one motor's data-sheet power in W.
+  [[nodiscard]] double input_power(double motor_power) const;
+
+  [[nodiscard]] const Design& design() const { return *design_; }
+
+ private:
+  const Design* design_;
+  double drone_mass_;
+  double mass_0_, mass_1_, mass_2_;  ///< tether mass = mass_0 + mass_1·r + mass_2·r²
+  double contact_resistance_;
+  double resistance_area_;  ///< Ω·m², (R − R_contact)·r²
+  double weight_per_mass_;  ///< gravity, m/s²
+  double area_force_factor_;
+  double tether_drag_0_, tether_drag_1_;  ///< tether drag = tether_drag_0 + tether_drag_1·r, N
+  double pitch_sign_;
+  double tan_pitch_limit_;
+  double deliverable_;  ///< V², P_avail·R
+  double motors_;       ///< number of motors
+  double power_scale_;  ///< converter output per data-sheet power of one motor: n·f
+};
+
+}  // namespace tethercalc

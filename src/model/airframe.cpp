@@ -1,0 +1,55 @@
+#include "tethercalc/model/airframe.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tethercalc {
+
+double effective_area(const AirframeDrag& drag, double tan_pitch) {
+  return (drag.front_area + drag.top_area * std::abs(tan_pitch)) /
+         std::sqrt(1 + tan_pitch * tan_pitch);
+}
+
+double area_force_factor(const AirframeDrag& drag, double air_density, double airspeed) {
+  const double speed = std::abs(airspeed);
+  const double asymmetry = airspeed < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
+  return 0.5 * air_density * speed * (speed + drag.linear_speed) * (1 + asymmetry);
+}
+
+double airframe_drag_force(const AirframeDrag& drag, double air_density, double airspeed,
+                           double tan_pitch) {
+  return std::copysign(area_force_factor(drag, air_density, airspeed), airspeed) *
+         effective_area(drag, tan_pitch);
+}
+
+double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, double guess) {
+  const double front = balance.area_force_factor * balance.front_area;
+  const double top = balance.area_force_factor * balance.top_area;
+  if (front + balance.tether_drag == 0) return 0;
+
+  // g(t) ≤ √(A_f² + A_t²) everywhere, so the root lies below `high`.
+  double low = 0;
+  double high = (std::hypot(front, top) + balance.tether_drag) / balance.weight;
+  double t = guess > low && guess < high
+                 ? guess
+                 : std::min(high, (front + balance.tether_drag) / balance.weight);
+  // Newton squares the error in every step, so a step below 1e-9·t leaves an error below 1e-17·t.
+  constexpr double last_step = 1e-9;
+  // Bisection alone would need 60 steps; Newton takes three or four.
+  for (int step = 0; step < 100; ++step) {
+    const double cosine = 1 / std::sqrt(1 + t * t);
+    const double excess = balance.weight * t - (front + top * t) * cosine - balance.tether_drag;
+    const double slope = balance.weight - (top - front * t) * cosine * cosine * cosine;
+    (excess > 0 ? high : low) = t;
+    const double newton = t - excess / slope;
+    if (std::abs(newton - t) <= last_step * t) {
+      t = newton;
+      break;
+    }
+    t = newton > low && newton < high ? newton : 0.5 * (low + high);
+  }
+  return t <= tan_limit ? t : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,118 @@
+#include "tethercalc/model/steady_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tethercalc/model/power_line.hpp"
+
+namespace tethercalc {
+namespace {
+
+using std::numbers::pi;
+
+/// Larger root of a·x² + b·x + c with a ≥ 0, b ≥ 0, c < 0, without cancellation.
+double positive_root(double a, double b, double c) {
+  return -2 * c / (b + std::sqrt(b * b - 4 * a * c));
+}
+
+}  // namespace
+
+double airspeed(const Design& design, Condition condition) {
+  const Flight& flight = design.flight;
+  return condition == Condition::hover ? flight.headwind : flight.airspeed + flight.headwind;
+}
+
+SteadyFlight::SteadyFlight(const Design& design, Condition condition)
+    : design_(&design),
+      drone_mass_(design.drone.mass),
+      contact_resistance_(design.tether.contact_resistance),
+      weight_per_mass_(design.flight.gravity),
+      tan_pitch_limit_(std::tan(design.requirements.max_pitch)),
+      motors_(design.drone.motor_count),
+      power_scale_(motors_ * design.drone.motor_power_factor) {
+  const Tether& tether = design.tether;
+  const double wall = tether.insulation.thickness;
+  const double insulation = 2 * tether.length * tether.insulation.density * pi * wall;
+  mass_0_ = insulation * wall;
+  mass_1_ = 2 * insulation;
+  mass_2_ = 2 * tether.length * tether.conductor.density * pi;
+  resistance_area_ = 2 * (tether.length + tether.spooled_length) * resistivity(tether) / pi;
+
+  const double speed = airspeed(design, condition);
+  area_force_factor_ = area_force_factor(design.drone.drag, design.flight.air_density, speed);
+  const double dynamic_pressure = 0.5 * design.flight.air_density * speed * speed;
+  tether_drag_1_ =
+      dynamic_pressure * tether.drag_coefficient * tether.projection_factor * 4 * tether.length;
+  tether_drag_0_ = tether_drag_1_ * wall;
+  pitch_sign_ = speed < 0 ? -1 : 1;
+
+  deliverable_ = tethercalc::available_power(design.supply.voltage,
+                                             design.supply.converter.min_input_voltage, 1.0);
+}
+
+double SteadyFlight::radius_of_mass(double mass) const {
+  const double rest = drone_mass_ + mass_0_ - mass;
+  return rest < 0 ? positive_root(mass_2_, mass_1_, rest) : -1;
+}
+
+double SteadyFlight::radius_of_resistance(double resistance) const {
+  const double line = resistance - contact_resistance_;
+  return line > 0 ? std::sqrt(resistance_area_ / line) : std::numeric_limits<double>::infinity();
+}
+
+double SteadyFlight::tan_pitch(double radius, double tan_limit, double guess) const {
+  const AirframeDrag& drag = design_->drone.drag;
+  return equilibrium_tan_pitch(
+      {takeoff_mass(radius) * weight_per_mass_, area_force_factor_,
+       tether_drag_0_ + tether_drag_1_ * radius, drag.front_area, drag.top_area},
+      tan_limit, guess);
+}
+
+SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
+  // The tilt exceeds its limit where weight·t_max < drag at t_max: a·r² + b·r + c < 0.
+  const double t = tan_pitch_limit_;
+  const double a = weight_per_mass_ * mass_2_ * t;
+  const double b = weight_per_mass_ * mass_1_ * t - tether_drag_1_;
+  const double c = weight_per_mass_ * (drone_mass_ + mass_0_) * t - tether_drag_0_ -
+                   area_force_factor_ * effective_area(design_->drone.drag, t);
+  const double discriminant = b * b - 4 * a * c;
+  if (!(discriminant > 0)) return {};
+  const double root = std::sqrt(discriminant);
+  // The root without cancellation first, the other from their product.
+  const double far = b > 0 ? -(b + root) / (2 * a) : (root - b) / (2 * a);
+  const double near = c / (a * far);
+  return {std::max(0.0, std::min(far, near)), std::max(0.0, std::max(far, near))};
+}
+
+double SteadyFlight::necessary_thrust(double radius, double tan_pitch) const {
+  return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) / motors_;
+}
+
+SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
+                                                               double tan_pitch) const {
+  const AirframeDrag& drag = design_->drone.drag;
+  const double weight = takeoff_mass(radius) * weight_per_mass_;
+  const double weight_slope = mass_slope(radius) * weight_per_mass_;
+  const double secant = std::sqrt(1 + tan_pitch * tan_pitch);
+  // The force balance W·t − q·g(t) − F_t = 0, differentiated by r.
+  const double balance_slope = weight - area_force_factor_ *
+                                            (drag.top_area - drag.front_area * tan_pitch) /
+                                            (secant * secant * secant);
+  const double tan_slope = (tether_drag_1_ - weight_slope * tan_pitch) / balance_slope;
+  return {weight * secant / motors_,
+          (weight_slope * secant + weight * tan_pitch * tan_slope / secant) / motors_};
+}
+
+double SteadyFlight::available_thrust(double available_power) const {
+  const double output = converter_output_power(design_->supply.converter,
+                                               available_power - design_->drone.auxiliary_power);
+  return design_->drone.motor.thrust(output / power_scale_);
+}
+
+double SteadyFlight::input_power(double motor_power) const {
+  return converter_input_power(design_->supply.converter, power_scale_ * motor_power) +
+         design_->drone.auxiliary_power;
+}
+
+}  // namespace tethercalc
