@@ -1,6 +1,5 @@
 #include "tethercalc/model/motor_curve.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -8,21 +7,23 @@
 #include <utility>
 
 namespace tethercalc {
-namespace {
 
-/// A rising piecewise-linear curve: vertices and the slope of each piece between them.
-struct Polyline {
+/// A rising piecewise-linear curve: vertices from (0, 0) on and the slope of each piece.
+struct MotorCurve::Polyline {
   std::vector<MotorPoint> vertices;
-  std::vector<double> slopes;  ///< W/N, one fewer than vertices
+  std::vector<double> slopes;            ///< W/N, one fewer than vertices
+  std::shared_ptr<const Polyline> hull;  ///< null where the curve is its own lower convex hull
 };
 
-Polyline with_slopes(std::vector<MotorPoint> vertices) {
+namespace {
+
+std::vector<double> slopes_of(std::span<const MotorPoint> vertices) {
   std::vector<double> slopes;
   for (std::size_t i = 1; i < vertices.size(); ++i) {
     slopes.push_back((vertices[i].power - vertices[i - 1].power) /
                      (vertices[i].thrust - vertices[i - 1].thrust));
   }
-  return {std::move(vertices), std::move(slopes)};
+  return slopes;
 }
 
 /// Lower convex hull of vertices that are sorted by thrust (Andrew's monotone chain, lower half).
@@ -44,29 +45,16 @@ std::vector<MotorPoint> lower_hull(std::span<const MotorPoint> vertices) {
 
 /// Index of the piece that holds `value` of the rising `member`, the first piece for smaller values
 /// and the last for larger ones.
-std::size_t piece_at(const Polyline& line, double MotorPoint::*member, double value) {
-  const MotorPoint* base = line.vertices.data();
-  std::size_t count = line.slopes.size();
+std::size_t piece_at(std::span<const MotorPoint> vertices, double MotorPoint::*member,
+                     double value) {
+  const MotorPoint* base = vertices.data();
+  std::size_t count = vertices.size() - 1;
   while (count > 1) {
     const std::size_t half = count / 2;
     base += base[half].*member <= value ? half : 0;  // branch-free: this is the hottest loop
     count -= half;
   }
-  return static_cast<std::size_t>(base - line.vertices.data());
-}
-
-double power_on(const Polyline& line, double thrust) {
-  if (thrust <= 0) return 0;
-  if (line.slopes.empty() || thrust > line.vertices.back().thrust) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const std::size_t i = piece_at(line, &MotorPoint::thrust, thrust);
-  return line.vertices[i].power + line.slopes[i] * (thrust - line.vertices[i].thrust);
-}
-
-double slope_on(const Polyline& line, double thrust) {
-  return line.slopes.empty() ? std::numeric_limits<double>::infinity()
-                             : line.slopes[piece_at(line, &MotorPoint::thrust, thrust)];
+  return static_cast<std::size_t>(base - vertices.data());
 }
 
 void check(std::span<const MotorPoint> points) {
@@ -89,49 +77,56 @@ void check(std::span<const MotorPoint> points) {
 
 }  // namespace
 
-struct MotorCurve::Vertices {
-  Polyline measured;
-  Polyline hull;
-};
-
 MotorCurve::MotorCurve() {
-  static const auto empty =
-      std::make_shared<const Vertices>(Vertices{{{MotorPoint{}}, {}}, {{MotorPoint{}}, {}}});
-  vertices_ = empty;
+  static const auto empty = std::make_shared<const Polyline>(Polyline{{MotorPoint{}}, {}, nullptr});
+  line_ = empty;
 }
 
 MotorCurve::MotorCurve(std::vector<MotorPoint> points) {
   check(points);
   points.insert(points.begin(), MotorPoint{});
   std::vector<MotorPoint> hull = lower_hull(points);
-  vertices_ = std::make_shared<const Vertices>(
-      Vertices{with_slopes(std::move(points)), with_slopes(std::move(hull))});
+  std::vector<double> slopes = slopes_of(points);
+  std::shared_ptr<const Polyline> hull_line;
+  if (hull.size() < points.size()) {
+    std::vector<double> hull_slopes = slopes_of(hull);
+    hull_line = std::make_shared<const Polyline>(
+        Polyline{std::move(hull), std::move(hull_slopes), nullptr});
+  }
+  line_ = std::make_shared<const Polyline>(
+      Polyline{std::move(points), std::move(slopes), std::move(hull_line)});
 }
 
-double MotorCurve::power(double thrust) const { return power_on(vertices_->measured, thrust); }
+MotorCurve::MotorCurve(std::shared_ptr<const Polyline> line) : line_(std::move(line)) {}
+
+double MotorCurve::power(double thrust) const {
+  if (thrust <= 0) return 0;
+  if (line_->slopes.empty() || thrust > line_->vertices.back().thrust) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const std::size_t i = piece(thrust);
+  return line_->vertices[i].power + line_->slopes[i] * (thrust - line_->vertices[i].thrust);
+}
 
 double MotorCurve::thrust(double power) const {
-  const Polyline& line = vertices_->measured;
-  if (!(power > 0) || line.slopes.empty()) return 0;
-  if (power >= line.vertices.back().power) return line.vertices.back().thrust;
-  const std::size_t i = piece_at(line, &MotorPoint::power, power);
-  return line.vertices[i].thrust + (power - line.vertices[i].power) / line.slopes[i];
+  if (power <= 0 || line_->slopes.empty()) return 0;
+  if (power >= line_->vertices.back().power) return line_->vertices.back().thrust;
+  const std::size_t i = piece_at(line_->vertices, &MotorPoint::power, power);
+  return line_->vertices[i].thrust + (power - line_->vertices[i].power) / line_->slopes[i];
 }
 
-double MotorCurve::power_slope(double thrust) const {
-  return slope_on(vertices_->measured, thrust);
+std::size_t MotorCurve::piece(double thrust) const {
+  return piece_at(line_->vertices, &MotorPoint::thrust, thrust);
 }
 
-double MotorCurve::convex_power(double thrust) const { return power_on(vertices_->hull, thrust); }
+double MotorCurve::slope(std::size_t index) const { return line_->slopes[index]; }
 
-double MotorCurve::convex_power_slope(double thrust) const {
-  return slope_on(vertices_->hull, thrust);
-}
+MotorCurve MotorCurve::convex_hull() const { return line_->hull ? MotorCurve(line_->hull) : *this; }
 
-double MotorCurve::max_thrust() const { return vertices_->measured.vertices.back().thrust; }
+double MotorCurve::max_thrust() const { return line_->vertices.back().thrust; }
 
-double MotorCurve::max_power() const { return vertices_->measured.vertices.back().power; }
+double MotorCurve::max_power() const { return line_->vertices.back().power; }
 
-std::span<const MotorPoint> MotorCurve::vertices() const { return vertices_->measured.vertices; }
+std::span<const MotorPoint> MotorCurve::vertices() const { return line_->vertices; }
 
 }  // namespace tethercalc

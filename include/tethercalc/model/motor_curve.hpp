@@ -40,16 +40,16 @@ class MotorCurve {
   /// Thrust in N from electrical power in W; 0 for power ≤ 0; `max_thrust()` from `max_power()` on.
   [[nodiscard]] double thrust(double power) const;
 
-  /// Slope of `power` in W/N just above `thrust` (thrust in [0, max_thrust()]; at the last point,
-  /// just below it).
-  [[nodiscard]] double power_slope(double thrust) const;
+  /// Index i of the piece, between vertices i and i + 1, that holds `thrust`; the upper one at a
+  /// vertex, the nearest one outside the curve. Not for the empty curve.
+  [[nodiscard]] std::size_t piece(double thrust) const;
 
-  /// The largest convex curve nowhere above `power` (its lower convex hull), in W for `thrust` in
-  /// N, with the same limits. Where the measured curve is convex the two agree.
-  [[nodiscard]] double convex_power(double thrust) const;
+  /// Slope of `power` on piece `index`, W/N.
+  [[nodiscard]] double slope(std::size_t index) const;
 
-  /// Slope of `convex_power`, with the limits of `power_slope`.
-  [[nodiscard]] double convex_power_slope(double thrust) const;
+  /// The largest convex curve nowhere above this one, through some of its vertices and with the
+  /// same limits (its lower convex hull). A convex curve is its own.
+  [[nodiscard]] MotorCurve convex_hull() const;
 
   [[nodiscard]] double max_thrust() const;  ///< N, 0 for the empty curve
   [[nodiscard]] double max_power() const;   ///< W, 0 for the empty curve
@@ -58,8 +58,9 @@ class MotorCurve {
   [[nodiscard]] std::span<const MotorPoint> vertices() const;
 
  private:
-  struct Vertices;
-  std::shared_ptr<const Vertices> vertices_;
+  struct Polyline;
+  explicit MotorCurve(std::shared_ptr<const Polyline> line);
+  std::shared_ptr<const Polyline> line_;  ///< never null
 };
 
 }  // namespace tethercalc

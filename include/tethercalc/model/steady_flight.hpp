@@ -80,6 +80,8 @@ class SteadyFlight {
   }
   /// The same for one motor's data-sheet power in W.
   [[nodiscard]] double input_power(double motor_power) const;
+  /// Power at the converter's output for one motor's data-sheet power.
+  [[nodiscard]] double output_power(double motor_power) const { return power_scale_ * motor_power; }
 
   [[nodiscard]] const Design& design() const { return *design_; }
 

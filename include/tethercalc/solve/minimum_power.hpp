@@ -1,0 +1,34 @@
+// The conductor cross-section that draws the least power from the ground supply.
+#pragma once
+
+#include <limits>
+
+#include "tethercalc/model/steady_flight.hpp"
+#include "tethercalc/solve/interval.hpp"
+
+namespace tethercalc {
+
+struct MinimumPower {
+  double area = 0;   ///< m²; NaN where no area in the range can be flown on this line
+  double power = 0;  ///< W from the ground supply; NaN likewise
+};
+
+/// The least power over every cross-section in `within` (m²; hi may be +infinity) whose tilt is
+/// within its limit, whose thrust the motors can make and whose power the line can deliver. No
+/// headroom and no converter cut-off is asked for here.
+///
+/// Why it cannot be fooled: for a supplied power y the line obeys P_drone(r) + R(r)·(y/U)² ≤ y
+/// exactly where the total power is at most y. Where P_drone is convex in the conductor's radius r,
+/// the left side is, so the power has one valley. The lower convex hull of the motor curve makes it
+/// convex, and bounds the power from below everywhere; so the valley of the hull is found first,
+/// and where the measured curve lies above its hull there, only those pieces of the curve are
+/// searched on which the bound is below the best power known. Kinks are compared exactly, as
+/// vertices. With a converter curve, which need not be convex, every piece is searched.
+///
+/// The power is the minimum to 1e-12 relative, the area to 1e-8 (the minimum is flat) or exact at a
+/// kink.
+[[nodiscard]] MinimumPower minimum_power(const SteadyFlight& flight,
+                                         Interval within = {
+                                             0, std::numeric_limits<double>::infinity()});
+
+}  // namespace tethercalc

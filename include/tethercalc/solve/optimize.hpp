@@ -1,0 +1,44 @@
+// The conductor cross-section to fly.
+#pragma once
+
+#include "tethercalc/model/operating_point.hpp"
+#include "tethercalc/solve/interval.hpp"
+#include "tethercalc/solve/minimum_power.hpp"
+
+namespace tethercalc {
+
+/// What keeps the optimum, or an infeasible design, from being better.
+enum class Limit {
+  minimum_power,    ///< nothing: the least power lies inside the feasible set
+  available_power,  ///< a thinner conductor would starve the motors of power
+  takeoff_mass,     ///< a thicker conductor would be too heavy
+  motor_thrust,     ///< the motors' last data-sheet point is below the thrust asked for
+  max_pitch,        ///< the tilt limit
+};
+
+/// The answer to "which cross-section", or to why there is none. Areas in m².
+struct Optimization {
+  bool feasible = false;
+  Limit limited_by = Limit::minimum_power;
+  Condition limiting_condition = Condition::hover;  ///< where the limit binds
+
+  double area = 0;         ///< the optimum; NaN where infeasible
+  OperatingPoint hover;    ///< at the optimum; meaningless where infeasible
+  OperatingPoint forward;  ///< at the optimum; meaningless where infeasible
+
+  IntervalSet
+      headroom_areas;  ///< where the required headroom is met, at `requirements.headroom_at`
+  IntervalSet feasible_areas;  ///< where the design meets everything it was checked against
+  MinimumPower minimum_power;  ///< at `requirements.power_at`, no other constraint asked for
+};
+
+/// The least power at `requirements.power_at` among the areas that
+/// - leave `requirements.thrust_headroom` at `requirements.headroom_at` (unless a buffer battery
+///   makes that a wish instead of a demand), and
+/// - can be flown in hover and in forward flight: tilt within its limit and headroom at least 1.
+///
+/// This is the paper's larger-of-two rule (section IV-A) where the headroom has only a lower edge;
+/// where it has an upper edge too, the area stays below it. Takes about a microsecond.
+[[nodiscard]] Optimization optimize(const Design& design);
+
+}  // namespace tethercalc

@@ -1,0 +1,269 @@
+// Notation: r conductor radius; TA available, TN necessary thrust per motor; k required headroom.
+// TA(r) and TN(r) both rise with r. TA has a kink at each radius where the available power feeds
+// the motors at exactly one of the motor curve's points ("vertex radius"), and a closed form for
+// it.
+
+#include "tethercalc/solve/headroom.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace tethercalc {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double area_of(double radius) { return std::numbers::pi * radius * radius; }
+
+struct Sample {
+  double radius = 0;
+  double available = 0;
+  double necessary = 0;  ///< times the required headroom
+  double tan_pitch = 0;  ///< start for the next tilt nearby
+
+  [[nodiscard]] double margin() const { return available - necessary; }
+  [[nodiscard]] double ratio() const { return available / necessary; }
+};
+
+/// Thrust margin over the radius between two radii, sampled at will or at the vertex radii.
+class MarginCurve {
+ public:
+  MarginCurve(const SteadyFlight& flight, double required, double lo, double hi)
+      : flight_(flight), required_(required), lo_(lo), hi_(hi) {}
+
+  /// Number of vertices; sample indices run from 0 to one beyond them.
+  [[nodiscard]] std::size_t last_index() const {
+    return flight_.design().drone.motor.vertices().size();
+  }
+
+  [[nodiscard]] Sample at_vertex(std::size_t index, double tan_guess) const {
+    if (index == last_index()) return at_radius(hi_, tan_guess);
+    const MotorPoint& vertex = flight_.design().drone.motor.vertices()[index];
+    const double radius = radius_of_input(flight_.input_power(vertex.power));
+    if (!(radius > lo_)) return at_radius(lo_, tan_guess);
+    if (!(radius < hi_)) return at_radius(hi_, tan_guess);
+    return with_available(radius, vertex.thrust, tan_guess);
+  }
+
+  [[nodiscard]] Sample at_radius(double radius, double tan_guess) const {
+    const double power = flight_.available_power(flight_.resistance(radius));
+    return with_available(radius, flight_.available_thrust(power), tan_guess);
+  }
+
+  /// Radii of the converter's efficiency points strictly between two samples, rising.
+  [[nodiscard]] std::vector<double> converter_radii(const Sample& a, const Sample& b) const {
+    std::vector<double> radii;
+    const Converter& converter = flight_.design().supply.converter;
+    if (converter.efficiency.size() == 1) return radii;
+    for (const EfficiencyPoint& point : converter.efficiency) {
+      const double input =
+          point.output_power / point.efficiency + flight_.design().drone.auxiliary_power;
+      const double radius = radius_of_input(input);
+      if (radius > a.radius && radius < b.radius) radii.push_back(radius);
+    }
+    return radii;
+  }
+
+ private:
+  [[nodiscard]] double radius_of_input(double power) const {
+    return power > 0 ? flight_.radius_of_resistance(flight_.resistance_of_available_power(power))
+                     : 0;
+  }
+
+  [[nodiscard]] Sample with_available(double radius, double available, double tan_guess) const {
+    const double tangent = flight_.tan_pitch(radius, infinity, tan_guess);
+    return {radius, available, required_ * flight_.necessary_thrust(radius, tangent), tangent};
+  }
+
+  const SteadyFlight& flight_;
+  double required_;
+  double lo_;
+  double hi_;
+};
+
+/// The radius between two samples of opposite margin at which the margin vanishes, taken from the
+/// feasible end of the last bracket so that the headroom there is not below what is required.
+double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
+  if (a.margin() == 0) return a.radius;
+  if (b.margin() == 0) return b.radius;
+  double guess = a.tan_pitch;
+  const auto margin = [&](double radius) {
+    const Sample sample = curve.at_radius(radius, guess);
+    guess = sample.tan_pitch;
+    return sample.margin();
+  };
+  // 1e-14 relative in the radius is 2e-14 in the area, a few units in the last place.
+  const auto close_enough = [](double lo, double hi) { return hi - lo <= 1e-14 * hi; };
+  std::uintmax_t steps = 100;  // TOMS 748 takes about 6; it cannot take more than bisection's 52
+  const auto [lo, hi] = boost::math::tools::toms748_solve(margin, a.radius, b.radius, a.margin(),
+                                                          b.margin(), close_enough, steps);
+  return a.margin() > 0 ? lo : hi;
+}
+
+/// Sample of largest `score` between a and b, where score is smooth and has one hump at most.
+template <typename Score>
+Sample highest(const MarginCurve& curve, const Sample& a, const Sample& b, Score score) {
+  // Half of the digits: at a smooth maximum the value is then exact to all of them.
+  constexpr int bits = std::numeric_limits<double>::digits / 2;
+  const auto [radius, negative] = boost::math::tools::brent_find_minima(
+      [&](double r) { return -score(curve.at_radius(r, a.tan_pitch)); }, a.radius, b.radius, bits);
+  (void)negative;
+  return curve.at_radius(radius, a.tan_pitch);
+}
+
+/// Where the margin keeps its sign at both ends of a smooth piece, the sample between them at which
+/// it has the other sign, if there is one. In hover, with constant efficiency and no contact
+/// resistance, the margin is a quadratic in r, so that a parabola through three samples is exact;
+/// elsewhere it is close to one, and a vertex that comes near to zero is looked at more closely.
+std::optional<Sample> opposite_between(const MarginCurve& curve, const Sample& a, const Sample& b) {
+  const Sample middle = curve.at_radius(0.5 * (a.radius + b.radius), a.tan_pitch);
+  const double sign = a.margin() < 0 ? -1 : 1;
+  const double start = sign * a.margin();
+  const double half = sign * middle.margin();
+  const double end = sign * b.margin();
+  if (half < 0) return middle;
+  const double curvature = start - 2 * half + end;
+  const double slope = 0.5 * (end - start);
+  if (!(curvature > 0) || std::abs(slope) >= curvature) return std::nullopt;  // no dip inside
+  const double dip = half - 0.5 * slope * slope / curvature;
+  const double range = std::max({start, half, end});
+  if (dip > 0.05 * range) return std::nullopt;
+  const Sample lowest =
+      highest(curve, a, b, [sign](const Sample& s) { return -sign * s.margin(); });
+  return sign * lowest.margin() < 0 ? std::optional(lowest) : std::nullopt;
+}
+
+void append_radii(IntervalSet& radii, double lo, double hi) { append(radii, {lo, hi}); }
+
+void collect_from_smooth_piece(const MarginCurve& curve, const Sample& a, const Sample& b,
+                               IntervalSet& feasible) {
+  const bool starts = a.margin() >= 0;
+  const bool ends = b.margin() >= 0;
+  if (starts != ends) {
+    const double edge = crossing(curve, a, b);
+    starts ? append_radii(feasible, a.radius, edge) : append_radii(feasible, edge, b.radius);
+    return;
+  }
+  const std::optional<Sample> opposite = opposite_between(curve, a, b);
+  if (!opposite) {
+    if (starts) append_radii(feasible, a.radius, b.radius);
+    return;
+  }
+  const double first = crossing(curve, a, *opposite);
+  const double second = crossing(curve, *opposite, b);
+  if (starts) {
+    append_radii(feasible, a.radius, first);
+    append_radii(feasible, second, b.radius);
+  } else {
+    append_radii(feasible, first, second);
+  }
+}
+
+void collect_feasible(const MarginCurve& curve, std::size_t first, const Sample& a,
+                      std::size_t last, const Sample& b, IntervalSet& feasible) {
+  if (!(b.radius > a.radius)) return;
+  // Both thrusts rise, so these two tests hold for everything between a and b.
+  if (b.available < a.necessary) return;
+  if (a.available >= b.necessary) return append_radii(feasible, a.radius, b.radius);
+  if (last - first > 1) {
+    const std::size_t middle = first + (last - first) / 2;
+    const Sample m = curve.at_vertex(middle, a.tan_pitch);
+    collect_feasible(curve, first, a, middle, m, feasible);
+    collect_feasible(curve, middle, m, last, b, feasible);
+    return;
+  }
+  Sample from = a;
+  for (const double radius : curve.converter_radii(a, b)) {
+    const Sample to = curve.at_radius(radius, a.tan_pitch);
+    collect_from_smooth_piece(curve, from, to, feasible);
+    from = to;
+  }
+  collect_from_smooth_piece(curve, from, b, feasible);
+}
+
+void improve_best(const MarginCurve& curve, std::size_t first, const Sample& a, std::size_t last,
+                  const Sample& b, Sample& best) {
+  if (!(b.radius > a.radius) || b.available / a.necessary <= best.ratio()) return;
+  if (last - first > 1) {
+    const std::size_t middle = first + (last - first) / 2;
+    const Sample m = curve.at_vertex(middle, a.tan_pitch);
+    if (m.ratio() > best.ratio()) best = m;
+    improve_best(curve, middle, m, last, b, best);
+    improve_best(curve, first, a, middle, m, best);
+    return;
+  }
+  std::vector<double> ends = curve.converter_radii(a, b);
+  ends.push_back(b.radius);
+  Sample from = a;
+  for (const double radius : ends) {
+    const Sample to = curve.at_radius(radius, a.tan_pitch);
+    const Sample top = highest(curve, from, to, [](const Sample& s) { return s.ratio(); });
+    for (const Sample& candidate : {to, top}) {
+      if (candidate.ratio() > best.ratio()) best = candidate;
+    }
+    from = to;
+  }
+}
+
+/// The radii up to `hi` at which the tilt is within its limit.
+IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
+  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+  if (!(beyond.lo < beyond.hi)) return {{0, hi}};
+  IntervalSet radii;
+  if (beyond.lo > 0) radii.push_back({0, std::min(beyond.lo, hi)});
+  if (beyond.hi < hi) radii.push_back({beyond.hi, hi});
+  return radii;
+}
+
+/// Radius above which the necessary thrust, even in still air, exceeds 1/`headroom` of the most the
+/// motors can make. Not positive where that holds for the thinnest tether.
+double heaviest_radius(const SteadyFlight& flight, double headroom) {
+  const Design& design = flight.design();
+  return flight.radius_of_mass(design.drone.motor_count * design.drone.motor.max_thrust() /
+                               (headroom * design.flight.gravity));
+}
+
+}  // namespace
+
+IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
+  const double hi = heaviest_radius(flight, required);
+  IntervalSet radii;
+  if (!(hi > 0)) return radii;
+  for (const Interval& range : radii_within_tilt(flight, hi)) {
+    const MarginCurve curve(flight, required, range.lo, range.hi);
+    const Sample a = curve.at_vertex(0, 0);
+    const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
+    collect_feasible(curve, 0, a, curve.last_index(), b, radii);
+  }
+  for (Interval& range : radii) range = {area_of(range.lo), area_of(range.hi)};
+  return radii;
+}
+
+BestHeadroom best_headroom(const SteadyFlight& flight) {
+  const BestHeadroom none{0, std::numeric_limits<double>::quiet_NaN()};
+  const double saturated = flight.radius_of_resistance(flight.resistance_of_available_power(
+      flight.input_power(flight.design().drone.motor.max_power())));
+  // Beyond saturation the headroom only falls. Where contacts keep the motors from saturating, the
+  // search ends where the tether is so heavy that not even a millionth is left.
+  const double hi = std::min(saturated, heaviest_radius(flight, 1e-6));
+  Sample best;
+  best.necessary = 1;
+  for (const Interval& range : radii_within_tilt(flight, hi)) {
+    const MarginCurve curve(flight, 1, range.lo, range.hi);
+    const Sample a = curve.at_vertex(0, 0);
+    const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
+    for (const Sample& end : {a, b}) {
+      if (end.ratio() > best.ratio()) best = end;
+    }
+    improve_best(curve, 0, a, curve.last_index(), b, best);
+  }
+  return best.available > 0 ? BestHeadroom{best.ratio(), area_of(best.radius)} : none;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,140 @@
+#include "tethercalc/solve/optimize.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tethercalc/solve/headroom.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Relative distance at which two areas are the same edge: a thousand times the accuracy of edges.
+constexpr double same_edge = 1e-9;
+
+struct Flights {
+  SteadyFlight hover;
+  SteadyFlight forward;
+
+  [[nodiscard]] const SteadyFlight& in(Condition condition) const {
+    return condition == Condition::hover ? hover : forward;
+  }
+};
+
+/// The least power within any of `areas`, given the least power without them.
+MinimumPower least_within(const SteadyFlight& flight, const IntervalSet& areas,
+                          const MinimumPower& unconstrained) {
+  if (contains(areas, unconstrained.area)) return unconstrained;
+  MinimumPower best{std::numeric_limits<double>::quiet_NaN(),
+                    std::numeric_limits<double>::quiet_NaN()};
+  for (const Interval& range : areas) {
+    const MinimumPower candidate = minimum_power(flight, range);
+    if (!(candidate.power >= best.power)) best = candidate;
+  }
+  return best;
+}
+
+void take(Optimization& result, const Flights& flights, double area) {
+  result.area = area;
+  result.hover = evaluate(flights.hover, area);
+  result.forward = evaluate(flights.forward, area);
+  result.feasible = result.hover.flyable && result.forward.flyable;
+}
+
+bool on_edge(double area, double edge) { return std::abs(area - edge) <= same_edge * area; }
+
+bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
+  return std::abs(point.pitch) >= design.requirements.max_pitch * (1 - same_edge);
+}
+
+/// Names the edge of the feasible set on which the optimum lies.
+void name_limit(Optimization& result, const Flights& flights) {
+  const Design& design = flights.hover.design();
+  const double area = result.area;
+  if (area == result.minimum_power.area) {
+    result.limited_by = Limit::minimum_power;
+    result.limiting_condition = design.requirements.power_at;
+    return;
+  }
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    const OperatingPoint& point = condition == Condition::hover ? result.hover : result.forward;
+    if (at_tilt_limit(point, design)) {
+      result.limited_by = Limit::max_pitch;
+      result.limiting_condition = condition;
+      return;
+    }
+  }
+  const bool by_headroom =
+      std::any_of(result.headroom_areas.begin(), result.headroom_areas.end(),
+                  [area](const Interval& i) { return on_edge(area, i.lo) || on_edge(area, i.hi); });
+  result.limiting_condition = by_headroom ? design.requirements.headroom_at
+                              : result.hover.headroom < result.forward.headroom
+                                  ? Condition::hover
+                                  : Condition::forward;
+  result.limited_by =
+      area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
+}
+
+/// What keeps the best reachable headroom of one condition down.
+Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best) {
+  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+  if (!(best.value > 0)) return beyond.lo < beyond.hi ? Limit::max_pitch : Limit::available_power;
+  const OperatingPoint point = evaluate(flight, best.area);
+  if (at_tilt_limit(point, flight.design())) return Limit::max_pitch;
+  const double saturation = flight.design().drone.motor.max_thrust() * (1 - same_edge);
+  return point.available_thrust >= saturation ? Limit::motor_thrust : Limit::available_power;
+}
+
+/// Names what an infeasible design lacks: the first demand that no area meets; where each is met by
+/// some area but no area meets all, the demand for headroom.
+void name_obstacle(Optimization& result, const Flights& flights) {
+  const Requirements& need = flights.hover.design().requirements;
+  struct Demand {
+    Condition condition;
+    double headroom;
+  };
+  const Demand asked{need.headroom_at, need.buffer_battery ? 1 : need.thrust_headroom};
+  Demand missed = asked;
+  for (const Demand& demand : {Demand{Condition::hover, 1}, Demand{Condition::forward, 1}, asked}) {
+    if (best_headroom(flights.in(demand.condition)).value < demand.headroom) {
+      missed = demand;
+      break;
+    }
+  }
+  const SteadyFlight& flight = flights.in(missed.condition);
+  result.limiting_condition = missed.condition;
+  result.limited_by = obstacle(flight, best_headroom(flight));
+}
+
+}  // namespace
+
+Optimization optimize(const Design& design) {
+  const Flights flights{SteadyFlight(design, Condition::hover),
+                        SteadyFlight(design, Condition::forward)};
+  const Requirements& need = design.requirements;
+  Optimization result;
+  result.area = std::numeric_limits<double>::quiet_NaN();
+  result.headroom_areas = headroom_areas(flights.in(need.headroom_at), need.thrust_headroom);
+  const SteadyFlight& priced = flights.in(need.power_at);
+  result.minimum_power = minimum_power(priced);
+  result.feasible_areas = need.buffer_battery ? IntervalSet{{0, infinity}} : result.headroom_areas;
+
+  const MinimumPower best = least_within(priced, result.feasible_areas, result.minimum_power);
+  if (best.power > 0) take(result, flights, best.area);
+  if (!result.feasible) {
+    // Few designs come here: where the headroom is met, both conditions can usually be flown.
+    result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.hover, 1));
+    result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.forward, 1));
+    const MinimumPower flyable = least_within(priced, result.feasible_areas, result.minimum_power);
+    if (flyable.power > 0) {
+      take(result, flights, flyable.area);
+      result.feasible = true;  // by construction; an edge may miss a headroom of 1 by rounding
+    }
+  }
+  result.feasible ? name_limit(result, flights) : name_obstacle(result, flights);
+  return result;
+}
+
+}  // namespace tethercalc
