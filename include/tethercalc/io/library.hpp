@@ -1,0 +1,86 @@
+// Motors, conductors, insulation materials and wire sizes that come with the program, and the files
+// in which users bring their own.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tethercalc/model/motor_curve.hpp"
+#include "tethercalc/model/tether.hpp"
+
+namespace tethercalc {
+
+/// A motor with its propeller. Texts are empty and numbers absent where the file gives none.
+struct MotorEntry {
+  std::string id;
+  std::string name;
+  std::string source;
+  std::optional<double> voltage_V;     ///< at which the curve was measured
+  std::optional<double> propeller_in;  ///< diameter in inches
+  MotorCurve curve;
+  std::vector<std::string> warnings;  ///< what was done to noisy points, one sentence each
+};
+
+struct ConductorEntry {
+  std::string id;
+  std::string name;
+  std::string source;
+  Conductor conductor;
+};
+
+struct InsulationEntry {
+  std::string id;
+  std::string name;
+  std::string source;
+  double density = 0;  ///< kg/m³
+};
+
+/// All entries of the library, by id. They are part of the program, which needs no files for them.
+[[nodiscard]] std::vector<MotorEntry> library_motors();
+[[nodiscard]] std::vector<ConductorEntry> library_conductors();
+[[nodiscard]] std::vector<InsulationEntry> library_insulation();
+
+/// The motor that `reference` names: an id in the library or, where it holds a "/" or ends in
+/// ".json" or ".csv", a file, relative to `folder`. Such a file is either an object with
+/// `motor_fields` or a test-bench CSV with the columns `thrust_g` and `power_W`; others are
+/// ignored. Points that do not rise are pooled (`isotonic_motor_points`), and idle rows of a CSV,
+/// without thrust or power, are left out; `warnings` says so. Throws InputError with all problems
+/// of the file, or with the closest id where there is no such name. `where` is what its message
+/// calls the place of the reference, such as the name of an option.
+[[nodiscard]] MotorEntry find_motor(const std::string& reference,
+                                    const std::filesystem::path& folder = {},
+                                    const std::string& where = "motor");
+
+/// Likewise; the files are JSON objects with `conductor_fields` or `insulation_fields`.
+[[nodiscard]] ConductorEntry find_conductor(const std::string& reference,
+                                            const std::filesystem::path& folder = {},
+                                            const std::string& where = "conductor");
+[[nodiscard]] InsulationEntry find_insulation(const std::string& reference,
+                                              const std::filesystem::path& folder = {},
+                                              const std::string& where = "insulation");
+
+/// A size in which conductors are sold.
+struct WireSize {
+  std::string standard;  ///< "AWG", "IEC 60228" or "VDE 0295"
+  std::string name;      ///< "AWG 17", "1.5 mm²"
+  double area = 0;       ///< m²
+};
+
+/// All sizes, by rising area. AWG n has the diameter 0.127 mm · 92^((36 − n)/39) (ASTM B258); IEC
+/// 60228 lists aluminium from 10 mm² only, so smaller ones are sizes of copper.
+[[nodiscard]] std::vector<WireSize> wire_sizes();
+
+/// Neighbours of an area among the sizes of one standard. Both are the same where it is one of
+/// them.
+struct WireNeighbours {
+  std::string standard;
+  std::optional<WireSize> below;  ///< the largest not above the area
+  std::optional<WireSize> above;  ///< the smallest not below it
+};
+
+/// The neighbours of `area` in m² (finite, ≥ 0) in each standard.
+[[nodiscard]] std::vector<WireNeighbours> wire_sizes_near(double area);
+
+}  // namespace tethercalc

@@ -1,0 +1,37 @@
+// A file's bytes without a copy of them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace tethercalc {
+
+/// A whole file, read in place: a regular file is memory-mapped, so that only the pages looked at
+/// are loaded and none counts as memory of this process; a pipe or device is read into memory.
+/// The bytes stay valid as long as this object lives. The file must not be shortened meanwhile:
+/// the operating system answers a read beyond a mapped file's end with a signal.
+class MappedFile {
+ public:
+  /// Throws InputError, naming the file and the system's reason, where it cannot be opened or read,
+  /// or is a directory.
+  explicit MappedFile(const std::filesystem::path& path);
+  ~MappedFile();
+  MappedFile(MappedFile&& other) noexcept;
+  MappedFile& operator=(MappedFile&& other) noexcept;
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  [[nodiscard]] std::string_view text() const {
+    return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::vector<std::byte> copy_;  // holds the bytes where the file could not be mapped
+};
+
+}  // namespace tethercalc

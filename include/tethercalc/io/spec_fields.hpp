@@ -1,0 +1,119 @@
+// Every field of a design spec, described once: the reader, the JSON Schema, `--set`, sweeps and
+// the reference in docs/spec.md are all driven by these tables.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// What may stand in a field.
+enum class FieldKind {
+  number,
+  optional_number,      ///< a number, or null for none
+  integer,              ///< a number without a fraction; 4.0 is one, as in JSON Schema
+  boolean,              ///< true or false
+  text,                 ///< any text
+  condition,            ///< "hover" or "forward"
+  motor,                ///< name in the library, path of a .json or .csv file, or an object
+  conductor,            ///< name in the library, path of a .json file, or an object
+  insulation_material,  ///< likewise
+  efficiency,           ///< a number, or a list of objects with `efficiency_point_fields`
+  motor_points          ///< a list of objects with `motor_point_fields`, at least two
+};
+
+/// Allowed numbers, in the unit of the field.
+struct FieldRange {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+  bool max_excluded = false;
+
+  [[nodiscard]] bool contains(double value) const;  ///< false for NaN
+};
+
+/// Where in a Design the field lives; nothing for fields that the physics does not see.
+using FieldAccess =
+    std::variant<std::monostate, double& (*)(Design&), std::optional<double>& (*)(Design&),
+                 int& (*)(Design&), bool& (*)(Design&), Condition& (*)(Design&),
+                 MotorCurve& (*)(Design&), Conductor& (*)(Design&), Converter& (*)(Design&)>;
+
+struct SpecField {
+  std::string_view pointer;  ///< JSON pointer from the root of its object: "/supply/voltage_V"
+  FieldKind kind = FieldKind::number;
+  std::string_view unit;          ///< "" where it has none
+  FieldRange range;               ///< of numbers
+  std::string_view default_json;  ///< JSON text of the default; "" where the field is required
+  std::string_view help;          ///< one sentence
+  double si_factor = 1;           ///< times the practical number gives SI
+  FieldAccess access{};
+
+  [[nodiscard]] bool required() const { return default_json.empty(); }
+};
+
+/// The fields of a design spec, in the order in which people should read them.
+[[nodiscard]] std::span<const SpecField> spec_fields();
+
+/// The fields of the objects that a spec may hold or name: motor, one point of its curve,
+/// conductor, insulation material, one point of an efficiency curve.
+[[nodiscard]] std::span<const SpecField> motor_fields();
+[[nodiscard]] std::span<const SpecField> motor_point_fields();
+[[nodiscard]] std::span<const SpecField> conductor_fields();
+[[nodiscard]] std::span<const SpecField> insulation_fields();
+[[nodiscard]] std::span<const SpecField> efficiency_point_fields();
+
+/// The field of a spec at `path`, either "supply.voltage_V" or "/supply/voltage_V"; null where
+/// there is none.
+[[nodiscard]] const SpecField* find_field(std::string_view path);
+
+/// "supply.voltage_V" of "/supply/voltage_V": how options name a field.
+[[nodiscard]] std::string dot_path(std::string_view pointer);
+
+/// The dot path of the field that somebody who wrote `path` probably meant, also where only its
+/// last part was given ("voltage"); nothing where none is near.
+[[nodiscard]] std::optional<std::string> closest_field_path(std::string_view path);
+
+/// "at least 1 and at most 1000000 g": the allowed numbers in words, for messages.
+[[nodiscard]] std::string describe_range(const SpecField& field);
+
+/// Puts `value`, in the field's practical unit, where the field lives. The fast way for sweeps: it
+/// parses nothing. An efficiency becomes constant. Throws std::invalid_argument with a message for
+/// people where the field takes no number (see `is_numeric`) or the value is out of its range, NaN
+/// included. Conflicts between fields are not looked at: see `find_conflicts`.
+void set_field(Design& design, const SpecField& field, double value);
+
+/// What `set_field` put there, in the field's practical unit; nothing where it holds no single
+/// number: a field that takes none, an optional one that is not set, an efficiency curve.
+[[nodiscard]] std::optional<double> field_value(const Design& design, const SpecField& field);
+
+/// True where `set_field` accepts numbers.
+[[nodiscard]] bool is_numeric(const SpecField& field);
+
+/// Two fields that are each in range and do not go together.
+struct FieldConflict {
+  std::string_view pointer;  ///< the field to change first
+  std::string message;
+};
+
+/// Conflicts between the fields of a design: a converter that cuts off at or above the supply
+/// voltage, and an efficiency curve that would draw less power at a higher load.
+[[nodiscard]] std::vector<FieldConflict> find_conflicts(const Design& design);
+
+/// A JSON Schema (draft 2020-12) of design specs. It allows what the reader allows, except for what
+/// a schema cannot see: other files, library names, conflicts between fields, the order of the
+/// points of a curve, duplicate keys.
+[[nodiscard]] nlohmann::ordered_json spec_schema();
+
+/// The reference of all fields as Markdown: the content of docs/spec.md.
+[[nodiscard]] std::string spec_reference();
+
+}  // namespace tethercalc

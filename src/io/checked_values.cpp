@@ -1,0 +1,199 @@
+#include "io/checked_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/closest_name.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_problems = 100;
+
+std::string_view last_key(std::string_view pointer) {
+  return pointer.substr(pointer.rfind('/') + 1);
+}
+
+bool is_below(std::string_view pointer, std::string_view group) {
+  return pointer.size() > group.size() && pointer.starts_with(group) &&
+         pointer[group.size()] == '/';
+}
+
+/// Walks an object and the groups in it.
+class FieldFinder {
+ public:
+  FieldFinder(const JsonPlace& object, std::span<const SpecField> fields, Problems& problems)
+      : object_(object), fields_(fields), problems_(problems), places_(fields.size()) {
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      places_[i] = {object.document, nullptr, object.pointer + std::string(fields[i].pointer)};
+    }
+  }
+
+  std::vector<JsonPlace> find() {
+    if (walk(*object_.value, "")) report_missing();
+    return std::move(places_);
+  }
+
+ private:
+  /// `group` is the pointer below the object; false where the value is no object.
+  bool walk(const Json& value, const std::string& group) {
+    if (!value.is_object()) {
+      problems_.add(object_.document->where(object_.pointer + group),
+                    fmt::format("expected an object with {}, found {}",
+                                fmt::join(keys_of(group), ", "), type_name(value)));
+      unusable_groups_.push_back(group);
+      return false;
+    }
+    for (const auto& [key, member] : value.items()) {
+      const std::string pointer = child_pointer(group, key);
+      if (const auto index = index_of(pointer)) {
+        places_[*index].value = &member;
+      } else if (is_group(pointer)) {
+        walk(member, pointer);
+      } else {
+        report_unknown(group, key, pointer);
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::optional<std::size_t> index_of(std::string_view pointer) const {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (fields_[i].pointer == pointer) return i;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_group(std::string_view pointer) const {
+    return std::any_of(fields_.begin(), fields_.end(),
+                       [&](const SpecField& field) { return is_below(field.pointer, pointer); });
+  }
+
+  /// The keys that may stand in a group.
+  [[nodiscard]] std::vector<std::string> keys_of(std::string_view group) const {
+    std::vector<std::string> keys;
+    for (const SpecField& field : fields_) {
+      if (!is_below(field.pointer, group)) continue;
+      const std::string_view rest = field.pointer.substr(group.size() + 1);
+      std::string key(rest.substr(0, rest.find('/')));
+      if (keys.empty() || keys.back() != key) keys.push_back(std::move(key));
+    }
+    return keys;
+  }
+
+  void report_unknown(const std::string& group, const std::string& key,
+                      const std::string& pointer) {
+    problems_.add(object_.document->where(object_.pointer + pointer),
+                  fmt::format("unknown key {}{}", shown(key), unknown_hint(group, key)));
+  }
+
+  [[nodiscard]] std::string unknown_hint(const std::string& group, const std::string& key) const {
+    for (const SpecField& field : fields_) {
+      if (last_key(field.pointer) == key) {
+        return fmt::format("; it belongs at {}{}", object_.pointer, field.pointer);
+      }
+    }
+    const std::vector<std::string> keys = keys_of(group);
+    const std::string hint = did_you_mean(key, keys);
+    return hint.empty() ? fmt::format("; known here: {}", fmt::join(keys, ", ")) : hint;
+  }
+
+  void report_missing() {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      const SpecField& field = fields_[i];
+      if (places_[i].given() || !field.required() || in_unusable_group(field.pointer)) continue;
+      problems_.add(places_[i].where(),
+                    fmt::format("\"{}\" is missing{}{}: {}", last_key(field.pointer),
+                                field.unit.empty() ? "" : ", in ", field.unit, field.help));
+    }
+  }
+
+  [[nodiscard]] bool in_unusable_group(std::string_view pointer) const {
+    return std::any_of(unusable_groups_.begin(), unusable_groups_.end(),
+                       [&](const std::string& group) { return is_below(pointer, group); });
+  }
+
+  const JsonPlace& object_;
+  std::span<const SpecField> fields_;
+  Problems& problems_;
+  std::vector<JsonPlace> places_;
+  std::vector<std::string> unusable_groups_;
+};
+
+}  // namespace
+
+void Problems::add(std::string where, std::string message) {
+  if (kept_.size() == most_problems) {
+    ++omitted_;
+    return;
+  }
+  kept_.push_back({std::move(where), std::move(message)});
+}
+
+void Problems::add(std::vector<InputProblem> problems) {
+  for (InputProblem& problem : problems) add(std::move(problem.where), std::move(problem.message));
+}
+
+void Problems::throw_if_any() const {
+  if (kept_.empty()) return;
+  std::vector<InputProblem> problems = kept_;
+  if (omitted_ > 0) {
+    problems.push_back({"in all", fmt::format("{} more problems of this kind", omitted_)});
+  }
+  throw InputError(std::move(problems));
+}
+
+std::vector<JsonPlace> field_places(const JsonPlace& object, std::span<const SpecField> fields,
+                                    Problems& problems) {
+  return FieldFinder(object, fields, problems).find();
+}
+
+const JsonPlace& place_of(std::string_view pointer, std::span<const SpecField> fields,
+                          std::span<const JsonPlace> places) {
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [&](const SpecField& field) { return field.pointer == pointer; });
+  return places[static_cast<std::size_t>(found - fields.begin())];
+}
+
+std::optional<double> checked_number(const JsonPlace& place, const SpecField& field,
+                                     Problems& problems) {
+  if (!place.given()) return std::nullopt;
+  const Json& value = *place.value;
+  if (field.kind == FieldKind::optional_number && value.is_null()) return std::nullopt;
+  const std::string in_unit =
+      field.unit.empty() ? std::string() : fmt::format(" in {}", field.unit);
+  if (!value.is_number()) {
+    const char* kind = field.kind == FieldKind::integer ? "a whole number" : "a number";
+    problems.add(place.where(), fmt::format("expected {}{}, found {}; allowed is {}", kind, in_unit,
+                                            type_name(value), describe_range(field)));
+    return std::nullopt;
+  }
+  const double number = value.get<double>();
+  if (field.kind == FieldKind::integer && number != std::floor(number)) {
+    problems.add(place.where(), fmt::format("{} is not a whole number; allowed is {}", shown(value),
+                                            describe_range(field)));
+    return std::nullopt;
+  }
+  if (!field.range.contains(number)) {
+    problems.add(place.where(), fmt::format("{} is out of range; allowed is {}", shown(value),
+                                            describe_range(field)));
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::string checked_text(const JsonPlace& place, Problems& problems) {
+  if (!place.given()) return {};
+  if (!place.value->is_string()) {
+    problems.add(place.where(), "expected a text in quotes, found " + type_name(*place.value));
+    return {};
+  }
+  return place.value->get<std::string>();
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,65 @@
+// Values of a JSON object held against the table that describes its fields.
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/json_document.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+
+namespace tethercalc {
+
+/// The problems found so far. Keeps the first hundred: nobody reads more, and a file that is
+/// something else altogether would have one a line.
+class Problems {
+ public:
+  void add(std::string where, std::string message);
+  void add(std::vector<InputProblem> problems);
+
+  [[nodiscard]] bool none() const { return kept_.empty(); }
+  [[nodiscard]] std::size_t count() const { return kept_.size() + omitted_; }
+
+  /// Throws InputError where there are any.
+  void throw_if_any() const;
+
+ private:
+  std::vector<InputProblem> kept_;
+  std::size_t omitted_ = 0;
+};
+
+/// A value and where it stands.
+struct JsonPlace {
+  const JsonDocument* document = nullptr;
+  const nlohmann::ordered_json* value = nullptr;  ///< null: not given
+  std::string pointer;
+
+  [[nodiscard]] bool given() const { return value != nullptr; }
+  [[nodiscard]] std::string where() const { return document->where(pointer); }
+};
+
+/// The values of `fields` in the object at `object`, in the order of the fields, groups within
+/// groups included. Reports what is no object, unknown keys with the closest known one, and missing
+/// required fields.
+std::vector<JsonPlace> field_places(const JsonPlace& object, std::span<const SpecField> fields,
+                                    Problems& problems);
+
+/// The place of `field`, by its pointer, among what `field_places` found.
+const JsonPlace& place_of(std::string_view pointer, std::span<const SpecField> fields,
+                          std::span<const JsonPlace> places);
+
+/// The number at a place in the field's practical unit; nothing, with the reason among the
+/// problems, where it is none or not allowed. Nothing and no problem where it is not given, or null
+/// where the field is optional.
+std::optional<double> checked_number(const JsonPlace& place, const SpecField& field,
+                                     Problems& problems);
+
+/// The text at a place; empty where it is not given or, with a problem, is no text.
+std::string checked_text(const JsonPlace& place, Problems& problems);
+
+}  // namespace tethercalc

@@ -1,0 +1,203 @@
+#include "io/csv_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "io/closest_name.hpp"
+
+namespace tethercalc {
+namespace {
+
+// More would scroll the first, which is usually the cause, off the screen.
+constexpr std::size_t most_problems = 20;
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+class Problems {
+ public:
+  explicit Problems(std::string_view file_name) : file_name_(file_name) {}
+
+  void add(std::size_t line, std::string message) {
+    if (found_.size() < most_problems) {
+      found_.push_back({fmt::format("{}:{}", file_name_, line), std::move(message)});
+    } else {
+      ++untold_;
+    }
+  }
+
+  void throw_if_any() {
+    if (found_.empty()) return;
+    if (untold_ > 0) {
+      found_.push_back({std::string(file_name_), fmt::format("and {} more problems", untold_)});
+    }
+    throw InputError(std::move(found_));
+  }
+
+ private:
+  std::string_view file_name_;
+  std::vector<InputProblem> found_;
+  std::size_t untold_ = 0;
+};
+
+std::string_view without_blanks(std::string_view cell) {
+  const auto first = cell.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
+}
+
+/// Takes the next line, without its end, off the front of `text`.
+std::string_view take_line(std::string_view& text) {
+  const auto end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+/// What a message can show of a cell: short, and without bytes that would disturb a terminal.
+std::string shown(std::string_view cell) {
+  constexpr std::size_t longest = 40;
+  std::string text(cell.substr(0, longest));
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return cell.size() > longest ? text + "…" : text;
+}
+
+std::string names_of(std::span<const CsvColumn> wanted) {
+  std::string names;
+  for (const CsvColumn& column : wanted) {
+    if (!names.empty()) names += ',';
+    names += column.name;
+  }
+  return names;
+}
+
+/// For each cell of a row, which wanted column it fills, if any.
+using CellMeaning = std::vector<std::optional<std::size_t>>;
+
+void report_unknown(std::string_view name, std::span<const CsvColumn> wanted, Problems& problems) {
+  std::vector<std::string> names;
+  for (const CsvColumn& column : wanted) names.emplace_back(column.name);
+  problems.add(1, fmt::format("unknown column \"{}\", known are {}{}", shown(name),
+                              names_of(wanted), did_you_mean(name, names)));
+}
+
+CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted,
+                        OtherCsvColumns others, Problems& problems) {
+  CellMeaning meaning;
+  std::vector<bool> found(wanted.size(), false);
+  for (const std::string_view name : split_csv_line(line)) {
+    const auto match = std::find_if(wanted.begin(), wanted.end(),
+                                    [&](const CsvColumn& column) { return column.name == name; });
+    if (match == wanted.end()) {
+      meaning.emplace_back();
+      if (others == OtherCsvColumns::rejected) report_unknown(name, wanted, problems);
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(match - wanted.begin());
+    if (found[index]) problems.add(1, fmt::format("column \"{}\" appears twice", name));
+    found[index] = true;
+    meaning.emplace_back(index);
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i].required && !found[i]) {
+      problems.add(1, fmt::format("column \"{}\" is missing from the header", wanted[i].name));
+    }
+  }
+  return meaning;
+}
+
+std::string allowed_values(const CsvColumn& column) {
+  if (column.minimum == CsvColumn{}.minimum) return fmt::format("at most {}", column.maximum);
+  if (column.maximum == CsvColumn{}.maximum) return fmt::format("at least {}", column.minimum);
+  return fmt::format("{} to {}", column.minimum, column.maximum);
+}
+
+/// The number in `cell`, or the reason why it is none that `column` can hold.
+std::optional<double> parse_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
+                                 Problems& problems) {
+  const auto reject = [&](const std::string& expected) {
+    const std::string found = cell.empty() ? "empty" : "\"" + shown(cell) + "\"";
+    problems.add(line, fmt::format("{} is {}, expected {}", column.name, found, expected));
+    return std::nullopt;
+  };
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (end != cell.data() + cell.size() || error == std::errc::invalid_argument) {
+    return reject("a number such as -1.25");
+  }
+  if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
+    return reject("a finite number");
+  }
+  if (value < column.minimum || value > column.maximum) return reject(allowed_values(column));
+  return value;
+}
+
+/// Whether `value` may stand below the column's last; a value that is out of order is told.
+bool in_order(double value, const std::vector<double>& above, const CsvColumn& column,
+              std::size_t line, Problems& problems) {
+  if (!column.increasing || above.empty() || value > above.back()) return true;
+  problems.add(line, fmt::format("{} is {}, expected more than the {} before it", column.name,
+                                 value, above.back()));
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string_view> split_csv_line(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(without_blanks(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
+                                                  std::span<const CsvColumn> wanted,
+                                                  OtherCsvColumns others) {
+  Problems problems(file_name);
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  if (text.empty()) {
+    problems.add(1, fmt::format("the file is empty, expected the header {}", names_of(wanted)));
+    problems.throw_if_any();
+  }
+  const CellMeaning meaning = read_header(take_line(text), wanted, others, problems);
+  problems.throw_if_any();  // without a header, every further message would only confuse
+
+  std::vector<std::vector<double>> columns(wanted.size());
+  std::size_t line_number = 1;
+  text = text.substr(0, text.find_last_not_of("\r\n") + 1);  // blank lines may end a file
+  if (text.empty()) problems.add(line_number, "there are no rows below the header");
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    ++line_number;
+    const auto cells = split_csv_line(line);
+    if (cells.size() != meaning.size()) {
+      problems.add(line_number, fmt::format("{} cells in the row, expected {} as in the header",
+                                            line.empty() ? 0 : cells.size(), meaning.size()));
+      continue;
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (!meaning[i]) continue;
+      const CsvColumn& column = wanted[*meaning[i]];
+      std::vector<double>& values = columns[*meaning[i]];
+      const auto value = parse_cell(cells[i], column, line_number, problems);
+      if (value && in_order(*value, values, column, line_number, problems)) {
+        values.push_back(*value);
+      }
+    }
+  }
+  problems.throw_if_any();
+  return columns;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,48 @@
+// Numeric columns out of a comma-separated file whose first line names them.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tethercalc/io/input_error.hpp"
+
+namespace tethercalc {
+
+/// A column that a reader understands.
+struct CsvColumn {
+  std::string_view name;  ///< exactly as in the header
+  bool required = true;
+  /// What a value may be; outside it, or where it is no finite number at all, is a problem.
+  double minimum = std::numeric_limits<double>::lowest();
+  double maximum = std::numeric_limits<double>::max();
+  bool increasing = false;  ///< each value must be greater than the one in the row above
+};
+
+enum class OtherCsvColumns {
+  rejected,  ///< a header name that is none of the wanted ones is a problem: it may be a misspelt
+             ///< one
+  ignored    ///< for files with more in them than one reader wants; their cells may hold any text
+};
+
+/// Reads the wanted columns, in any order in the file, from the whole text of a CSV file: commas,
+/// decimal points, one header line, LF or CRLF, with or without a byte order mark. Cells are not
+/// quoted; blanks around a cell are ignored.
+///
+/// Returns one vector per wanted column, in the order wanted, all as long as the file has rows;
+/// an optional column that the file lacks is an empty vector.
+///
+/// Throws InputError with every problem of the file, each as "file:line": missing, unknown (with
+/// the closest wanted name) and repeated columns; rows of the wrong length; cells that are empty,
+/// not a number, not finite or out of range; no rows. Beyond 20 problems only their number is told.
+std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
+                                                  std::span<const CsvColumn> wanted,
+                                                  OtherCsvColumns others);
+
+/// The cells of one line, blanks around each removed, without a line end.
+std::vector<std::string_view> split_csv_line(std::string_view line);
+
+}  // namespace tethercalc

@@ -1,0 +1,205 @@
+#include "tethercalc/io/design_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "io/checked_values.hpp"
+#include "io/closest_name.hpp"
+#include "io/entry_readers.hpp"
+#include "io/json_document.hpp"
+#include "io/spec_overrides.hpp"
+#include "io/text_file.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+std::optional<bool> checked_boolean(const JsonPlace& place, Problems& problems) {
+  if (place.value->is_boolean()) return place.value->get<bool>();
+  problems.add(place.where(), "expected true or false, found " + type_name(*place.value));
+  return std::nullopt;
+}
+
+std::optional<Condition> checked_condition(const JsonPlace& place, Problems& problems) {
+  const std::string text = place.value->is_string() ? place.value->get<std::string>() : "";
+  if (text == "hover") return Condition::hover;
+  if (text == "forward") return Condition::forward;
+  const std::array<std::string, 2> known{"hover", "forward"};
+  problems.add(place.where(), fmt::format("expected \"hover\" or \"forward\", found {}{}",
+                                          type_name(*place.value), did_you_mean(text, known)));
+  return std::nullopt;
+}
+
+std::vector<EfficiencyPoint> checked_efficiency_points(const JsonPlace& place, Problems& problems) {
+  const auto fields = efficiency_point_fields();
+  std::vector<EfficiencyPoint> points;
+  for (std::size_t i = 0; i < place.value->size(); ++i) {
+    const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
+    const std::vector<JsonPlace> places = field_places(at, fields, problems);
+    const auto output = checked_number(places[0], fields[0], problems);
+    const auto efficiency = checked_number(places[1], fields[1], problems);
+    if (output && efficiency) points.push_back({*output, *efficiency});
+  }
+  return points;
+}
+
+void read_efficiency(const JsonPlace& place, const SpecField& field, Converter& converter,
+                     Problems& problems) {
+  if (!place.value->is_array()) {
+    if (place.value->is_number()) {
+      if (const auto constant = checked_number(place, field, problems)) {
+        converter.efficiency = {{0.0, *constant}};
+      }
+      return;
+    }
+    problems.add(place.where(),
+                 fmt::format("expected a number {} or a list of {{output_W, efficiency}}, found {}",
+                             describe_range(field), type_name(*place.value)));
+    return;
+  }
+  if (place.value->empty()) {
+    problems.add(place.where(), "an efficiency curve needs at least one point");
+    return;
+  }
+  const std::size_t before = problems.count();
+  std::vector<EfficiencyPoint> points = checked_efficiency_points(place, problems);
+  if (problems.count() > before) return;
+  Converter candidate{std::move(points), converter.min_input_voltage};
+  try {
+    validate(candidate);
+    converter = std::move(candidate);
+  } catch (const std::invalid_argument& error) {
+    problems.add(place.where(), error.what());
+  }
+}
+
+/// Fills a DesignFile field by field.
+class SpecReader {
+ public:
+  SpecReader(const JsonDocument& document, DesignFile& result, Problems& problems)
+      : document_(document), result_(result), problems_(problems) {}
+
+  void read() {
+    const std::size_t before = problems_.count();
+    const auto fields = spec_fields();
+    const std::vector<JsonPlace> places =
+        field_places({&document_, &document_.root, ""}, fields, problems_);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (places[i].given()) {
+        read_field(places[i], fields[i]);
+      } else if (!fields[i].required()) {
+        const Json default_value = Json::parse(fields[i].default_json);
+        read_field({&document_, &default_value, places[i].pointer}, fields[i]);
+      }
+    }
+    // Conflicts between fields mean something only where each of them was read.
+    if (problems_.count() > before) return;
+    for (const FieldConflict& conflict : find_conflicts(result_.design)) {
+      problems_.add(document_.where(conflict.pointer), conflict.message);
+    }
+  }
+
+ private:
+  void read_field(const JsonPlace& place, const SpecField& field) {
+    Design& design = result_.design;
+    switch (field.kind) {
+      case FieldKind::number:
+      case FieldKind::optional_number:
+      case FieldKind::integer:
+        if (const auto value = checked_number(place, field, problems_)) {
+          set_field(design, field, *value);
+        }
+        return;
+      case FieldKind::boolean:
+        if (const auto value = checked_boolean(place, problems_)) {
+          std::get<bool& (*)(Design&)>(field.access)(design) = *value;
+        }
+        return;
+      case FieldKind::condition:
+        if (const auto value = checked_condition(place, problems_)) {
+          std::get<Condition& (*)(Design&)>(field.access)(design) = *value;
+        }
+        return;
+      case FieldKind::text:
+        read_text(place, field);
+        return;
+      case FieldKind::efficiency:
+        read_efficiency(place, field, std::get<Converter& (*)(Design&)>(field.access)(design),
+                        problems_);
+        return;
+      default:
+        read_entry(place, field);
+    }
+  }
+
+  void read_text(const JsonPlace& place, const SpecField& field) {
+    const std::string text = checked_text(place, problems_);
+    if (field.pointer == "/name" && !text.empty()) result_.name = text;
+  }
+
+  void read_entry(const JsonPlace& place, const SpecField& field) {
+    Design& design = result_.design;
+    if (field.kind == FieldKind::motor) {
+      auto motor = read_motor(place, result_.folder, problems_);
+      if (!motor) return;
+      std::get<MotorCurve& (*)(Design&)>(field.access)(design) = motor->curve;
+      result_.warnings.insert(result_.warnings.end(), motor->warnings.begin(),
+                              motor->warnings.end());
+      result_.motor = std::move(*motor);
+    } else if (field.kind == FieldKind::conductor) {
+      auto conductor = read_conductor(place, result_.folder, problems_);
+      if (!conductor) return;
+      std::get<Conductor& (*)(Design&)>(field.access)(design) = conductor->conductor;
+      result_.conductor = std::move(*conductor);
+    } else if (field.kind == FieldKind::insulation_material) {
+      auto insulation = read_insulation(place, result_.folder, problems_);
+      if (!insulation) return;
+      std::get<double& (*)(Design&)>(field.access)(design) = insulation->density;
+      result_.insulation = std::move(*insulation);
+    }
+  }
+
+  const JsonDocument& document_;
+  DesignFile& result_;
+  Problems& problems_;
+};
+
+DesignFile design_of(JsonDocument document, const fs::path& folder,
+                     std::span<const std::string> overrides) {
+  Problems problems;
+  problems.add(document.problems);
+  apply_overrides(document, overrides, problems);
+  DesignFile result;
+  result.name = fs::path(document.name).stem().string();
+  result.file = document.name;
+  result.folder = folder;
+  SpecReader(document, result, problems).read();
+  problems.throw_if_any();
+  result.document = std::move(document.root);
+  return result;
+}
+
+}  // namespace
+
+DesignFile read_design(const std::string& path, std::span<const std::string> overrides) {
+  const TextFile file = read_text_file(path);
+  return parse_design(file.text, file.name, file.folder, overrides);
+}
+
+DesignFile parse_design(std::string_view text, const std::string& file, const fs::path& folder,
+                        std::span<const std::string> overrides) {
+  return design_of(parse_json(text, file), folder, overrides);
+}
+
+DesignFile read_design_document(nlohmann::ordered_json document, const std::string& file,
+                                const fs::path& folder) {
+  return design_of(document_of(std::move(document), file), folder, {});
+}
+
+}  // namespace tethercalc

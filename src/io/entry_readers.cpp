@@ -1,0 +1,360 @@
+#include "io/entry_readers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "io/closest_name.hpp"
+#include "io/csv_columns.hpp"
+#include "io/embedded_files.hpp"
+#include "io/text_file.hpp"
+#include "tethercalc/model/motor_bench.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// A measured point and what messages call its place.
+struct BenchPoint {
+  MotorPoint point;
+  std::string where;
+};
+
+std::string in_practical_units(const MotorPoint& point) {
+  return fmt::format("{:.1f} g at {:.2f} W", point.thrust / unit::gram_force, point.power);
+}
+
+/// Fills `entry.curve`, pooling points that do not rise, and says so in `entry.warnings`.
+bool set_curve(MotorEntry& entry, const std::vector<BenchPoint>& measured, const std::string& where,
+               Problems& problems) {
+  std::vector<MotorPoint> points;
+  for (const BenchPoint& bench : measured) points.push_back(bench.point);
+  const IsotonicMotorPoints isotonic = isotonic_motor_points(points);
+  for (const PooledMotorPoints& pool : isotonic.pooled) {
+    std::string members;
+    for (const std::size_t i : pool.members) {
+      if (!members.empty()) members += ", ";
+      members += fmt::format("{} ({})", in_practical_units(points[i]), measured[i].where);
+    }
+    entry.warnings.push_back(
+        fmt::format("{}: power must rise with thrust, so these points were pooled to {}: {}", where,
+                    in_practical_units(pool.mean), members));
+  }
+  if (isotonic.points.size() < 2) {
+    problems.add(where, fmt::format("a motor curve needs at least 2 points of rising thrust and "
+                                    "power, found {}",
+                                    isotonic.points.size()));
+    return false;
+  }
+  entry.curve = MotorCurve(isotonic.points);
+  return true;
+}
+
+std::optional<MotorPoint> read_motor_point(const JsonPlace& place, Problems& problems) {
+  const auto fields = motor_point_fields();
+  const std::size_t before = problems.count();
+  const std::vector<JsonPlace> places = field_places(place, fields, problems);
+  const auto number = [&](std::string_view pointer) {
+    const JsonPlace& at = place_of(pointer, fields, places);
+    return checked_number(at, fields[static_cast<std::size_t>(&at - places.data())], problems);
+  };
+  number("/throttle_percent");
+  const std::optional<double> thrust = number("/thrust_g");
+  const std::optional<double> efficiency = number("/efficiency_g_per_W");
+  const std::optional<double> power = number("/power_W");
+  if (problems.count() > before) return std::nullopt;
+  if (efficiency.has_value() == power.has_value()) {
+    problems.add(place.where(), fmt::format("give either efficiency_g_per_W or power_W, found {}",
+                                            power ? "both" : "neither"));
+    return std::nullopt;
+  }
+  return MotorPoint{*thrust * unit::gram_force, power ? *power : *thrust / *efficiency};
+}
+
+std::optional<std::vector<BenchPoint>> read_motor_points(const JsonPlace& place,
+                                                         Problems& problems) {
+  if (!place.given()) return std::nullopt;
+  if (!place.value->is_array()) {
+    problems.add(place.where(), "expected a list of points, found " + type_name(*place.value));
+    return std::nullopt;
+  }
+  if (place.value->size() < 2) {
+    problems.add(place.where(), fmt::format("a motor curve needs at least 2 points, found {}",
+                                            place.value->size()));
+    return std::nullopt;
+  }
+  std::vector<BenchPoint> points;
+  for (std::size_t i = 0; i < place.value->size(); ++i) {
+    const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
+    if (const auto point = read_motor_point(at, problems)) {
+      points.push_back({*point, fmt::format("point {}", i + 1)});
+    }
+  }
+  if (points.size() != place.value->size()) return std::nullopt;
+  return points;
+}
+
+/// The fields that all entries have, and those of one kind.
+class EntryObject {
+ public:
+  EntryObject(const JsonPlace& object, std::span<const SpecField> fields, Problems& problems)
+      : fields_(fields),
+        problems_(problems),
+        before_(problems.count()),
+        places_(field_places(object, fields, problems)) {}
+
+  [[nodiscard]] const JsonPlace& at(std::string_view pointer) const {
+    return place_of(pointer, fields_, places_);
+  }
+  /// In SI.
+  std::optional<double> number(std::string_view pointer) {
+    const JsonPlace& place = at(pointer);
+    const SpecField& field = fields_[static_cast<std::size_t>(&place - places_.data())];
+    const std::optional<double> value = checked_number(place, field, problems_);
+    return value ? std::optional(*value * field.si_factor) : std::nullopt;
+  }
+  template <typename Entry>
+  void set_texts(Entry& entry) {
+    entry.id = checked_text(at("/id"), problems_);
+    entry.name = checked_text(at("/name"), problems_);
+    entry.source = checked_text(at("/source"), problems_);
+  }
+  [[nodiscard]] bool faulty() const { return problems_.count() > before_; }
+
+ private:
+  std::span<const SpecField> fields_;
+  Problems& problems_;
+  std::size_t before_;
+  std::vector<JsonPlace> places_;
+};
+
+std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& problems) {
+  EntryObject entry_object(object, motor_fields(), problems);
+  MotorEntry entry;
+  entry_object.set_texts(entry);
+  entry.voltage_V = entry_object.number("/voltage_V");
+  entry.propeller_in = entry_object.number("/propeller_in");
+  const JsonPlace& points_place = entry_object.at("/points");
+  const auto points = read_motor_points(points_place, problems);
+  if (!points || entry_object.faulty()) return std::nullopt;
+  if (!set_curve(entry, *points, points_place.where(), problems)) return std::nullopt;
+  return entry;
+}
+
+std::optional<ConductorEntry> conductor_from_object(const JsonPlace& object, Problems& problems) {
+  EntryObject entry_object(object, conductor_fields(), problems);
+  ConductorEntry entry;
+  entry_object.set_texts(entry);
+  const auto resistivity = entry_object.number("/resistivity_20C_ohm_mm2_per_m");
+  const auto coefficient = entry_object.number("/temperature_coefficient_per_K");
+  const auto density = entry_object.number("/density_g_cm3");
+  if (entry_object.faulty()) return std::nullopt;
+  entry.conductor = {*resistivity, *coefficient, *density};
+  return entry;
+}
+
+std::optional<InsulationEntry> insulation_from_object(const JsonPlace& object, Problems& problems) {
+  EntryObject entry_object(object, insulation_fields(), problems);
+  InsulationEntry entry;
+  entry_object.set_texts(entry);
+  const auto density = entry_object.number("/density_g_cm3");
+  if (entry_object.faulty()) return std::nullopt;
+  entry.density = *density;
+  return entry;
+}
+
+/// A kind of entry: its folder in the library and what reads it.
+template <typename Entry>
+struct EntryKind {
+  std::string_view folder;  ///< also what `list` calls it
+  std::string_view noun;
+  bool may_be_csv = false;
+  std::optional<Entry> (*from_object)(const JsonPlace&, Problems&);
+};
+
+constexpr EntryKind<MotorEntry> motor_kind{"motors", "motor", true, &motor_from_object};
+constexpr EntryKind<ConductorEntry> conductor_kind{"conductors", "conductor", false,
+                                                   &conductor_from_object};
+constexpr EntryKind<InsulationEntry> insulation_kind{"insulation", "insulation material", false,
+                                                     &insulation_from_object};
+
+constexpr std::string_view json_suffix = ".json";
+
+/// The id of a library file of this folder: what stands between the folder and ".json".
+std::optional<std::string> id_in_folder(std::string_view file, std::string_view folder) {
+  if (!file.starts_with(folder) || !file.ends_with(json_suffix)) return std::nullopt;
+  file.remove_prefix(folder.size());
+  if (!file.starts_with('/')) return std::nullopt;
+  file.remove_prefix(1);
+  file.remove_suffix(json_suffix.size());
+  return std::string(file);
+}
+
+template <typename Entry>
+std::optional<Entry> entry_from_text(const EntryKind<Entry>& kind, std::string_view text,
+                                     const std::string& name, Problems& problems) {
+  const JsonDocument document = parse_json(text, name);
+  const std::size_t before = problems.count();
+  problems.add(document.problems);
+  std::optional<Entry> entry = kind.from_object({&document, &document.root, ""}, problems);
+  return problems.count() == before ? std::move(entry) : std::nullopt;
+}
+
+template <typename Entry>
+std::optional<Entry> entry_from_library(const EntryKind<Entry>& kind, const std::string& id,
+                                        const std::string& where, Problems& problems) {
+  std::vector<std::string> ids;
+  for (const EmbeddedFile& file : embedded_files()) {
+    const auto found = id_in_folder(file.name, kind.folder);
+    if (!found) continue;
+    if (*found == id) return entry_from_text(kind, file.content, std::string(file.name), problems);
+    ids.push_back(*found);
+  }
+  problems.add(where, fmt::format("no {} {} in the library{} (`tethercalc list {}` shows all; the "
+                                  "path of a file holds a \"/\" or ends in .json{})",
+                                  kind.noun, shown(id), did_you_mean(id, ids), kind.folder,
+                                  kind.may_be_csv ? " or .csv" : ""));
+  return std::nullopt;
+}
+
+template <typename Entry>
+std::optional<Entry> entry_from_file(const EntryKind<Entry>& kind, const std::string& reference,
+                                     const fs::path& folder, const std::string& where,
+                                     Problems& problems) {
+  try {
+    const TextFile file = read_text_file((folder / reference).string());
+    if constexpr (std::is_same_v<Entry, MotorEntry>) {
+      if (reference.ends_with(".csv")) return motor_from_bench_csv(file.text, file.name, problems);
+    }
+    return entry_from_text(kind, file.text, file.name, problems);
+  } catch (const InputError& error) {
+    for (const InputProblem& problem : error.problems()) {
+      problems.add(where, fmt::format("{}: {}", problem.where, problem.message));
+    }
+    return std::nullopt;
+  }
+}
+
+template <typename Entry>
+std::optional<Entry> entry_named(const EntryKind<Entry>& kind, const std::string& reference,
+                                 const fs::path& folder, const std::string& where,
+                                 Problems& problems) {
+  // No entry's id ends like a file.
+  const bool is_file = reference.find('/') != std::string::npos ||
+                       reference.ends_with(json_suffix) || reference.ends_with(".csv");
+  return is_file ? entry_from_file(kind, reference, folder, where, problems)
+                 : entry_from_library(kind, reference, where, problems);
+}
+
+template <typename Entry>
+std::optional<Entry> entry_at(const EntryKind<Entry>& kind, const JsonPlace& place,
+                              const fs::path& folder, Problems& problems) {
+  if (!place.given()) return std::nullopt;
+  if (place.value->is_object()) return kind.from_object(place, problems);
+  if (place.value->is_string()) {
+    return entry_named(kind, place.value->template get<std::string>(), folder, place.where(),
+                       problems);
+  }
+  problems.add(place.where(),
+               fmt::format("expected the name of a {}, the path of a file or an object, found {}",
+                           kind.noun, type_name(*place.value)));
+  return std::nullopt;
+}
+
+template <typename Entry>
+Entry entry_or_throw(const EntryKind<Entry>& kind, const std::string& reference,
+                     const fs::path& folder, const std::string& where) {
+  Problems problems;
+  std::optional<Entry> entry = entry_named(kind, reference, folder, where, problems);
+  problems.throw_if_any();
+  return std::move(*entry);
+}
+
+template <typename Entry>
+std::vector<Entry> all_entries(const EntryKind<Entry>& kind) {
+  std::vector<Entry> entries;
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (const auto id = id_in_folder(file.name, kind.folder)) {
+      entries.push_back(entry_or_throw(kind, *id, {}, std::string(kind.noun)));
+    }
+  }
+  return entries;
+}
+
+}  // namespace
+
+std::optional<MotorEntry> read_motor(const JsonPlace& place, const fs::path& folder,
+                                     Problems& problems) {
+  return entry_at(motor_kind, place, folder, problems);
+}
+
+std::optional<ConductorEntry> read_conductor(const JsonPlace& place, const fs::path& folder,
+                                             Problems& problems) {
+  return entry_at(conductor_kind, place, folder, problems);
+}
+
+std::optional<InsulationEntry> read_insulation(const JsonPlace& place, const fs::path& folder,
+                                               Problems& problems) {
+  return entry_at(insulation_kind, place, folder, problems);
+}
+
+std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const std::string& name,
+                                               Problems& problems) {
+  constexpr double largest = 1e6;  // g and W: as for the points of a motor's JSON file
+  const std::array columns{CsvColumn{.name = "thrust_g", .minimum = -largest, .maximum = largest},
+                           CsvColumn{.name = "power_W", .minimum = -largest, .maximum = largest}};
+  std::vector<std::vector<double>> values;
+  try {
+    values = read_csv_columns(text, name, columns, OtherCsvColumns::ignored);
+  } catch (const InputError& error) {
+    problems.add(error.problems());
+    return std::nullopt;
+  }
+  MotorEntry entry;
+  entry.name = fs::path(name).stem().string();
+  entry.source = name;
+  std::vector<BenchPoint> points;
+  for (std::size_t row = 0; row < values[0].size(); ++row) {
+    const MotorPoint point{values[0][row] * unit::gram_force, values[1][row]};
+    const std::size_t line = row + 2;  // the header is line 1, and no line may be blank
+    if (point.thrust > 0 && point.power > 0) {
+      points.push_back({point, fmt::format("line {}", line)});
+    } else {
+      entry.warnings.push_back(fmt::format(
+          "{}:{}: left out, since a running motor has thrust and power above 0, found {}", name,
+          line, in_practical_units(point)));
+    }
+  }
+  if (!set_curve(entry, points, name, problems)) return std::nullopt;
+  return entry;
+}
+
+std::vector<MotorEntry> library_motors() { return all_entries(motor_kind); }
+std::vector<ConductorEntry> library_conductors() { return all_entries(conductor_kind); }
+std::vector<InsulationEntry> library_insulation() { return all_entries(insulation_kind); }
+
+MotorEntry find_motor(const std::string& reference, const fs::path& folder,
+                      const std::string& where) {
+  return entry_or_throw(motor_kind, reference, folder, where);
+}
+
+ConductorEntry find_conductor(const std::string& reference, const fs::path& folder,
+                              const std::string& where) {
+  return entry_or_throw(conductor_kind, reference, folder, where);
+}
+
+InsulationEntry find_insulation(const std::string& reference, const fs::path& folder,
+                                const std::string& where) {
+  return entry_or_throw(insulation_kind, reference, folder, where);
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,339 @@
+#include "io/json_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace tethercalc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Specs nest five levels; unbounded nesting would exhaust the stack where values are written.
+constexpr std::size_t deepest_nesting = 32;
+// Of a faulty line; enough to recognise the place on an 80 column terminal.
+constexpr std::size_t excerpt_width = 60;
+
+/// Iterates over text and leaves word of how far it went: the SAX interface passes no positions.
+class CountingIterator {
+ public:
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator() = default;
+  CountingIterator(const char* at, const char* begin, std::size_t* consumed)
+      : at_(at), begin_(begin), consumed_(consumed) {}
+
+  reference operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    ++at_;
+    *consumed_ = static_cast<std::size_t>(at_ - begin_);
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    CountingIterator before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const CountingIterator& other) const { return at_ == other.at_; }
+
+ private:
+  const char* at_ = nullptr;
+  const char* begin_ = nullptr;
+  std::size_t* consumed_ = nullptr;
+};
+
+struct Position {
+  std::size_t line = 1;
+  std::size_t column = 1;
+};
+
+Position position_at(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  const std::size_t line_start = before.rfind('\n');
+  const std::size_t column =
+      line_start == std::string_view::npos ? offset : offset - line_start - 1;
+  return {static_cast<std::size_t>(line), column + 1};
+}
+
+/// The line around `offset` with a caret below it.
+std::string excerpt_at(std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t newline = before.rfind('\n');
+  std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
+  if (offset - begin > excerpt_width / 2) begin = offset - excerpt_width / 2;
+  const std::size_t end = std::min(text.find('\n', offset), begin + excerpt_width);
+  std::string line(text.substr(begin, end == std::string_view::npos ? end : end - begin));
+  if (line.size() > excerpt_width) line.resize(excerpt_width);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = ' ';
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return fmt::format("\n    {}\n    {}^", line, std::string(offset - begin, ' '));
+}
+
+/// Receives the parser's events, builds the value and notes where each part of it stands.
+class Builder {
+ public:
+  using number_integer_t = Json::number_integer_t;
+  using number_unsigned_t = Json::number_unsigned_t;
+  using number_float_t = Json::number_float_t;
+  using string_t = Json::string_t;
+  using binary_t = Json::binary_t;
+
+  Builder(JsonDocument& document, std::string_view text, const std::size_t& consumed)
+      : document_(document), text_(text), consumed_(consumed) {}
+
+  bool null() { return add(nullptr); }
+  bool boolean(bool value) { return add(value); }
+  bool number_integer(number_integer_t value) { return add(value); }
+  bool number_unsigned(number_unsigned_t value) { return add(value); }
+  bool number_float(number_float_t value, const string_t&) { return add(value); }
+  bool string(string_t& value) { return add(std::move(value)); }
+  bool binary(binary_t&) { return false; }  // JSON text has none
+
+  bool start_object(std::size_t) { return open(Json::object()); }
+  bool start_array(std::size_t) { return open(Json::array()); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
+
+  bool key(string_t& name) {
+    key_ = std::move(name);
+    const std::string pointer = child_pointer(levels_.back().pointer, key_);
+    const std::size_t line = current_line();
+    key_repeated_ = !levels_.back().keys.insert(key_).second;
+    if (key_repeated_) {
+      document_.problems.push_back(
+          {fmt::format("{}:{} {}", document_.name, line, pointer),
+           fmt::format("the key {} stands here and in line {}; give it once", shown(key_),
+                       document_.lines[pointer])});
+      return true;
+    }
+    document_.lines[pointer] = line;
+    return true;
+  }
+
+  bool parse_error(std::size_t, const std::string& last_token,
+                   const nlohmann::detail::exception& error) {
+    fail(last_token, error.what());
+    return false;
+  }
+
+  [[nodiscard]] const InputProblem& failure() const { return failure_; }
+
+ private:
+  struct Level {
+    Json* value;
+    std::string pointer;
+    std::set<std::string> keys;
+  };
+
+  // The parser has consumed a token, and one character more after a number.
+  std::size_t current_line() {
+    const std::size_t end = consumed_ == 0 ? 0 : consumed_ - 1;
+    for (; counted_ < end; ++counted_) {
+      if (text_[counted_] == '\n') ++line_;
+    }
+    return line_;
+  }
+
+  /// Puts `value` where it belongs and returns its place and pointer.
+  std::pair<Json*, std::string> place(Json value) {
+    if (levels_.empty()) {
+      document_.root = std::move(value);
+      document_.lines[""] = current_line();
+      return {&document_.root, ""};
+    }
+    Level& level = levels_.back();
+    if (level.value->is_array()) {
+      std::string pointer = fmt::format("{}/{}", level.pointer, level.value->size());
+      document_.lines[pointer] = current_line();
+      level.value->push_back(std::move(value));
+      return {&level.value->back(), std::move(pointer)};
+    }
+    std::string pointer = child_pointer(level.pointer, key_);
+    if (key_repeated_) {
+      Json& member = (*level.value)[key_];
+      member = std::move(value);
+      return {&member, std::move(pointer)};
+    }
+    // ordered_json searches all members at every insertion; of a new key it need not.
+    std::vector<std::pair<const std::string, Json>>& members =
+        level.value->get_ref<Json::object_t&>();
+    members.emplace_back(key_, std::move(value));
+    return {&members.back().second, std::move(pointer)};
+  }
+
+  template <typename Value>
+  bool add(Value&& value) {
+    place(Json(std::forward<Value>(value)));
+    return true;
+  }
+
+  bool open(Json empty) {
+    if (levels_.size() == deepest_nesting) {
+      failure_ = {fmt::format("{}:{}", document_.name, current_line()),
+                  fmt::format("is nested deeper than {} levels", deepest_nesting)};
+      return false;
+    }
+    auto [value, pointer] = place(std::move(empty));
+    levels_.push_back({value, std::move(pointer), {}});
+    return true;
+  }
+
+  bool close() {
+    levels_.pop_back();
+    return true;
+  }
+
+  void fail(const std::string& last_token, const std::string& what) {
+    // A faulty token starts where its text does; the end of the input has none.
+    const bool at_end = consumed_ >= text_.size() && what.find("end of input") != std::string::npos;
+    std::size_t offset = at_end || consumed_ == 0 ? consumed_ : consumed_ - 1;
+    std::size_t start = std::min(offset, text_.size());
+    if (!at_end && !last_token.empty()) {
+      start = consumed_ > last_token.size() ? consumed_ - last_token.size() : 0;
+      while (start > 0 && is_word(text_[start - 1])) --start;
+    }
+    if (at_end) {
+      while (start > 0 && is_space(text_[start - 1])) --start;
+    }
+    const Position position = position_at(text_, start);
+    failure_ = {fmt::format("{}:{}", document_.name, position.line),
+                fmt::format("column {}: {}{}", position.column, reason(start, at_end, what),
+                            excerpt_at(text_, start))};
+  }
+
+  [[nodiscard]] std::string reason(std::size_t start, bool at_end, const std::string& what) const {
+    if (at_end) {
+      return what.find("string") != std::string::npos
+                 ? "the file ends inside a text; is it cut off, or a closing quote missing?"
+                 : "the file ends before the JSON does; is it cut off, or a bracket missing?";
+    }
+    const std::string_view rest = text_.substr(start);
+    for (const std::string_view word : {"NaN", "nan", "-NaN", "Infinity", "-Infinity", "inf"}) {
+      if (rest.starts_with(word)) {
+        return fmt::format("{} is not a number in JSON; give a finite one", word);
+      }
+    }
+    if (what.find("number overflow") != std::string::npos) return "this number is too large";
+    if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#")) {
+      return "JSON has no comments; put remarks under the key \"notes\"";
+    }
+    if (rest.starts_with("'")) return "JSON wants double quotes (\") around keys and texts";
+    if (rest.starts_with("}") || rest.starts_with("]")) {
+      return "this bracket is not expected here; is there a comma too many before it?";
+    }
+    if (what.find("UTF-8") != std::string::npos) return "this is not valid UTF-8";
+    if (what.find("control character") != std::string::npos) {
+      return "a text may not go over the end of a line; is a closing quote missing?";
+    }
+    if (what.find("expected end of input") != std::string::npos) {
+      return "the JSON is complete before this; nothing may follow it";
+    }
+    const std::size_t expected = what.rfind("expected ");
+    if (expected != std::string::npos)
+      return "this is not JSON: " + what.substr(expected) + " here";
+    return "this is not JSON; see the place marked below";
+  }
+
+  static bool is_word(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
+  }
+  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+  JsonDocument& document_;
+  std::string_view text_;
+  const std::size_t& consumed_;
+  std::size_t counted_ = 0;
+  std::size_t line_ = 1;
+  std::string key_;
+  bool key_repeated_ = false;
+  std::vector<Level> levels_;
+  InputProblem failure_;
+};
+
+std::string_view parent(std::string_view pointer) { return pointer.substr(0, pointer.rfind('/')); }
+
+void refuse_utf16(std::string_view text, const std::string& name) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    throw InputError({{name + ":1", "is UTF-16; save it as UTF-8"}});
+  }
+}
+
+}  // namespace
+
+std::string JsonDocument::where(std::string_view pointer) const {
+  for (std::string_view at = pointer;; at = parent(at)) {
+    if (const auto option = options.find(at); option != options.end()) return option->second;
+    if (const auto line = lines.find(at); line != lines.end()) {
+      return fmt::format("{}:{}{}{}", name, line->second, pointer.empty() ? "" : " ", pointer);
+    }
+    if (at.empty()) return fmt::format("{}{}{}", name, pointer.empty() ? "" : " ", pointer);
+  }
+}
+
+JsonDocument parse_json(std::string_view text, std::string name) {
+  refuse_utf16(text, name);
+  JsonDocument document;
+  document.name = std::move(name);
+  std::size_t consumed = 0;
+  const char* begin = text.data();
+  Builder builder(document, text, consumed);
+  const bool parsed =
+      Json::sax_parse(CountingIterator(begin, begin, &consumed),
+                      CountingIterator(begin + text.size(), begin, &consumed), &builder);
+  if (!parsed) {
+    std::vector<InputProblem> problems = std::move(document.problems);
+    problems.push_back(builder.failure());
+    throw InputError(std::move(problems));
+  }
+  return document;
+}
+
+JsonDocument document_of(nlohmann::ordered_json root, std::string name) {
+  JsonDocument document;
+  document.name = std::move(name);
+  document.root = std::move(root);
+  return document;
+}
+
+std::string child_pointer(std::string_view pointer, std::string_view key) {
+  std::string child(pointer);
+  child += '/';
+  for (const char c : key) {
+    if (c == '~') {
+      child += "~0";
+    } else if (c == '/') {
+      child += "~1";
+    } else {
+      child += c;
+    }
+  }
+  return child;
+}
+
+std::string shown(const nlohmann::ordered_json& value) {
+  constexpr std::size_t longest = 60;
+  std::string text =
+      value.dump(-1, ' ', /*ensure_ascii=*/true, nlohmann::ordered_json::error_handler_t::replace);
+  if (text.size() > longest) text = text.substr(0, longest - 1) + "…";
+  return text;
+}
+
+std::string type_name(const nlohmann::ordered_json& value) {
+  if (value.is_null()) return "null";
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  if (value.is_number()) return "the number " + shown(value);
+  if (value.is_string()) return "the text " + shown(value);
+  return value.is_array() ? "a list" : "an object";
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,47 @@
+// JSON that knows the line of each of its values, so that a message can name it.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tethercalc/io/input_error.hpp"
+
+namespace tethercalc {
+
+/// A parsed document. Pointers are JSON pointers (RFC 6901); "" is the whole document.
+struct JsonDocument {
+  std::string name;  ///< of the file, as messages call it
+  nlohmann::ordered_json root;
+  std::map<std::string, std::size_t, std::less<>> lines;    ///< pointer → line, counted from 1
+  std::map<std::string, std::string, std::less<>> options;  ///< pointer → the option that set it
+  std::vector<InputProblem> problems;  ///< that leave the rest readable: duplicate keys
+
+  /// "file:line /pointer", or the option that set the value. What is not there is placed at the
+  /// nearest value around it.
+  [[nodiscard]] std::string where(std::string_view pointer) const;
+};
+
+/// Parses JSON text. A UTF-8 byte order mark is skipped: some editors write one unasked.
+/// Throws InputError with line, column and an excerpt where the text is not JSON (truncated, NaN,
+/// comments, trailing text, invalid UTF-8, UTF-16, a number beyond double) or is nested deeper
+/// than 32 levels.
+JsonDocument parse_json(std::string_view text, std::string name);
+
+/// A document without a text, whose values have no lines.
+JsonDocument document_of(nlohmann::ordered_json root, std::string name);
+
+/// `pointer` with one more key, escaped as RFC 6901 asks.
+std::string child_pointer(std::string_view pointer, std::string_view key);
+
+/// A value as a message shows it: compact, on one line, no longer than about 60 characters, safe
+/// to print whatever bytes it holds.
+std::string shown(const nlohmann::ordered_json& value);
+
+/// "a number", "text", "an object" …
+std::string type_name(const nlohmann::ordered_json& value);
+
+}  // namespace tethercalc

@@ -1,0 +1,325 @@
+#include "tethercalc/io/spec_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "io/closest_name.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+namespace {
+
+// Upper ends of ranges are no physics: they stand well beyond anything that flies, so that a slip
+// of the unit (kilograms for grams, kilometres for metres) is told instead of computed.
+constexpr FieldRange any_number{};
+constexpr FieldRange positive_fraction{0, 1, true, false};
+
+FieldRange between(double min, double max) { return {min, max, false, false}; }
+FieldRange above(double min, double max) { return {min, max, true, false}; }
+FieldRange inside(double min, double max) { return {min, max, true, true}; }
+
+using Number = double& (*)(Design&);
+
+const std::array all_spec_fields{
+    SpecField{"/$schema", FieldKind::text, "", any_number, "\"\"",
+              "Path or address of the JSON Schema, by which editors check and complete the file."},
+    SpecField{"/name", FieldKind::text, "", any_number, "\"\"",
+              "What reports call the design; the file's name where absent."},
+    SpecField{"/description", FieldKind::text, "", any_number, "\"\"", "Free text."},
+    SpecField{"/notes", FieldKind::text, "", any_number, "\"\"",
+              "Free text, for remarks: JSON has no comments."},
+    SpecField{"/drone/mass_g", FieldKind::number, "g", between(1, 1e6), "",
+              "Mass of the drone ready to fly, without the tether.", unit::gram,
+              Number([](Design& d) -> double& { return d.drone.mass; })},
+    SpecField{
+        "/drone/motor_count", FieldKind::integer, "", between(1, 64), "",
+        "Number of motors, all alike.", 1,
+        static_cast<int& (*)(Design&)>([](Design& d) -> int& { return d.drone.motor_count; })},
+    SpecField{"/drone/motor", FieldKind::motor, "", any_number, "",
+              "Motor with its propeller: a name in the library, a file, or an object.", 1,
+              static_cast<MotorCurve& (*)(Design&)>(
+                  [](Design& d) -> MotorCurve& { return d.drone.motor; })},
+    SpecField{"/drone/motor_power_factor", FieldKind::number, "", above(0, 10), "1",
+              "The motors draw this times what the motor's curve says.", 1,
+              Number([](Design& d) -> double& { return d.drone.motor_power_factor; })},
+    SpecField{"/drone/auxiliary_power_W", FieldKind::number, "W", between(0, 1e5), "0",
+              "Power of flight controller and payload, at the converter's input.", 1,
+              Number([](Design& d) -> double& { return d.drone.auxiliary_power; })},
+    SpecField{"/drone/drag/front_area_m2", FieldKind::number, "m²", between(0, 100), "",
+              "Drag area of the level drone, drag coefficient included.", 1,
+              Number([](Design& d) -> double& { return d.drone.drag.front_area; })},
+    SpecField{"/drone/drag/top_area_m2", FieldKind::number, "m²", between(0, 100), "",
+              "Drag area of the drone tilted by 90°, drag coefficient included.", 1,
+              Number([](Design& d) -> double& { return d.drone.drag.top_area; })},
+    SpecField{"/drone/drag/linear_m_s", FieldKind::number, "m/s", between(0, 1000), "0",
+              "Airspeed at which linear and quadratic drag are equal.", 1,
+              Number([](Design& d) -> double& { return d.drone.drag.linear_speed; })},
+    SpecField{"/drone/drag/fore_aft_asymmetry", FieldKind::number, "", inside(-1, 1), "0",
+              "Drag is 1 + this times as large flying forward, 1 - this flying backward.", 1,
+              Number([](Design& d) -> double& { return d.drone.drag.fore_aft_asymmetry; })},
+    SpecField{"/tether/length_m", FieldKind::number, "m", between(0.1, 1e4), "",
+              "Length of the tether in the air, which is the flight height.", 1,
+              Number([](Design& d) -> double& { return d.tether.length; })},
+    SpecField{"/tether/spooled_length_m", FieldKind::number, "m", between(0, 1e4), "0",
+              "Length left on the drum: it adds resistance, but neither mass nor drag.", 1,
+              Number([](Design& d) -> double& { return d.tether.spooled_length; })},
+    SpecField{"/tether/conductor", FieldKind::conductor, "", any_number, "",
+              "Conductor material: a name in the library, a file, or an object.", 1,
+              static_cast<Conductor& (*)(Design&)>(
+                  [](Design& d) -> Conductor& { return d.tether.conductor; })},
+    SpecField{"/tether/conductor_temperature_C", FieldKind::number, "°C", between(-50, 250), "20",
+              "Temperature of the conductor, on which its resistance depends.", 1,
+              Number([](Design& d) -> double& { return d.tether.conductor_temperature_C; })},
+    SpecField{"/tether/insulation/material", FieldKind::insulation_material, "", any_number, "",
+              "Insulation material: a name in the library, a file, or an object.", 1,
+              Number([](Design& d) -> double& { return d.tether.insulation.density; })},
+    SpecField{"/tether/insulation/thickness_mm", FieldKind::number, "mm", between(0, 100), "",
+              "Wall thickness of the insulation of each conductor.", unit::millimetre,
+              Number([](Design& d) -> double& { return d.tether.insulation.thickness; })},
+    SpecField{"/tether/contact_resistance_ohm", FieldKind::number, "Ω", between(0, 1000), "0",
+              "Resistance of plugs and slip rings in the whole loop.", 1,
+              Number([](Design& d) -> double& { return d.tether.contact_resistance; })},
+    SpecField{"/tether/drag_coefficient", FieldKind::number, "", between(0, 10), "1.0",
+              "Drag coefficient of a conductor across the wind.", 1,
+              Number([](Design& d) -> double& { return d.tether.drag_coefficient; })},
+    SpecField{
+        "/tether/projection_factor", FieldKind::number, "", between(0, 1), "0.75",
+        "Mean width that the turning pair shows the wind, over the width of both side by side.", 1,
+        Number([](Design& d) -> double& { return d.tether.projection_factor; })},
+    SpecField{"/tether/cross_section_mm2", FieldKind::optional_number, "mm²", above(0, 1000),
+              "null", "Cross-section of one conductor, where the cable is already chosen.",
+              unit::square_millimetre,
+              static_cast<std::optional<double>& (*)(Design&)>(
+                  [](Design& d) -> std::optional<double>& { return d.tether.cross_section; })},
+    SpecField{"/supply/voltage_V", FieldKind::number, "V", between(1, 1e4), "",
+              "Voltage of the supply at the ground end of the tether.", 1,
+              Number([](Design& d) -> double& { return d.supply.voltage; })},
+    SpecField{"/supply/converter/efficiency", FieldKind::efficiency, "", positive_fraction, "",
+              "Efficiency of the converter on the drone: a number, or a list of points over its "
+              "output power.",
+              1, static_cast<Converter& (*)(Design&)>([](Design& d) -> Converter& {
+                return d.supply.converter;
+              })},
+    SpecField{"/supply/converter/min_input_voltage_V", FieldKind::number, "V", between(0, 1e4), "",
+              "Voltage at its input below which the converter cuts off.", 1,
+              Number([](Design& d) -> double& { return d.supply.converter.min_input_voltage; })},
+    SpecField{"/flight/airspeed_m_s", FieldKind::number, "m/s", between(0, 200), "",
+              "Airspeed in forward flight.", 1,
+              Number([](Design& d) -> double& { return d.flight.airspeed; })},
+    SpecField{"/flight/headwind_m_s", FieldKind::number, "m/s", between(-200, 200), "0",
+              "Wind from the front, added to the airspeed in hover and in forward flight.", 1,
+              Number([](Design& d) -> double& { return d.flight.headwind; })},
+    SpecField{"/flight/air_density_kg_m3", FieldKind::number, "kg/m³", between(0.001, 100), "",
+              "Density of the air; 1.225 at 15 °C and sea level (ISO 2533).", 1,
+              Number([](Design& d) -> double& { return d.flight.air_density; })},
+    SpecField{"/flight/gravity_m_s2", FieldKind::number, "m/s²", between(0.1, 100), "9.80665",
+              "Acceleration of gravity.", 1,
+              Number([](Design& d) -> double& { return d.flight.gravity; })},
+    SpecField{"/requirements/thrust_headroom", FieldKind::number, "", between(1, 100), "2.0",
+              "Thrust that the available power makes over the thrust needed, at least.", 1,
+              Number([](Design& d) -> double& { return d.requirements.thrust_headroom; })},
+    SpecField{"/requirements/headroom_at", FieldKind::condition, "", any_number, "\"hover\"",
+              "Flight condition in which the headroom is demanded.", 1,
+              static_cast<Condition& (*)(Design&)>(
+                  [](Design& d) -> Condition& { return d.requirements.headroom_at; })},
+    SpecField{"/requirements/power_at", FieldKind::condition, "", any_number, "\"forward\"",
+              "Flight condition in which the power is minimised.", 1,
+              static_cast<Condition& (*)(Design&)>(
+                  [](Design& d) -> Condition& { return d.requirements.power_at; })},
+    SpecField{"/requirements/max_pitch_deg", FieldKind::number, "°", inside(0, 90), "45",
+              "Largest tilt of the drone.", unit::degree,
+              Number([](Design& d) -> double& { return d.requirements.max_pitch; })},
+    SpecField{"/requirements/buffer_battery", FieldKind::boolean, "", any_number, "false",
+              "A battery on board covers peaks of thrust: headroom is reported, not enforced.", 1,
+              static_cast<bool& (*)(Design&)>(
+                  [](Design& d) -> bool& { return d.requirements.buffer_battery; })},
+};
+
+const SpecField id_field{"/id", FieldKind::text, "", any_number, "\"\"", "Name in the library."};
+const SpecField name_field{"/name",    FieldKind::text, "",
+                           any_number, "\"\"",          "What reports call it."};
+const SpecField source_field{"/source",  FieldKind::text, "",
+                             any_number, "\"\"",          "Where the numbers come from."};
+const SpecField density_field{"/density_g_cm3",
+                              FieldKind::number,
+                              "g/cm³",
+                              between(0.01, 30),
+                              "",
+                              "Density.",
+                              unit::gram_per_cubic_centimetre};
+
+const std::array all_motor_fields{
+    id_field,
+    name_field,
+    source_field,
+    SpecField{"/voltage_V", FieldKind::optional_number, "V", above(0, 1000), "null",
+              "Voltage at which it was measured."},
+    SpecField{"/propeller_in", FieldKind::optional_number, "inch", above(0, 200), "null",
+              "Diameter of the propeller."},
+    SpecField{"/points", FieldKind::motor_points, "", any_number, "",
+              "Measured points of one motor with its propeller, two at least."}};
+
+const std::array all_motor_point_fields{
+    SpecField{"/throttle_percent", FieldKind::optional_number, "%", between(0, 100), "null",
+              "Throttle; not used."},
+    SpecField{"/thrust_g", FieldKind::number, "gram-force", above(0, 1e6), "", "Static thrust.",
+              unit::gram_force},
+    SpecField{"/efficiency_g_per_W", FieldKind::optional_number, "gram-force/W", between(1e-3, 1e4),
+              "null", "Thrust over electrical power; this or power_W."},
+    SpecField{"/power_W", FieldKind::optional_number, "W", above(0, 1e6), "null",
+              "Electrical input power; this or efficiency_g_per_W."}};
+
+const std::array all_conductor_fields{
+    id_field, name_field, source_field,
+    SpecField{"/resistivity_20C_ohm_mm2_per_m", FieldKind::number, "Ω·mm²/m", between(1e-3, 10), "",
+              "Resistivity at 20 °C.", unit::ohm_square_millimetre_per_metre},
+    // With the temperatures allowed above, the resistivity stays positive.
+    SpecField{"/temperature_coefficient_per_K", FieldKind::number, "1/K", between(0, 0.01), "",
+              "Temperature coefficient of the resistivity, relative to 20 °C."},
+    density_field};
+
+const std::array all_insulation_fields{id_field, name_field, source_field, density_field};
+
+const std::array all_efficiency_point_fields{
+    SpecField{"/output_W", FieldKind::number, "W", between(0, 1e6), "", "Output power."},
+    SpecField{"/efficiency", FieldKind::number, "", positive_fraction, "",
+              "Efficiency at that output power."}};
+
+std::string_view last_part(std::string_view path, char separator) {
+  return path.substr(path.rfind(separator) + 1);
+}
+
+}  // namespace
+
+bool FieldRange::contains(double value) const {
+  return (min_excluded ? value > min : value >= min) && (max_excluded ? value < max : value <= max);
+}
+
+std::span<const SpecField> spec_fields() { return all_spec_fields; }
+std::span<const SpecField> motor_fields() { return all_motor_fields; }
+std::span<const SpecField> motor_point_fields() { return all_motor_point_fields; }
+std::span<const SpecField> conductor_fields() { return all_conductor_fields; }
+std::span<const SpecField> insulation_fields() { return all_insulation_fields; }
+std::span<const SpecField> efficiency_point_fields() { return all_efficiency_point_fields; }
+
+std::string dot_path(std::string_view pointer) {
+  std::string path(pointer.substr(pointer.starts_with('/') ? 1 : 0));
+  for (char& c : path) {
+    if (c == '/') c = '.';
+  }
+  return path;
+}
+
+const SpecField* find_field(std::string_view path) {
+  const std::string wanted = dot_path(path);
+  for (const SpecField& field : all_spec_fields) {
+    if (dot_path(field.pointer) == wanted) return &field;
+  }
+  return nullptr;
+}
+
+std::optional<std::string> closest_field_path(std::string_view path) {
+  const std::string wanted = dot_path(path);
+  std::vector<std::string> paths;
+  std::vector<std::string> keys;
+  for (const SpecField& field : all_spec_fields) {
+    paths.push_back(dot_path(field.pointer));
+    keys.emplace_back(last_part(field.pointer, '/'));
+  }
+  // "supply.length_m": the key decides where it is a known one, whatever stands before it.
+  const std::string_view key = last_part(wanted, '.');
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i] == key) return paths[i];
+  }
+  if (const auto near_path = closest_name(wanted, paths)) return near_path;
+  const auto near_key = closest_name(key, keys);
+  for (std::size_t i = 0; near_key && i < keys.size(); ++i) {
+    if (keys[i] == *near_key) return paths[i];
+  }
+  return std::nullopt;
+}
+
+std::string describe_range(const SpecField& field) {
+  const FieldRange& range = field.range;
+  std::string text;
+  if (std::isfinite(range.min)) {
+    text = fmt::format("{} {}", range.min_excluded ? "above" : "at least", range.min);
+  }
+  if (std::isfinite(range.max)) {
+    if (!text.empty()) text += " and ";
+    text += fmt::format("{} {}", range.max_excluded ? "below" : "at most", range.max);
+  }
+  if (!field.unit.empty()) text += fmt::format(" {}", field.unit);
+  return text;
+}
+
+bool is_numeric(const SpecField& field) {
+  return !std::holds_alternative<std::monostate>(field.access) &&
+         (field.kind == FieldKind::number || field.kind == FieldKind::optional_number ||
+          field.kind == FieldKind::integer || field.kind == FieldKind::efficiency);
+}
+
+void set_field(Design& design, const SpecField& field, double value) {
+  const std::string path = dot_path(field.pointer);
+  if (!is_numeric(field)) throw std::invalid_argument(path + " takes no number");
+  if (!field.range.contains(value)) {
+    throw std::invalid_argument(
+        fmt::format("{} = {} is not allowed: it must be {}", path, value, describe_range(field)));
+  }
+  const double si = value * field.si_factor;
+  if (const auto* number = std::get_if<double& (*)(Design&)>(&field.access)) {
+    (*number)(design) = si;
+  } else if (const auto* optional =
+                 std::get_if<std::optional<double>& (*)(Design&)>(&field.access)) {
+    (*optional)(design) = si;
+  } else if (const auto* integer = std::get_if<int& (*)(Design&)>(&field.access)) {
+    if (value != std::floor(value)) {
+      throw std::invalid_argument(
+          fmt::format("{} = {} is not allowed: it must be a whole number", path, value));
+    }
+    (*integer)(design) = static_cast<int>(value);
+  } else if (const auto* converter = std::get_if<Converter& (*)(Design&)>(&field.access)) {
+    (*converter)(design).efficiency = {{0.0, value}};
+  }
+}
+
+std::optional<double> field_value(const Design& design, const SpecField& field) {
+  if (!is_numeric(field)) return std::nullopt;
+  Design copy = design;  // the table's accessors lend for writing
+  if (const auto* number = std::get_if<double& (*)(Design&)>(&field.access)) {
+    return (*number)(copy) / field.si_factor;
+  }
+  if (const auto* optional = std::get_if<std::optional<double>& (*)(Design&)>(&field.access)) {
+    const std::optional<double> value = (*optional)(copy);
+    return value ? std::optional(*value / field.si_factor) : std::nullopt;
+  }
+  if (const auto* integer = std::get_if<int& (*)(Design&)>(&field.access)) {
+    return static_cast<double>((*integer)(copy));
+  }
+  const auto& curve = std::get<Converter& (*)(Design&)>(field.access)(copy).efficiency;
+  return curve.size() == 1 ? std::optional(curve.front().efficiency) : std::nullopt;
+}
+
+std::vector<FieldConflict> find_conflicts(const Design& design) {
+  std::vector<FieldConflict> conflicts;
+  const Converter& converter = design.supply.converter;
+  if (converter.min_input_voltage >= design.supply.voltage) {
+    conflicts.push_back(
+        {"/supply/converter/min_input_voltage_V",
+         fmt::format(
+             "the converter cuts off below {} V, but the supply gives only {} V; the supply "
+             "voltage must be the higher one",
+             converter.min_input_voltage, design.supply.voltage)});
+  }
+  try {
+    validate(converter);
+  } catch (const std::invalid_argument& error) {
+    conflicts.push_back({"/supply/converter/efficiency", error.what()});
+  }
+  return conflicts;
+}
+
+}  // namespace tethercalc

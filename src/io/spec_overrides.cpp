@@ -1,0 +1,144 @@
+#include "io/spec_overrides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tethercalc/io/spec_fields.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_at_or_below(std::string_view pointer, std::string_view top) {
+  return pointer.starts_with(top) && (pointer.size() == top.size() || pointer[top.size()] == '/');
+}
+
+std::string pointer_of(std::string_view dotted) {
+  if (dotted.starts_with('/')) return std::string(dotted);
+  std::string pointer = "/" + std::string(dotted);
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  return pointer;
+}
+
+std::span<const SpecField> fields_of_object(FieldKind kind) {
+  switch (kind) {
+    case FieldKind::motor:
+      return motor_fields();
+    case FieldKind::conductor:
+      return conductor_fields();
+    case FieldKind::insulation_material:
+      return insulation_fields();
+    case FieldKind::motor_points:
+      return motor_point_fields();
+    case FieldKind::efficiency:
+      return efficiency_point_fields();
+    default:
+      return {};
+  }
+}
+
+bool is_list(FieldKind kind) {
+  return kind == FieldKind::motor_points || kind == FieldKind::efficiency;
+}
+
+std::string_view without_index(std::string_view rest) {
+  const std::size_t end = std::min(rest.find('/', 1), rest.size());
+  const bool is_index = rest.substr(1, end - 1).find_first_not_of("0123456789") == rest.npos;
+  return is_index ? rest.substr(end) : rest;
+}
+
+/// True where some spec may have a value at `pointer`.
+bool may_exist(std::string_view pointer, std::span<const SpecField> fields) {
+  return std::any_of(fields.begin(), fields.end(), [&](const SpecField& field) {
+    if (is_at_or_below(field.pointer, pointer)) return true;
+    if (!is_at_or_below(pointer, field.pointer)) return false;
+    std::string_view rest = pointer.substr(field.pointer.size());
+    if (is_list(field.kind)) rest = without_index(rest);
+    return rest.empty() || may_exist(rest, fields_of_object(field.kind));
+  });
+}
+
+std::vector<std::string> keys_of(std::string_view pointer) {
+  std::vector<std::string> keys;
+  while (!pointer.empty()) {
+    pointer.remove_prefix(1);
+    const std::size_t end = std::min(pointer.find('/'), pointer.size());
+    keys.emplace_back(pointer.substr(0, end));
+    pointer.remove_prefix(end);
+  }
+  return keys;
+}
+
+/// The value at `key` of `parent`, made where an object lacks it; null where there can be none.
+Json* member_of(Json& parent, const std::string& key) {
+  if (parent.is_object()) return &parent[key];
+  if (!parent.is_array()) return nullptr;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  const bool usable = error == std::errc() && end == key.data() + key.size();
+  return usable && index < parent.size() ? &parent[index] : nullptr;
+}
+
+/// JSON, or else a text as it stands.
+Json value_of(std::string_view text) {
+  Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  return value.is_discarded() ? Json(std::string(text)) : value;
+}
+
+void forget_lines(JsonDocument& document, std::string_view pointer) {
+  std::erase_if(document.lines,
+                [&](const auto& line) { return is_at_or_below(line.first, pointer); });
+  std::erase_if(document.options,
+                [&](const auto& option) { return is_at_or_below(option.first, pointer); });
+}
+
+void apply_override(JsonDocument& document, const std::string& override_text, Problems& problems) {
+  const std::string option = "--set " + override_text;
+  const std::size_t equals = override_text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    problems.add(option, "expected path=value, such as supply.voltage_V=60");
+    return;
+  }
+  const std::string path = override_text.substr(0, equals);
+  const std::string pointer = pointer_of(path);
+  if (!may_exist(pointer, spec_fields())) {
+    const auto closest = closest_field_path(path);
+    problems.add(option, fmt::format("no field {} in a spec{}", shown(path),
+                                     closest ? "; did you mean \"" + *closest + "\"?" : ""));
+    return;
+  }
+  Json* value = &document.root;
+  std::string walked;
+  for (const std::string& key : keys_of(pointer)) {
+    if (value->is_null()) *value = Json::object();
+    Json* member = member_of(*value, key);
+    if (member == nullptr) {
+      const std::string holder = walked.empty() ? "the spec" : dot_path(walked);
+      problems.add(option, fmt::format("there is no {} in {}, which is {}", shown(key), holder,
+                                       type_name(*value)));
+      return;
+    }
+    value = member;
+    walked = child_pointer(walked, key);
+  }
+  *value = value_of(std::string_view(override_text).substr(equals + 1));
+  forget_lines(document, pointer);
+  document.options[pointer] = option;
+}
+
+}  // namespace
+
+void apply_overrides(JsonDocument& document, std::span<const std::string> overrides,
+                     Problems& problems) {
+  for (const std::string& override_text : overrides) {
+    apply_override(document, override_text, problems);
+  }
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "io/embedded_files.hpp"
+#include "tethercalc/io/library.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+namespace {
+
+nlohmann::json size_tables() {
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (file.name == "wire_sizes.json") return nlohmann::json::parse(file.content);
+  }
+  throw std::logic_error("wire_sizes.json is not part of the program");
+}
+
+double awg_area(int gauge) {
+  const double diameter = 0.127 * std::pow(92.0, (36.0 - gauge) / 39.0) * unit::millimetre;
+  return std::numbers::pi / 4 * diameter * diameter;
+}
+
+void add_metric_sizes(std::vector<WireSize>& sizes, const char* standard,
+                      const nlohmann::json& areas_mm2) {
+  for (const double area : areas_mm2) {
+    sizes.push_back({standard, fmt::format("{} mm²", area), area * unit::square_millimetre});
+  }
+}
+
+}  // namespace
+
+std::vector<WireSize> wire_sizes() {
+  const nlohmann::json tables = size_tables();
+  std::vector<WireSize> sizes;
+  const nlohmann::json& awg = tables.at("awg");
+  for (int gauge = awg.at("from"); gauge <= awg.at("to").get<int>(); ++gauge) {
+    sizes.push_back({"AWG", fmt::format("AWG {}", gauge), awg_area(gauge)});
+  }
+  add_metric_sizes(sizes, "IEC 60228", tables.at("iec60228").at("areas_mm2"));
+  add_metric_sizes(sizes, "VDE 0295", tables.at("fine_strand").at("areas_mm2"));
+  std::stable_sort(sizes.begin(), sizes.end(),
+                   [](const WireSize& a, const WireSize& b) { return a.area < b.area; });
+  return sizes;
+}
+
+std::vector<WireNeighbours> wire_sizes_near(double area) {
+  std::vector<WireNeighbours> all{{"AWG", {}, {}}, {"IEC 60228", {}, {}}, {"VDE 0295", {}, {}}};
+  for (const WireSize& size : wire_sizes()) {
+    for (WireNeighbours& neighbours : all) {
+      if (neighbours.standard != size.standard) continue;
+      if (size.area <= area) neighbours.below = size;
+      if (size.area >= area && !neighbours.above) neighbours.above = size;
+    }
+  }
+  return all;
+}
+
+}  // namespace tethercalc
