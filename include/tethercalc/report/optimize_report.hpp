@@ -1,0 +1,86 @@
+// The answer of `optimize` for people, programs and spreadsheets, and those of its sisters
+// `evaluate` and `compare`.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/io/library.hpp"
+#include "tethercalc/report/text_table.hpp"
+#include "tethercalc/solve/headroom.hpp"
+#include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/solve/remedies.hpp"
+
+namespace tethercalc {
+
+/// One cross-section in both flight conditions.
+struct AreaPoints {
+  double area = 0;  ///< m²
+  OperatingPoint hover;
+  OperatingPoint forward;
+};
+
+/// A conductor that can be bought, or the one the spec names.
+struct SizePoints {
+  std::string name;  ///< "AWG 17"
+  AreaPoints points;
+};
+
+/// Everything `optimize` says about a design.
+struct OptimizeStudy {
+  DesignFile file;
+  Optimization result;
+  BestHeadroom best_headroom;     ///< at `requirements.headroom_at`
+  std::vector<SizePoints> sizes;  ///< neighbours of the optimum in each standard, by rising area
+  std::vector<AreaPoints> table;  ///< by rising area; holds optimum, minimum and feasible edges
+  std::vector<Remedy> remedies;   ///< for an infeasible design
+};
+
+/// Optimises the design and evaluates what is told beside the optimum.
+[[nodiscard]] OptimizeStudy study(DesignFile file);
+
+/// Both conditions at each of `areas` (m², > 0).
+[[nodiscard]] std::vector<AreaPoints> evaluate_areas(const Design& design,
+                                                     std::span<const double> areas);
+
+/// Why a point cannot be used in this design, in words; empty where it can.
+[[nodiscard]] std::string shortcoming(const Design& design, const AreaPoints& points);
+
+/// Opens with the answer in sentences, then standard sizes and the power table; 100 columns at
+/// most.
+[[nodiscard]] std::string optimize_text(const OptimizeStudy& study, const TextStyle& style);
+[[nodiscard]] nlohmann::ordered_json optimize_json(const OptimizeStudy& study);
+
+/// A header and one row: status, limit, area, and both operating points.
+[[nodiscard]] std::string optimize_csv(const OptimizeStudy& study);
+
+[[nodiscard]] std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
+                                        const TextStyle& style);
+[[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
+                                                   std::span<const AreaPoints> table);
+/// A header and two rows an area, hover first.
+[[nodiscard]] std::string evaluate_csv(std::span<const AreaPoints> table);
+
+/// One motor's best tether.
+struct MotorOptimum {
+  MotorEntry motor;
+  Design design;
+  Optimization result;
+  BestHeadroom best_headroom;
+};
+
+/// The design with each of `motors` in turn, feasible ones first by rising power, infeasible ones
+/// last by falling best headroom.
+[[nodiscard]] std::vector<MotorOptimum> compare_motors(const Design& design,
+                                                       std::vector<MotorEntry> motors);
+[[nodiscard]] std::string compare_text(const DesignFile& file,
+                                       std::span<const MotorOptimum> ranking,
+                                       const TextStyle& style);
+[[nodiscard]] nlohmann::ordered_json compare_json(const DesignFile& file,
+                                                  std::span<const MotorOptimum> ranking);
+[[nodiscard]] std::string compare_csv(std::span<const MotorOptimum> ranking);
+
+}  // namespace tethercalc

@@ -1,0 +1,61 @@
+// Aligned tables for a terminal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tethercalc {
+
+/// Whether text may carry terminal colours.
+struct TextStyle {
+  bool colour = false;
+
+  [[nodiscard]] std::string bold(const std::string& text) const;
+  [[nodiscard]] std::string good(const std::string& text) const;     ///< green
+  [[nodiscard]] std::string bad(const std::string& text) const;      ///< red
+  [[nodiscard]] std::string subdued(const std::string& text) const;  ///< grey
+};
+
+/// Rows of cells under a header. Columns are as wide as their widest cell; numbers belong on the
+/// right, words on the left.
+class TextTable {
+ public:
+  enum class Align { left, right };
+  struct Column {
+    std::string title;
+    Align align = Align::right;
+  };
+
+  explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+  /// Adds a row; missing cells at its end are empty. `emphasis` prints it bold where colours are
+  /// allowed.
+  void add(std::vector<std::string> cells, bool emphasis = false);
+
+  /// The whole table, each line indented by two spaces and ended by a newline.
+  [[nodiscard]] std::string text(const TextStyle& style = {}) const;
+
+ private:
+  struct Row {
+    std::vector<std::string> cells;
+    bool emphasis = false;
+  };
+  std::vector<Column> columns_;
+  std::vector<Row> rows_;
+};
+
+/// `value` with `decimals` places; a dash where it does not exist (NaN or infinite).
+[[nodiscard]] std::string fixed(double value, int decimals);
+
+/// `value` with at least `digits` significant digits and never an exponent: 0.01234, 1.089, 405.4;
+/// a dash where it does not exist.
+[[nodiscard]] std::string significant(double value, int digits);
+
+/// Number of columns `text` takes on a terminal: UTF-8 characters, not bytes.
+[[nodiscard]] std::size_t display_width(const std::string& text);
+
+/// Breaks `text` at spaces into lines of at most `width` columns, each after `indent`.
+[[nodiscard]] std::string wrapped(const std::string& text, std::size_t width = 96,
+                                  const std::string& indent = "");
+
+}  // namespace tethercalc

@@ -1,0 +1,116 @@
+#include "tethercalc/report/limit_sentences.hpp"
+
+#include <fmt/format.h>
+
+#include "tethercalc/report/text_table.hpp"
+
+namespace tethercalc {
+namespace {
+
+double square_millimetres(double area) { return area / unit::square_millimetre; }
+
+/// The headroom demanded in the limiting condition.
+double demanded_headroom(const Design& design, Condition condition) {
+  const Requirements& need = design.requirements;
+  return condition == need.headroom_at && !need.buffer_battery ? need.thrust_headroom : 1;
+}
+
+std::string headroom_words(double headroom) {
+  return headroom > 1 ? fmt::format("a thrust headroom of {}", significant(headroom, 3))
+                      : std::string("level flight");
+}
+
+}  // namespace
+
+std::string condition_words(Condition condition) {
+  return condition == Condition::hover ? "hover" : "forward flight";
+}
+
+std::string limit_sentence(const Design& design, const Optimization& result) {
+  const std::string where = condition_words(result.limiting_condition);
+  const std::string demand =
+      headroom_words(demanded_headroom(design, result.limiting_condition)) + " in " + where;
+  std::string sentence;
+  switch (result.limited_by) {
+    case Limit::minimum_power:
+      return fmt::format("Nothing limits it: this cross-section draws the least power in {}.",
+                         where);
+    case Limit::available_power:
+      sentence = fmt::format(
+          "Limited by the power that reaches the drone: any thinner, and it does not suffice for "
+          "{}.",
+          demand);
+      break;
+    case Limit::takeoff_mass:
+      sentence = fmt::format("Limited by weight: any thicker, and the tether is too heavy for {}.",
+                             demand);
+      break;
+    case Limit::max_pitch:
+      sentence = fmt::format("Limited by the tilt: {} degrees in {} is the most allowed.",
+                             significant(design.requirements.max_pitch / unit::degree, 3), where);
+      break;
+    case Limit::motor_thrust:
+      sentence = fmt::format("Limited by the motors: they make no more thrust for {}.", demand);
+      break;
+  }
+  const MinimumPower& least = result.minimum_power;
+  if (least.power > 0) {
+    sentence += fmt::format(" Power alone would ask for {} mm² ({} W in {}).",
+                            significant(square_millimetres(least.area), 4), fixed(least.power, 1),
+                            condition_words(design.requirements.power_at));
+  }
+  return sentence;
+}
+
+std::string infeasible_words(const Design& design, const Optimization& result) {
+  const Condition where = result.limiting_condition;
+  const BestHeadroom best = best_headroom(SteadyFlight(design, where));
+  const double demanded = demanded_headroom(design, where);
+  switch (result.limited_by) {
+    case Limit::max_pitch:
+      return fmt::format("tilt above {}° in {}",
+                         significant(design.requirements.max_pitch / unit::degree, 3),
+                         condition_words(where));
+    case Limit::motor_thrust:
+      return fmt::format("motors too weak: headroom {} of {} in {}", fixed(best.value, 2),
+                         fixed(demanded, 2), condition_words(where));
+    default:
+      return best.value >= demanded
+                 ? std::string("no area meets all demands at once")
+                 : fmt::format("too little power: headroom {} of {} in {}", fixed(best.value, 2),
+                               fixed(demanded, 2), condition_words(where));
+  }
+}
+
+std::string infeasible_sentence(const Design& design, const Optimization& result) {
+  const Condition where = result.limiting_condition;
+  const BestHeadroom best = best_headroom(SteadyFlight(design, where));
+  const double demanded = demanded_headroom(design, where);
+  const std::string demand = headroom_words(demanded) + " in " + condition_words(where);
+  if (result.limited_by == Limit::max_pitch && !(best.value > 0)) {
+    return fmt::format(
+        "No cross-section works: holding {} m/s in {} takes more tilt than the {} degrees allowed.",
+        significant(airspeed(design, where), 3), condition_words(where),
+        significant(design.requirements.max_pitch / unit::degree, 3));
+  }
+  if (!(best.value > 0)) {
+    return fmt::format(
+        "No cross-section works: no power is left for the motors in {}, whatever the tether.",
+        condition_words(where));
+  }
+  if (best.value >= demanded) {
+    return "No cross-section works: each demand can be met by some, but none meets all of them.";
+  }
+  const char* reason = result.limited_by == Limit::motor_thrust
+                           ? "where the motors are at the end of their data sheet: a thicker "
+                             "conductor would only weigh more"
+                       : result.limited_by == Limit::max_pitch
+                           ? "where the tilt is at its limit"
+                           : "where thinner conductors deliver less power and thicker ones weigh "
+                             "more than they deliver";
+  return fmt::format("No cross-section gives {}. The most is a headroom of {} at {} mm², {}.",
+                     demand, significant(best.value, 3),
+                     significant(square_millimetres(best.area), 4), reason);
+}
+
+}  // namespace tethercalc

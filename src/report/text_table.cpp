@@ -1,0 +1,89 @@
+#include "tethercalc/report/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tethercalc {
+namespace {
+
+std::string in_colour(bool colour, const char* code, const std::string& text) {
+  return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
+}
+
+}  // namespace
+
+std::string TextStyle::bold(const std::string& text) const { return in_colour(colour, "1", text); }
+std::string TextStyle::good(const std::string& text) const { return in_colour(colour, "32", text); }
+std::string TextStyle::bad(const std::string& text) const { return in_colour(colour, "31", text); }
+std::string TextStyle::subdued(const std::string& text) const {
+  return in_colour(colour, "90", text);
+}
+
+void TextTable::add(std::vector<std::string> cells, bool emphasis) {
+  cells.resize(columns_.size());
+  rows_.push_back({std::move(cells), emphasis});
+}
+
+std::string TextTable::text(const TextStyle& style) const {
+  std::vector<std::size_t> widths;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    std::size_t width = display_width(columns_[c].title);
+    for (const Row& row : rows_) width = std::max(width, display_width(row.cells[c]));
+    widths.push_back(width);
+  }
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string out = "  ";
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (c > 0) out += "  ";
+      const std::string padding(widths[c] - display_width(cells[c]), ' ');
+      out += columns_[c].align == Align::right ? padding + cells[c] : cells[c] + padding;
+    }
+    out.erase(out.find_last_not_of(' ') + 1);
+    return out;
+  };
+  std::vector<std::string> titles;
+  for (const Column& column : columns_) titles.push_back(column.title);
+  std::string out = style.subdued(line(titles)) + "\n";
+  for (const Row& row : rows_) {
+    out += (row.emphasis ? style.bold(line(row.cells)) : line(row.cells)) + "\n";
+  }
+  return out;
+}
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
+}
+
+std::string significant(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  if (value == 0) return "0";
+  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  return fixed(value, std::max(0, digits - magnitude));
+}
+
+std::size_t display_width(const std::string& text) {
+  // Bytes 10xxxxxx continue a character.
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string wrapped(const std::string& text, std::size_t width, const std::string& indent) {
+  std::istringstream words(text);
+  std::string out;
+  std::string line = indent;
+  for (std::string word; words >> word;) {
+    const bool first = line.size() == indent.size();
+    if (!first && display_width(line) + 1 + display_width(word) > width) {
+      out += line + "\n";
+      line = indent + word;
+    } else {
+      line += (first ? "" : " ") + word;
+    }
+  }
+  return out + line + "\n";
+}
+
+}  // namespace tethercalc
