@@ -1,0 +1,100 @@
+#include "tethercalc/solve/remedies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tethercalc/solve/optimize.hpp"
+
+namespace tethercalc {
+namespace {
+
+double& quantity_of(Design& design, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::supply_voltage: return design.supply.voltage;
+    case Quantity::drone_mass: return design.drone.mass;
+    case Quantity::tether_length: return design.tether.length;
+    case Quantity::airspeed: break;
+  }
+  return design.flight.airspeed;
+}
+
+double bound_of(Quantity quantity, double present) {
+  return quantity == Quantity::supply_voltage ? highest_remedy_voltage
+                                              : present * smallest_remedy_fraction;
+}
+
+bool feasible_at(const Design& design, Quantity quantity, double value) {
+  return optimize(remedied(design, {quantity, value})).feasible;
+}
+
+/// `value` to `digits` significant digits, up or down.
+double rounded(double value, int digits, bool up) {
+  const double decimals = digits - 1 - std::floor(std::log10(value));
+  // Divided by a power of ten rather than multiplied by its reciprocal, the result is the decimal
+  // number's nearest double wherever that power is exact.
+  const double power = std::pow(10.0, std::abs(decimals));
+  const double scaled = decimals < 0 ? value / power : value * power;
+  const double whole = up ? std::ceil(scaled) : std::floor(scaled);
+  return decimals < 0 ? whole * power : whole / power;
+}
+
+/// The feasible `value`, moved away from the present one to as few digits as it stays feasible with.
+double rounded_feasible(const Design& design, Quantity quantity, double value, double bound) {
+  const bool up = bound > value;
+  for (int digits = 3; digits < 15; ++digits) {
+    const double candidate = rounded(value, digits, up);
+    const bool within = up ? candidate <= bound : candidate >= bound;
+    if (within && feasible_at(design, quantity, candidate)) return candidate;
+  }
+  return value;
+}
+
+/// The feasible value closest to `present` on its way to `bound`.
+std::optional<double> threshold(const Design& design, Quantity quantity, double present,
+                                double bound) {
+  const double ratio = bound / present;
+  const double stride = std::log(1.02);
+  const int steps = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / stride));
+  double infeasible = present;
+  for (int step = 1; step <= steps; ++step) {
+    double value = step == steps ? bound : present * std::pow(ratio, double(step) / steps);
+    if (!feasible_at(design, quantity, value)) {
+      infeasible = value;
+      continue;
+    }
+    // A thousandth of the last of the digits that are shown.
+    while (std::abs(value - infeasible) > 1e-6 * value) {
+      const double middle = 0.5 * (value + infeasible);
+      (feasible_at(design, quantity, middle) ? value : infeasible) = middle;
+    }
+    return value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Design remedied(Design design, const Remedy& remedy) {
+  quantity_of(design, remedy.quantity) = remedy.value;
+  return design;
+}
+
+std::vector<Remedy> remedies(const Design& design) {
+  std::vector<Remedy> found;
+  if (optimize(design).feasible) return found;
+  for (const Quantity quantity : {Quantity::supply_voltage, Quantity::drone_mass,
+                                  Quantity::tether_length, Quantity::airspeed}) {
+    Design copy = design;
+    const double present = quantity_of(copy, quantity);
+    const double bound = bound_of(quantity, present);
+    const bool room = quantity == Quantity::supply_voltage ? bound > present : bound < present;
+    if (!room) continue;
+    if (const auto value = threshold(design, quantity, present, bound)) {
+      found.push_back({quantity, rounded_feasible(design, quantity, *value, bound)});
+    }
+  }
+  return found;
+}
+
+}  // namespace tethercalc
