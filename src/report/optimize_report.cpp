@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 #include "tethercalc/report/operating_point_fields.hpp"
@@ -246,10 +247,6 @@ ordered_json optimum_json(const Optimization& result) {
       {"forward", result.feasible ? operating_point_json(result.forward) : ordered_json(nullptr)}};
 }
 
-std::string csv_number(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
-}
-
 std::string csv_keys(const std::string& prefix) {
   std::string out;
   for (const OperatingPointField& field : operating_point_fields()) {
@@ -279,14 +276,6 @@ std::string csv_row(const Optimization& result) {
   row += result.feasible ? csv_values(result.hover) + csv_values(result.forward)
                          : std::string(empty_cells, ',');
   return row + "\n";
-}
-
-/// A text as one CSV cell (RFC 4180).
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 std::string warnings_text(const DesignFile& file, const TextStyle& style) {

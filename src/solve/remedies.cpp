@@ -11,10 +11,14 @@ namespace {
 
 double& quantity_of(Design& design, Quantity quantity) {
   switch (quantity) {
-    case Quantity::supply_voltage: return design.supply.voltage;
-    case Quantity::drone_mass: return design.drone.mass;
-    case Quantity::tether_length: return design.tether.length;
-    case Quantity::airspeed: break;
+    case Quantity::supply_voltage:
+      return design.supply.voltage;
+    case Quantity::drone_mass:
+      return design.drone.mass;
+    case Quantity::tether_length:
+      return design.tether.length;
+    case Quantity::airspeed:
+      break;
   }
   return design.flight.airspeed;
 }
@@ -39,7 +43,8 @@ double rounded(double value, int digits, bool up) {
   return decimals < 0 ? whole * power : whole / power;
 }
 
-/// The feasible `value`, moved away from the present one to as few digits as it stays feasible with.
+/// The feasible `value`, moved away from the present one to as few digits as it stays feasible
+/// with.
 double rounded_feasible(const Design& design, Quantity quantity, double value, double bound) {
   const bool up = bound > value;
   for (int digits = 3; digits < 15; ++digits) {

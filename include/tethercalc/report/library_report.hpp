@@ -1,0 +1,29 @@
+// The library's contents as tables.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tethercalc/report/text_table.hpp"
+
+namespace tethercalc {
+
+/// A table of texts and numbers; keys of numbers end in their unit.
+struct LibraryListing {
+  using Cell = std::variant<std::string, double>;  ///< a NaN is a number nobody stated
+  std::vector<std::string> keys;
+  std::vector<std::vector<Cell>> rows;
+};
+
+/// What the library holds of `what`: "motors", "conductors", "insulation" or "sizes". Throws
+/// InputError for anything else.
+[[nodiscard]] LibraryListing list_library(const std::string& what);
+
+/// Numbers with the digits that distinguish them; sources below the table, one an entry.
+[[nodiscard]] std::string listing_text(const LibraryListing& listing, const TextStyle& style);
+[[nodiscard]] nlohmann::ordered_json listing_json(const LibraryListing& listing);
+[[nodiscard]] std::string listing_csv(const LibraryListing& listing);
+
+}  // namespace tethercalc

@@ -1,0 +1,210 @@
+// The only file that sees CLI11, which takes long to compile.
+
+#include "cli/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "cli/design_commands.hpp"
+#include "cli/output.hpp"
+#include "io/closest_name.hpp"
+#include "tethercalc/io/input_error.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+/// What a command runs once its arguments are parsed.
+using Action = std::function<int()>;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+  throw InputError({{where, message}});
+}
+
+Format parse_format(const std::string& text) {
+  static const std::map<std::string, Format> formats{
+      {"table", Format::table}, {"json", Format::json}, {"csv", Format::csv}};
+  const auto found = formats.find(text);
+  if (found != formats.end()) return found->second;
+  const std::vector<std::string> names{"table", "json", "csv"};
+  refuse("--format", "\"" + text + "\" is not a format; allowed are table, json and csv" +
+                         did_you_mean(text, names));
+}
+
+/// Adds --format and --output.
+void add_output(CLI::App& command, Output& output) {
+  command.add_option_function<std::string>(
+      "--format", [&output](const std::string& text) { output.format = parse_format(text); },
+      "table, json or csv");
+  command.add_option("--output", output.file, "Write to this file, whole or not at all");
+}
+
+void add_spec(CLI::App& command, SpecOptions& spec) {
+  command.add_option("SPEC", spec.file, "Design spec (JSON), - for standard input")->required();
+  command
+      .add_option("--set", spec.overrides,
+                  "Change a field of the spec: path=value, such as supply.voltage_V=60; repeatable")
+      ->allow_extra_args(false);
+}
+
+std::vector<double> parse_areas(const std::vector<std::string>& texts) {
+  std::vector<double> areas;
+  for (const std::string& text : texts) {
+    char* end = nullptr;
+    const double area = std::strtod(text.c_str(), &end);
+    // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
+    if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
+      refuse("--area-mm2", "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²");
+    }
+    areas.push_back(area);
+  }
+  return areas;
+}
+
+/// The commands and their options. Kept alive until the chosen action has run.
+class CommandLine {
+ public:
+  CommandLine() : app_("Design calculator for drones powered through a tether.", "tethercalc") {
+    app_.set_version_flag("--version", std::string("tethercalc ") + TETHERCALC_VERSION);
+    app_.require_subcommand(1);
+    add_optimize();
+    add_evaluate();
+    add_compare();
+    add_validate();
+    add_schema();
+    add_init();
+    add_list();
+    app_.footer("Exit codes: 0 done; 1 the honest answer is no; 2 bad input; 3 internal error.");
+  }
+
+  int run(int argc, const char* const* argv) {
+    check_command(argc, argv);
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+      return app_.exit(help);
+    } catch (const CLI::ParseError& error) {
+      const auto chosen = app_.get_subcommands();
+      const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
+      refuse("tethercalc" + name,
+             std::string(error.what()) + "; see tethercalc" + name + " --help");
+    }
+    const CLI::App* command = app_.get_subcommands().front();
+    check_extras(*command);
+    return actions_.at(command->get_name())();
+  }
+
+ private:
+  CLI::App& add(const std::string& name, const std::string& help, Action action) {
+    CLI::App& command = *app_.add_subcommand(name, help);
+    command.allow_extras();  // told with the closest known option in check_extras
+    actions_[name] = std::move(action);
+    return command;
+  }
+
+  void add_optimize() {
+    CLI::App& command = add("optimize", "Which conductor cross-section to fly, and what limits it",
+                            [this] { return run_optimize(spec_, output_); });
+    add_spec(command, spec_);
+    add_output(command, output_);
+  }
+
+  void add_evaluate() {
+    CLI::App& command = add(
+        "evaluate", "Operating points in hover and forward flight at given cross-sections", [this] {
+          return run_evaluate({spec_, parse_areas(areas_)}, output_);
+        });
+    add_spec(command, spec_);
+    command.add_option("--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_output(command, output_);
+  }
+
+  void add_compare() {
+    CLI::App& command = add("compare", "One optimum a motor, the most economical first", [this] {
+      return run_compare({spec_, motors_}, output_);
+    });
+    add_spec(command, spec_);
+    command
+        .add_option("--motors", motors_,
+                    "all, or names of the library and files, separated by commas (default: all)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_output(command, output_);
+  }
+
+  void add_validate() {
+    CLI::App& command = add("validate", "Check specs without computing anything",
+                            [this] { return run_validate(files_, spec_.overrides, output_); });
+    command.add_option("SPEC", files_, "Design specs (JSON), - for standard input")->required();
+    command.add_option("--set", spec_.overrides, "Change a field first: path=value; repeatable")
+        ->allow_extra_args(false);
+    add_output(command, output_);
+  }
+
+  void add_schema() {
+    CLI::App& command = add("schema", "The JSON Schema of design specs, for editors",
+                            [this] { return run_schema(output_); });
+    command.add_option("--output", output_.file, "Write to this file, whole or not at all");
+  }
+
+  void add_init() {
+    CLI::App& command =
+        add("init", "A starting spec to edit", [this] { return run_init(output_); });
+    command.add_option("--output", output_.file, "Write to this file, whole or not at all");
+  }
+
+  void add_list() {
+    CLI::App& command = add("list", "The library: motors, conductors, insulation or sizes",
+                            [this] { return run_list(what_, output_); });
+    command.add_option("WHAT", what_, "motors, conductors, insulation or sizes")->required();
+    add_output(command, output_);
+  }
+
+  /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
+  void check_command(int argc, const char* const* argv) const {
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> names;
+    for (const auto& [name, action] : actions_) names.push_back(name);
+    const std::string given = argv[1];
+    if (actions_.count(given) == 0) {
+      refuse("tethercalc", "there is no command \"" + given + "\"" + did_you_mean(given, names) +
+                               "; see tethercalc --help");
+    }
+  }
+
+  static void check_extras(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    std::vector<InputProblem> problems;
+    for (const std::string& extra : command.remaining()) {
+      const std::string given = extra.substr(0, extra.find('='));
+      problems.push_back({"tethercalc " + command.get_name(),
+                          given.starts_with("-")
+                              ? "there is no option " + given + did_you_mean(given, names)
+                              : "\"" + extra + "\" is one argument too many"});
+    }
+    if (!problems.empty()) throw InputError(std::move(problems));
+  }
+
+  CLI::App app_;
+  std::map<std::string, Action> actions_;
+  Output output_;
+  SpecOptions spec_;
+  std::vector<std::string> areas_;
+  std::vector<std::string> motors_{"all"};
+  std::vector<std::string> files_;
+  std::string what_;
+};
+
+}  // namespace
+
+int run(int argc, const char* const* argv) { return CommandLine().run(argc, argv); }
+
+}  // namespace tethercalc::cli

@@ -1,0 +1,142 @@
+#include "cli/design_commands.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/report/library_report.hpp"
+#include "tethercalc/report/optimize_report.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+DesignFile read(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
+
+std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
+  std::vector<MotorEntry> motors;
+  std::vector<InputProblem> problems;
+  for (const std::string& name : names) {
+    if (name == "all") {
+      for (MotorEntry& motor : library_motors()) motors.push_back(std::move(motor));
+      continue;
+    }
+    try {
+      motors.push_back(find_motor(name, {}, "--motors"));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return motors;
+}
+
+}  // namespace
+
+int run_optimize(const SpecOptions& spec, const Output& output) {
+  const OptimizeStudy answer = study(read(spec));
+  switch (output.format) {
+    case Format::table:
+      emit(output, optimize_text(answer, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(optimize_json(answer)));
+      break;
+    case Format::csv:
+      emit(output, optimize_csv(answer));
+      break;
+  }
+  return answer.result.feasible ? done : answer_is_no;
+}
+
+int run_evaluate(const EvaluateOptions& options, const Output& output) {
+  const DesignFile file = read(options.spec);
+  std::vector<double> areas;
+  for (const double area : options.areas_mm2) areas.push_back(area * unit::square_millimetre);
+  if (areas.empty()) {
+    if (!file.design.tether.cross_section) {
+      throw InputError(
+          {InputProblem{"--area-mm2", "is needed: the spec sets no tether.cross_section_mm2"}});
+    }
+    areas.push_back(*file.design.tether.cross_section);
+  }
+  const std::vector<AreaPoints> table = evaluate_areas(file.design, areas);
+  switch (output.format) {
+    case Format::table:
+      emit(output, evaluate_text(file, table, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(evaluate_json(file, table)));
+      break;
+    case Format::csv:
+      emit(output, evaluate_csv(table));
+      break;
+  }
+  return done;
+}
+
+int run_compare(const CompareOptions& options, const Output& output) {
+  const DesignFile file = read(options.spec);
+  const std::vector<MotorOptimum> ranking =
+      compare_motors(file.design, chosen_motors(options.motors));
+  switch (output.format) {
+    case Format::table:
+      emit(output, compare_text(file, ranking, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(compare_json(file, ranking)));
+      break;
+    case Format::csv:
+      emit(output, compare_csv(ranking));
+      break;
+  }
+  return !ranking.empty() && ranking.front().result.feasible ? done : answer_is_no;
+}
+
+int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
+                 const Output& output) {
+  std::vector<InputProblem> problems;
+  std::string text;
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const std::string& name : files) {
+    try {
+      const DesignFile file = read_design(name, overrides);
+      text += file.file + ": valid\n";
+      for (const std::string& warning : file.warnings) text += "  Note: " + warning + "\n";
+      json.push_back({{"file", file.file}, {"valid", true}, {"warnings", file.warnings}});
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  emit(output, output.format == Format::json ? json_text(json) : text);
+  return done;
+}
+
+int run_schema(const Output& output) {
+  emit(output, json_text(spec_schema()));
+  return done;
+}
+
+int run_init(const Output& output) {
+  emit(output, starting_spec());
+  return done;
+}
+
+int run_list(const std::string& what, const Output& output) {
+  const LibraryListing listing = list_library(what);
+  switch (output.format) {
+    case Format::table:
+      emit(output, listing_text(listing, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(listing_json(listing)));
+      break;
+    case Format::csv:
+      emit(output, listing_csv(listing));
+      break;
+  }
+  return done;
+}
+
+}  // namespace tethercalc::cli

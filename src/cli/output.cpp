@@ -1,0 +1,35 @@
+#include "cli/output.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <system_error>
+
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/whole_file.hpp"
+
+namespace tethercalc::cli {
+
+TextStyle style_for(const Output& output) {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool wanted = no_color == nullptr || *no_color == '\0';
+  const bool able = terminal != nullptr && std::string_view(terminal) != "dumb";
+  return {output.file.empty() && wanted && able && ::isatty(STDOUT_FILENO) == 1};
+}
+
+void emit(const Output& output, const std::string& text) {
+  if (!output.file.empty()) return write_whole_file(output.file, text);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw InputError(
+        {{"standard output", "cannot be written: " + std::generic_category().message(errno)}});
+  }
+}
+
+std::string json_text(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
+
+}  // namespace tethercalc::cli

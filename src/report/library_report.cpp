@@ -1,0 +1,131 @@
+#include "tethercalc/report/library_report.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/library.hpp"
+#include "tethercalc/model/units.hpp"
+#include "tethercalc/report/csv_cell.hpp"
+#include "tethercalc/report/json_results.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
+
+LibraryListing list_motors() {
+  LibraryListing listing{
+      {"id", "max_thrust_g", "max_power_W", "voltage_V", "propeller_in", "points", "source"}, {}};
+  for (const MotorEntry& motor : library_motors()) {
+    const auto points = static_cast<double>(motor.curve.vertices().size() - 1);
+    listing.rows.push_back({motor.id, motor.curve.max_thrust() / unit::gram_force,
+                            motor.curve.max_power(), motor.voltage_V.value_or(unstated),
+                            motor.propeller_in.value_or(unstated), points, motor.source});
+  }
+  return listing;
+}
+
+LibraryListing list_conductors() {
+  LibraryListing listing{
+      {"id", "resistivity_ohm_mm2_m", "temperature_coefficient_1_K", "density_g_cm3", "source"},
+      {}};
+  for (const ConductorEntry& entry : library_conductors()) {
+    const Conductor& c = entry.conductor;
+    listing.rows.push_back({entry.id, c.resistivity_20C / unit::ohm_square_millimetre_per_metre,
+                            c.temperature_coefficient, c.density / unit::gram_per_cubic_centimetre,
+                            entry.source});
+  }
+  return listing;
+}
+
+LibraryListing list_insulation() {
+  LibraryListing listing{{"id", "density_g_cm3", "source"}, {}};
+  for (const InsulationEntry& entry : library_insulation()) {
+    listing.rows.push_back(
+        {entry.id, entry.density / unit::gram_per_cubic_centimetre, entry.source});
+  }
+  return listing;
+}
+
+LibraryListing list_sizes() {
+  LibraryListing listing{{"name", "standard", "cross_section_mm2"}, {}};
+  for (const WireSize& size : wire_sizes()) {
+    listing.rows.push_back({size.name, size.standard, size.area / unit::square_millimetre});
+  }
+  return listing;
+}
+
+std::string cell_text(const LibraryListing::Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  const double value = std::get<double>(cell);
+  return value == value ? fmt::format("{:.4g}", value) : "–";
+}
+
+}  // namespace
+
+LibraryListing list_library(const std::string& what) {
+  if (what == "motors") return list_motors();
+  if (what == "conductors") return list_conductors();
+  if (what == "insulation") return list_insulation();
+  if (what == "sizes") return list_sizes();
+  throw InputError({{"list", "\"" + what +
+                                 "\" is not something to list; allowed are motors, conductors, "
+                                 "insulation and sizes"}});
+}
+
+std::string listing_text(const LibraryListing& listing, const TextStyle& style) {
+  std::vector<TextTable::Column> columns;
+  const bool sourced = listing.keys.back() == "source";
+  const std::size_t shown = listing.keys.size() - (sourced ? 1 : 0);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool words =
+        !listing.rows.empty() && std::holds_alternative<std::string>(listing.rows.front()[i]);
+    columns.push_back({listing.keys[i], words ? TextTable::Align::left : TextTable::Align::right});
+  }
+  TextTable table(columns);
+  std::string sources;
+  for (const auto& row : listing.rows) {
+    std::vector<std::string> cells;
+    for (std::size_t i = 0; i < shown; ++i) cells.push_back(cell_text(row[i]));
+    table.add(cells);
+    if (sourced) {
+      sources += wrapped(cell_text(row.front()) + ": " + cell_text(row.back()), 98, "  ");
+    }
+  }
+  std::string out = table.text(style);
+  if (sourced) out += "\n" + style.bold("Sources") + "\n" + sources;
+  return out;
+}
+
+nlohmann::ordered_json listing_json(const LibraryListing& listing) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& row : listing.rows) {
+    nlohmann::ordered_json object;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const auto* text = std::get_if<std::string>(&row[i]);
+      object[listing.keys[i]] =
+          text ? nlohmann::ordered_json(*text) : number_or_null(std::get<double>(row[i]));
+    }
+    rows.push_back(std::move(object));
+  }
+  return rows;
+}
+
+std::string listing_csv(const LibraryListing& listing) {
+  std::string out;
+  for (std::size_t i = 0; i < listing.keys.size(); ++i) out += (i ? "," : "") + listing.keys[i];
+  out += "\n";
+  for (const auto& row : listing.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const auto* text = std::get_if<std::string>(&row[i]);
+      out += (i ? "," : "") + (text ? csv_text(*text) : csv_number(std::get<double>(row[i])));
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace tethercalc
