@@ -40,7 +40,8 @@ std::string default_of(const SpecField& field) {
   return fmt::format("`{}`", field.default_json);
 }
 
-constexpr std::string_view table_head = "| field | allowed | default | meaning |\n|---|---|---|---|\n";
+constexpr std::string_view table_head =
+    "| field | allowed | default | meaning |\n|---|---|---|---|\n";
 
 std::string row(const SpecField& field, std::string_view key) {
   return fmt::format("| `{}` | {} | {} | {} |\n", key, allowed(field), default_of(field),
