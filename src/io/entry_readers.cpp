@@ -230,16 +230,22 @@ template <typename Entry>
 std::optional<Entry> entry_from_file(const EntryKind<Entry>& kind, const std::string& reference,
                                      const fs::path& folder, const std::string& where,
                                      Problems& problems) {
+  TextFile file;
   try {
-    const TextFile file = read_text_file((folder / reference).string());
-    if constexpr (std::is_same_v<Entry, MotorEntry>) {
-      if (reference.ends_with(".csv")) return motor_from_bench_csv(file.text, file.name, problems);
-    }
-    return entry_from_text(kind, file.text, file.name, problems);
+    file = read_text_file((folder / reference).string());
   } catch (const InputError& error) {
     for (const InputProblem& problem : error.problems()) {
       problems.add(where, fmt::format("{}: {}", problem.where, problem.message));
     }
+    return std::nullopt;
+  }
+  if constexpr (std::is_same_v<Entry, MotorEntry>) {
+    if (reference.ends_with(".csv")) return motor_from_bench_csv(file.text, file.name, problems);
+  }
+  try {
+    return entry_from_text(kind, file.text, file.name, problems);
+  } catch (const InputError& error) {
+    problems.add(error.problems());
     return std::nullopt;
   }
 }

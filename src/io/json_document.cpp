@@ -93,9 +93,9 @@ class Builder {
 
   bool null() { return add(nullptr); }
   bool boolean(bool value) { return add(value); }
-  bool number_integer(number_integer_t value) { return add(value); }
-  bool number_unsigned(number_unsigned_t value) { return add(value); }
-  bool number_float(number_float_t value, const string_t&) { return add(value); }
+  bool number_integer(number_integer_t value) { return add_number(value); }
+  bool number_unsigned(number_unsigned_t value) { return add_number(value); }
+  bool number_float(number_float_t value, const string_t&) { return add_number(value); }
   bool string(string_t& value) { return add(std::move(value)); }
   bool binary(binary_t&) { return false; }  // JSON text has none
 
@@ -106,6 +106,8 @@ class Builder {
 
   bool key(string_t& name) {
     key_ = std::move(name);
+    last_event_ = Event::key;
+    last_end_ = consumed_;
     const std::string pointer = child_pointer(levels_.back().pointer, key_);
     const std::size_t line = current_line();
     key_repeated_ = !levels_.back().keys.insert(key_).second;
@@ -120,15 +122,17 @@ class Builder {
     return true;
   }
 
-  bool parse_error(std::size_t, const std::string& last_token,
-                   const nlohmann::detail::exception& error) {
-    fail(last_token, error.what());
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) {
+    fail(error.what());
     return false;
   }
 
   [[nodiscard]] const InputProblem& failure() const { return failure_; }
 
  private:
+  /// What the parser last reported, on which depends what may follow.
+  enum class Event { none, opened, key, value };
+
   struct Level {
     Json* value;
     std::string pointer;
@@ -174,6 +178,15 @@ class Builder {
   template <typename Value>
   bool add(Value&& value) {
     place(Json(std::forward<Value>(value)));
+    last_event_ = Event::value;
+    last_end_ = consumed_;
+    return true;
+  }
+
+  template <typename Number>
+  bool add_number(Number number) {
+    add(number);
+    --last_end_;  // the parser has looked at the character behind it
     return true;
   }
 
@@ -185,75 +198,118 @@ class Builder {
     }
     auto [value, pointer] = place(std::move(empty));
     levels_.push_back({value, std::move(pointer), {}});
+    last_event_ = Event::opened;
+    last_end_ = consumed_;
     return true;
   }
 
   bool close() {
     levels_.pop_back();
+    last_event_ = Event::value;
+    last_end_ = consumed_;
     return true;
   }
 
-  void fail(const std::string& last_token, const std::string& what) {
-    // A faulty token starts where its text does; the end of the input has none.
-    const bool at_end = consumed_ >= text_.size() && what.find("end of input") != std::string::npos;
-    std::size_t offset = at_end || consumed_ == 0 ? consumed_ : consumed_ - 1;
-    std::size_t start = std::min(offset, text_.size());
-    if (!at_end && !last_token.empty()) {
-      start = consumed_ > last_token.size() ? consumed_ - last_token.size() : 0;
-      while (start > 0 && is_word(text_[start - 1])) --start;
+  /// Where the token stands that the parser refused, and whether a comma precedes it.
+  struct Fault {
+    std::size_t offset = 0;
+    bool after_comma = false;
+  };
+
+  [[nodiscard]] Fault find_fault() const {
+    Fault fault{last_end_, false};
+    if (last_event_ == Event::none && text_.starts_with("\xef\xbb\xbf")) fault.offset = 3;
+    if (last_event_ == Event::value && fault.offset < text_.size() && is_digit(fault.offset)) {
+      ++fault.offset;  // a number that ends the text: there was nothing behind it to look at
     }
-    if (at_end) {
-      while (start > 0 && is_space(text_[start - 1])) --start;
+    fault.offset = skip_space(fault.offset);
+    const char separator = last_event_ == Event::key ? ':' : ',';
+    const bool may_be_separated =
+        last_event_ == Event::key || (last_event_ == Event::value && !levels_.empty());
+    if (may_be_separated && text_.substr(fault.offset).starts_with(separator)) {
+      fault.after_comma = separator == ',';
+      fault.offset = skip_space(fault.offset + 1);
     }
-    const Position position = position_at(text_, start);
-    failure_ = {fmt::format("{}:{}", document_.name, position.line),
-                fmt::format("column {}: {}{}", position.column, reason(start, at_end, what),
-                            excerpt_at(text_, start))};
+    return fault;
   }
 
-  [[nodiscard]] std::string reason(std::size_t start, bool at_end, const std::string& what) const {
-    if (at_end) {
-      return what.find("string") != std::string::npos
-                 ? "the file ends inside a text; is it cut off, or a closing quote missing?"
-                 : "the file ends before the JSON does; is it cut off, or a bracket missing?";
+  void fail(const std::string& what) {
+    Fault fault = find_fault();
+    const std::string text = reason(fault, what);
+    const bool in_string = what.find("invalid string") != std::string::npos;
+    if (in_string && consumed_ > fault.offset) fault.offset = consumed_ - 1;
+    fault.offset = std::min(fault.offset, text_.size());
+    if (skip_space(fault.offset) == text_.size()) fault.offset = end_of_content();
+    const Position position = position_at(text_, fault.offset);
+    failure_ = {
+        fmt::format("{}:{}", document_.name, position.line),
+        fmt::format("column {}: {}{}", position.column, text, excerpt_at(text_, fault.offset))};
+  }
+
+  [[nodiscard]] std::string reason(const Fault& fault, const std::string& what) const {
+    if (fault.offset >= text_.size()) {
+      return "the file ends before the JSON does; is it cut off, or a bracket missing?";
     }
-    const std::string_view rest = text_.substr(start);
+    if (what.find("missing closing quote") != std::string::npos) {
+      return "the file ends inside a text; is it cut off, or a closing quote missing?";
+    }
+    if (what.find("UTF-8") != std::string::npos) return "this is not valid UTF-8";
+    if (what.find("control character") != std::string::npos) {
+      return "a text may not hold line ends or other control characters; is a closing quote "
+             "missing?";
+    }
+    if (what.find("number overflow") != std::string::npos) return "this number is too large";
+    const std::string_view rest = text_.substr(fault.offset);
     for (const std::string_view word : {"NaN", "nan", "-NaN", "Infinity", "-Infinity", "inf"}) {
       if (rest.starts_with(word)) {
         return fmt::format("{} is not a number in JSON; give a finite one", word);
       }
     }
-    if (what.find("number overflow") != std::string::npos) return "this number is too large";
     if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#")) {
       return "JSON has no comments; put remarks under the key \"notes\"";
     }
     if (rest.starts_with("'")) return "JSON wants double quotes (\") around keys and texts";
-    if (rest.starts_with("}") || rest.starts_with("]")) {
+    if (fault.after_comma && (rest.starts_with("}") || rest.starts_with("]"))) {
       return "this bracket is not expected here; is there a comma too many before it?";
     }
-    if (what.find("UTF-8") != std::string::npos) return "this is not valid UTF-8";
-    if (what.find("control character") != std::string::npos) {
-      return "a text may not go over the end of a line; is a closing quote missing?";
-    }
-    if (what.find("expected end of input") != std::string::npos) {
+    if (levels_.empty() && last_event_ == Event::value) {
       return "the JSON is complete before this; nothing may follow it";
     }
-    const std::size_t expected = what.rfind("expected ");
-    if (expected != std::string::npos)
-      return "this is not JSON: " + what.substr(expected) + " here";
-    return "this is not JSON; see the place marked below";
+    if (what.find("invalid string") != std::string::npos) {
+      return "this escape in a text is none that JSON knows";
+    }
+    return "this is not JSON: expected " + expectation(fault);
   }
 
-  static bool is_word(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_';
+  [[nodiscard]] std::string expectation(const Fault& fault) const {
+    if (last_event_ == Event::key && skip_space(last_end_) == fault.offset) return "a colon";
+    if (levels_.empty()) return "an object";
+    const bool in_object = levels_.back().value->is_object();
+    if (last_event_ == Event::value && !fault.after_comma) {
+      return in_object ? "a comma or a closing brace" : "a comma or a closing bracket";
+    }
+    if (in_object && last_event_ != Event::key) return "a key in double quotes";
+    return "a value: a number, a text in double quotes, true, false, an object or a list";
   }
-  static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+  [[nodiscard]] std::size_t skip_space(std::size_t offset) const {
+    return std::min(text_.find_first_not_of(" \t\r\n", offset), text_.size());
+  }
+  [[nodiscard]] std::size_t end_of_content() const {
+    const std::size_t last = text_.find_last_not_of(" \t\r\n");
+    return last == std::string_view::npos ? 0 : last + 1;
+  }
+  [[nodiscard]] bool is_digit(std::size_t offset) const {
+    return text_[offset] >= '0' && text_[offset] <= '9';
+  }
 
   JsonDocument& document_;
   std::string_view text_;
   const std::size_t& consumed_;
   std::size_t counted_ = 0;
   std::size_t line_ = 1;
+  Event last_event_ = Event::none;
+  std::size_t last_end_ = 0;  ///< behind what it was about
   std::string key_;
   bool key_repeated_ = false;
   std::vector<Level> levels_;
