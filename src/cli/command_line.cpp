@@ -90,7 +90,7 @@ class CommandLine {
       const auto chosen = app_.get_subcommands();
       const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
       refuse("tethercalc" + name,
-             std::string(error.what()) + "; see tethercalc" + name + " --help");
+             std::string(error.what()) + " (see tethercalc" + name + " --help)");
     }
     const CLI::App* command = app_.get_subcommands().front();
     check_extras(*command);
@@ -173,7 +173,7 @@ class CommandLine {
     const std::string given = argv[1];
     if (actions_.count(given) == 0) {
       refuse("tethercalc", "there is no command \"" + given + "\"" + did_you_mean(given, names) +
-                               "; see tethercalc --help");
+                               " (tethercalc --help lists them)");
     }
   }
 
@@ -183,12 +183,18 @@ class CommandLine {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
     std::vector<InputProblem> problems;
+    bool after_option = false;  // what follows an unknown option is probably its value
     for (const std::string& extra : command.remaining()) {
       const std::string given = extra.substr(0, extra.find('='));
-      problems.push_back({"tethercalc " + command.get_name(),
-                          given.starts_with("-")
-                              ? "there is no option " + given + did_you_mean(given, names)
-                              : "\"" + extra + "\" is one argument too many"});
+      const bool option = given.starts_with("-");
+      if (option) {
+        problems.push_back({"tethercalc " + command.get_name(),
+                            "there is no option " + given + did_you_mean(given, names)});
+      } else if (!after_option) {
+        problems.push_back(
+            {"tethercalc " + command.get_name(), "\"" + extra + "\" is one argument too many"});
+      }
+      after_option = option && given == extra;
     }
     if (!problems.empty()) throw InputError(std::move(problems));
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tethercalc/report/csv_cell.hpp"
@@ -61,7 +62,13 @@ std::vector<SizePoints> sizes_near(const DesignFile& file, double area) {
     sizes.push_back({name, evaluate_areas(file.design, std::span(&size, 1)).front()});
   };
   if (std::isfinite(area)) {
-    for (const WireNeighbours& standard : wire_sizes_near(area)) {
+    // The end of a short standard is no neighbour; it counts where no standard goes further.
+    std::vector<WireNeighbours> standards = wire_sizes_near(area);
+    const auto brackets = [](const WireNeighbours& s) { return s.below && s.above; };
+    if (std::any_of(standards.begin(), standards.end(), brackets)) {
+      std::erase_if(standards, std::not_fn(brackets));
+    }
+    for (const WireNeighbours& standard : standards) {
       for (const auto& size : {standard.below, standard.above}) {
         if (size) add(size->name, size->area);
       }
@@ -393,9 +400,8 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
     TextTable text({{"mm²"},
                     {"ohm"},
                     {"tether g"},
-                    {"take-off g"},
                     {"tilt deg"},
-                    {"available g"},
+                    {"avail. g"},
                     {"needed g"},
                     {"headroom"},
                     {"supply W"},
@@ -406,8 +412,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
       const OperatingPoint& p = hover ? row.hover : row.forward;
       text.add({significant(square_millimetres(p.cross_section), 4),
                 significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
-                fixed(p.takeoff_mass / unit::gram, 0), fixed(p.pitch / unit::degree, 2),
-                fixed(p.available_thrust / unit::gram_force, 0),
+                fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
                 fixed(p.necessary_thrust / unit::gram_force, 0), fixed(p.headroom, 2),
                 fixed(p.total_power, 1), fixed(p.tether_loss, 1), fixed(p.current, 2),
                 fixed(p.received_voltage, 1)});

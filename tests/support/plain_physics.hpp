@@ -1,6 +1,6 @@
 // The paper's equations written down once more, as plainly as they stand there: angles by
-// trigonometry, roots by bisection, curves by walking along them. Slow, and sharing no code with the
-// library beyond the data that describes a design.
+// trigonometry, roots by bisection, curves by walking along them. Slow, and sharing no code with
+// the library beyond the data that describes a design.
 #pragma once
 
 #include <cmath>
@@ -86,8 +86,7 @@ inline Point evaluate(const Design& d, double area, Condition condition) {
       2 * t.length * (t.conductor.density * area + t.insulation.density * insulation_area);
   const double weight = (d.drone.mass + p.tether_mass) * d.flight.gravity;
 
-  const double v =
-      d.flight.headwind + (condition == Condition::forward ? d.flight.airspeed : 0);
+  const double v = d.flight.headwind + (condition == Condition::forward ? d.flight.airspeed : 0);
   const AirframeDrag& drag = d.drone.drag;
   const double leaning = v < 0 ? 1 - drag.fore_aft_asymmetry : 1 + drag.fore_aft_asymmetry;
   const auto airframe = [&](double theta) {
@@ -95,11 +94,11 @@ inline Point evaluate(const Design& d, double area, Condition condition) {
            (drag.front_area * std::cos(theta) + drag.top_area * std::sin(theta)) *
            (v * v + drag.linear_speed * std::abs(v)) * leaning;
   };
-  const double tether_drag = 0.5 * d.flight.air_density * t.drag_coefficient *
-                             t.projection_factor * 4 * t.length * (radius + wall) * v * v;
+  const double tether_drag = 0.5 * d.flight.air_density * t.drag_coefficient * t.projection_factor *
+                             4 * t.length * (radius + wall) * v * v;
   const double theta = bisect(
-      [&](double x) { return weight * std::sin(x) - (airframe(x) + tether_drag) * std::cos(x); },
-      0, pi / 2);
+      [&](double x) { return weight * std::sin(x) - (airframe(x) + tether_drag) * std::cos(x); }, 0,
+      pi / 2);
   p.tilts_too_far = theta > d.requirements.max_pitch;
   p.pitch = v < 0 ? -theta : theta;
 
@@ -115,8 +114,8 @@ inline Point evaluate(const Design& d, double area, Condition condition) {
   p.headroom = p.available_thrust / p.necessary_thrust;
 
   const double motors_input = n * f * motor_power(d.drone.motor, p.necessary_thrust);
-  p.drone_power = motors_input / efficiency(d.supply.converter, motors_input) +
-                  d.drone.auxiliary_power;
+  p.drone_power =
+      motors_input / efficiency(d.supply.converter, motors_input) + d.drone.auxiliary_power;
   // U·I = P + I²R: the smaller root by the textbook's formula.
   const double discriminant = u * u - 4 * p.resistance * p.drone_power;
   p.total_power = p.drone_power < infinity && discriminant >= 0

@@ -34,9 +34,9 @@ class Random {
 };
 
 /// Calls `visit(random)` `count` times; a failure names the seed that repeats its case alone.
-#define TETHERCALC_EACH_RANDOM(count, random)                                                 \
-  for (unsigned case_ = 0; case_ < static_cast<unsigned>(count); ++case_)                     \
-    if (::tethercalc::test::Random random(::tethercalc::test::run_seed() + case_); true)      \
+#define TETHERCALC_EACH_RANDOM(count, random)                                                    \
+  for (unsigned case_ = 0; case_ < static_cast<unsigned>(count); ++case_)                        \
+    if (::tethercalc::test::Random random(::tethercalc::test::run_seed() + case_); true)         \
       if (INFO("TETHERCALC_TEST_SEED=" << ::tethercalc::test::run_seed() << ", case " << case_); \
           true)
 

@@ -1,0 +1,280 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/bad_input_cases.hpp"
+#include "support/run_program.hpp"
+
+using namespace tethercalc::test;
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+const std::string published = project_file("examples/holybro-x500.json");
+
+std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto characters =
+        std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
+    widest = std::max(widest, static_cast<std::size_t>(characters));
+  }
+  return widest;
+}
+
+json optimized(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"optimize", "--format", "json"});
+  return json::parse(run_tethercalc(arguments).out);
+}
+
+}  // namespace
+
+TEST_CASE("the published drone flies the published cable") {
+  // Beffert and Zell 2025, section V-B: every digit they print.
+  const Ran run = run_tethercalc({"optimize", published, "--format", "json"});
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.empty());
+  const json answer = json::parse(run.out);
+  CHECK(answer["status"] == "optimal");
+  const json& optimum = answer["optimum"];
+  CHECK(std::round(optimum["cross_section_mm2"].get<double>() * 1e4) == 10886);
+  CHECK(std::round(optimum["hover"]["tether_mass_g"].get<double>() * 10) == 5469);
+  CHECK(std::round(optimum["hover"]["takeoff_mass_g"].get<double>() / 10) == 226);
+  CHECK(std::round(optimum["hover"]["total_power_W"].get<double>() * 10) == 4054);
+  CHECK(std::round(optimum["forward"]["total_power_W"].get<double>() * 10) == 4449);
+  CHECK(optimum["limited_by"] == "available_power");
+  CHECK(answer["headroom"]["required"] == 2.0);
+  CHECK(answer["headroom"]["condition"] == "hover");
+  CHECK(answer["headroom"]["feasible_mm2"][0][0] == optimum["cross_section_mm2"]);
+  CHECK(answer["minimum_power"]["condition"] == "forward");
+}
+
+TEST_CASE("an operating point has every key that scripts rely on") {
+  const json answer = optimized({published});
+  for (const char* key :
+       {"cross_section_mm2", "tether_resistance_ohm", "tether_mass_g", "takeoff_mass_g",
+        "pitch_deg", "available_power_W", "available_thrust_g", "necessary_thrust_g", "headroom",
+        "drone_power_W", "total_power_W", "tether_loss_W", "current_A", "received_voltage_V"}) {
+    for (const char* condition : {"hover", "forward"}) {
+      CHECK(answer["optimum"][condition].contains(key));
+      CHECK(answer["table"][0][condition].contains(key));
+    }
+  }
+}
+
+TEST_CASE("an infeasible design exits with 1 and names what would help") {
+  const Ran run = run_tethercalc({"optimize", published, "--set", "supply.voltage_V=40"});
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.out, Contains("cannot fly as required"));
+  CHECK_THAT(run.out, Contains("a supply of"));
+
+  const json answer = optimized({published, "--set", "supply.voltage_V=40"});
+  CHECK(answer["status"] == "infeasible");
+  CHECK(answer["optimum"]["cross_section_mm2"].is_null());
+  CHECK(answer["optimum"]["hover"].is_null());
+  CHECK(answer["headroom"]["feasible_mm2"].empty());
+  CHECK(answer["headroom"]["best"].get<double>() < 2);
+  for (const auto& [path, value] : answer["remedies"].items()) {
+    INFO(path);
+    const Ran remedied = run_tethercalc({"optimize", published, "--set", "supply.voltage_V=40",
+                                         "--set", path + "=" + value.dump()});
+    CHECK(remedied.exit_code == 0);
+  }
+}
+
+TEST_CASE("tables fit 100 columns") {
+  const std::vector<std::vector<std::string>> commands{
+      {"optimize", published},
+      {"optimize", published, "--set", "supply.voltage_V=40"},
+      {"evaluate", published, "--area-mm2", "0.05,1.0886,10,200"},
+      {"compare", published, "--motors", "all"},
+      {"list", "motors"},
+      {"list", "conductors"},
+      {"list", "insulation"},
+      {"list", "sizes"}};
+  for (const auto& command : commands) {
+    const Ran run = run_tethercalc(command);
+    INFO(command[0] << " " << command[1]);
+    CHECK(run.err.empty());
+    CHECK(widest_line(run.out) <= 100);
+    CHECK(run.out.find("nan") == std::string::npos);
+    CHECK(run.out.find("inf ") == std::string::npos);
+    CHECK(run.out.find('\x1b') == std::string::npos);  // no colours into a file
+  }
+}
+
+TEST_CASE("evaluate returns the table of both conditions, null where a quantity does not exist") {
+  const json answer = json::parse(
+      run_tethercalc({"evaluate", published, "--area-mm2", "0.05,1.0886", "--format", "json"}).out);
+  REQUIRE(answer["table"].size() == 2);
+  CHECK(answer["table"][0]["hover"]["total_power_W"].is_null());
+  CHECK(answer["table"][0]["hover"]["tether_mass_g"].is_number());
+  CHECK(answer["table"][1]["forward"]["total_power_W"].get<double>() ==
+        Approx(444.93).margin(0.01));
+  const Ran csv = run_tethercalc({"evaluate", published, "--area-mm2", "0.05", "--format", "csv"});
+  CHECK_THAT(csv.out, Catch::StartsWith("condition,cross_section_mm2,"));
+  CHECK_THAT(csv.out, Contains(",,"));
+}
+
+TEST_CASE("evaluate takes the cable of the spec where no area is given") {
+  const Ran without = run_tethercalc({"evaluate", published});
+  CHECK(without.exit_code == 2);
+  CHECK_THAT(without.err, Contains("--area-mm2") && Contains("tether.cross_section_mm2"));
+  const Ran with = run_tethercalc({"evaluate", published, "--set", "tether.cross_section_mm2=1.5"});
+  CHECK(with.exit_code == 0);
+  CHECK_THAT(with.out, Contains("1.500"));
+}
+
+TEST_CASE("compare ranks feasible motors by power and tells why the others are not") {
+  const json answer = json::parse(
+      run_tethercalc({"compare", published, "--motors", "all", "--format", "json"}).out);
+  REQUIRE(answer["motors"].size() == 9);
+  double power = 0;
+  bool seen_infeasible = false;
+  for (const json& motor : answer["motors"]) {
+    if (motor["status"] == "infeasible") {
+      seen_infeasible = true;
+      CHECK(motor["reason"].is_string());
+      continue;
+    }
+    CHECK_FALSE(seen_infeasible);
+    const double next = motor["optimum"]["forward"]["total_power_W"];
+    CHECK(next >= power);
+    power = next;
+  }
+  CHECK(seen_infeasible);
+}
+
+TEST_CASE("a spec on standard input gives the same answer as the file") {
+  const Ran file = run_tethercalc({"optimize", published, "--format", "csv"});
+  const Ran piped = run_tethercalc({"optimize", "-", "--format", "csv"}, file_text(published));
+  CHECK(piped.exit_code == 0);
+  CHECK(piped.out == file.out);
+}
+
+TEST_CASE("--set equals editing the file, and the order of keys does not matter") {
+  nlohmann::ordered_json edited = nlohmann::ordered_json::parse(file_text(published));
+  edited["supply"]["voltage_V"] = 60;
+  edited["drone"]["motor"] = "tmotor-mn2806-650kv-13in";
+  const Ran set =
+      run_tethercalc({"optimize", published, "--format", "json", "--set", "supply.voltage_V=60",
+                      "--set", "drone.motor=tmotor-mn2806-650kv-13in"});
+  const Ran by_hand = run_tethercalc({"optimize", "-", "--format", "json"}, edited.dump());
+  CHECK(set.out == by_hand.out);
+  // nlohmann::json sorts keys by the alphabet.
+  const Ran reordered =
+      run_tethercalc({"optimize", "-", "--format", "json"}, json::parse(edited.dump()).dump());
+  CHECK(reordered.out == by_hand.out);
+}
+
+TEST_CASE("a starting spec is valid and can be optimised") {
+  const Ran init = run_tethercalc({"init"});
+  CHECK(init.exit_code == 0);
+  const Ran valid = run_tethercalc({"validate", "-"}, init.out);
+  CHECK(valid.exit_code == 0);
+  CHECK_THAT(valid.out, Contains("valid"));
+  CHECK(run_tethercalc({"optimize", "-"}, init.out).exit_code == 0);
+}
+
+TEST_CASE("the printed schema is the committed one") {
+  CHECK(run_tethercalc({"schema"}).out ==
+        file_text(project_file("data/schema/design.schema.json")));
+}
+
+TEST_CASE("validate names the problems of every file at once") {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "a.json", "{}");
+  write_file(folder.path() / "b.json", "{\"drone\": 3}");
+  const Ran run = run_tethercalc(
+      {"validate", (folder.path() / "a.json").string(), (folder.path() / "b.json").string()});
+  CHECK(run.exit_code == 2);
+  CHECK(run.out.empty());
+  CHECK_THAT(run.err, Contains("a.json") && Contains("b.json"));
+}
+
+TEST_CASE("--output writes the whole answer, or leaves what was there") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "answer.json").string();
+  CHECK(run_tethercalc({"optimize", published, "--format", "json", "--output", file}).exit_code ==
+        0);
+  CHECK(json::parse(file_text(file))["status"] == "optimal");
+  const std::string before = file_text(file);
+  const Ran refused = run_tethercalc(
+      {"optimize", published, "--set", "drone.mass_g=-1", "--format", "json", "--output", file});
+  CHECK(refused.exit_code == 2);
+  CHECK(file_text(file) == before);
+  const Ran nowhere =
+      run_tethercalc({"optimize", published, "--output", (folder.path() / "no" / "x").string()});
+  CHECK(nowhere.exit_code == 2);
+  CHECK_THAT(nowhere.err, Contains("cannot be written"));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+}
+
+TEST_CASE("a full disk and a closed pipe are errors with a reason") {
+  const std::string command =
+      shell_quoted(TETHERCALC_COMMAND) + " optimize " + shell_quoted(published);
+  const Ran full = run_shell(command + " >/dev/full");
+  CHECK(full.exit_code == 2);
+  CHECK_THAT(full.err, Contains("No space left on device"));
+  CHECK(run_tethercalc({"optimize", published, "--output", "/dev/full"}).exit_code == 2);
+  // The reader is gone before the program writes.
+  const Ran closed = run_shell("( sleep 0.3; " + command + "; echo $? >&2 ) | true");
+  CHECK_THAT(closed.err, Contains("Broken pipe") && Contains("2\n"));
+}
+
+TEST_CASE("bad usage exits with 2, names the closest known word, and prints nothing else") {
+  struct Usage {
+    std::vector<std::string> arguments;
+    std::string says;
+  };
+  const std::vector<Usage> usages{
+      {{}, "tethercalc --help"},
+      {{"optimise", published}, "did you mean \"optimize\"?"},
+      {{"frobnicate"}, "there is no command \"frobnicate\""},
+      {{"optimize"}, "SPEC"},
+      {{"optimize", published, "--formt", "json"}, "did you mean \"--format\"?"},
+      {{"optimize", published, "--format", "jsn"}, "did you mean \"json\"?"},
+      {{"optimize", published, "--format"}, "--format"},
+      {{"optimize", published, "again.json"}, "one argument too many"},
+      {{"optimize", published, "--set", "supply.voltage=60"}, "supply.voltage_V"},
+      {{"optimize", published, "--set", "supply.voltage_V"}, "supply.voltage_V"},
+      {{"evaluate", published, "--area-mm2", "1,zwei"}, "\"zwei\""},
+      {{"evaluate", published, "--area-mm2", "-1"}, "\"-1\""},
+      {{"evaluate", published, "--area-mm2", "nan"}, "\"nan\""},
+      {{"compare", published, "--motors", "holybro-air2216-920kv-11in"},
+       "holybro-air2216-920kv-10in"},
+      {{"list", "motor"}, "motors"},
+      {{"validate"}, "SPEC"},
+  };
+  for (const Usage& usage : usages) {
+    const Ran run = run_tethercalc(usage.arguments);
+    INFO(run.err);
+    CHECK(run.exit_code == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(usage.says));
+  }
+}
+
+TEST_CASE("help and version exit with 0") {
+  CHECK_THAT(run_tethercalc({"--help"}).out, Contains("optimize") && Contains("Exit codes"));
+  CHECK_THAT(run_tethercalc({"--version"}).out, Catch::StartsWith("tethercalc "));
+  CHECK(run_tethercalc({"optimize", "--help"}).exit_code == 0);
+}
+
+TEST_CASE("every kind of bad input is refused by the program with its message") {
+  const TemporaryFolder folder;
+  for (const bad_input::Case& bad : bad_input::prepare(TETHERCALC_SOURCE_DIR, folder.path())) {
+    std::vector<std::string> arguments{"optimize", bad.spec};
+    for (const std::string& change : bad.overrides) {
+      arguments.insert(arguments.end(), {"--set", change});
+    }
+    const Ran run = run_tethercalc(arguments);
+    INFO(bad.name << ": " << run.err);
+    CHECK(run.exit_code == 2);
+    CHECK(run.out.empty());
+    for (const std::string& fragment : bad.says) CHECK_THAT(run.err, Contains(fragment));
+  }
+}
