@@ -1,0 +1,58 @@
+# Installs the build tree BUILD to a fresh prefix below WORK and uses the result as a stranger would:
+# the command from another folder, the library through find_package and through pkg-config, and
+# every public header on its own.
+#
+# cmake -DBUILD=… -DSOURCE=… -DWORK=… -DCXX=… -DPKG_CONFIG=… -DVERSION=… -P consumer.cmake
+cmake_minimum_required(VERSION 3.25)
+function(run)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "WORKING_DIRECTORY;PRINTS" "COMMAND")
+  if(NOT arg_WORKING_DIRECTORY)
+    set(arg_WORKING_DIRECTORY "${WORK}")
+  endif()
+  execute_process(COMMAND ${arg_COMMAND} WORKING_DIRECTORY "${arg_WORKING_DIRECTORY}"
+    OUTPUT_VARIABLE printed ERROR_VARIABLE complained RESULT_VARIABLE code)
+  list(JOIN arg_COMMAND " " line)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${line}\nended with ${code}\n${printed}${complained}")
+  endif()
+  if(arg_PRINTS AND NOT printed MATCHES "${arg_PRINTS}")
+    message(FATAL_ERROR "${line}\ndoes not print ${arg_PRINTS} but\n${printed}${complained}")
+  endif()
+  set(printed "${printed}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}/elsewhere")
+set(installed "${WORK}/as installed")
+run(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${installed}")
+# Moved after installation: nothing in it may remember where it was put first.
+set(prefix "${WORK}/moved")
+file(RENAME "${installed}" "${prefix}")
+
+run(COMMAND "${prefix}/bin/tethercalc" list motors WORKING_DIRECTORY "${WORK}/elsewhere"
+    PRINTS "holybro-air2216-920kv-10in")
+
+# 500 gf lies half way between the 400 gf (50 W) and 600 gf (90 W) the program gives as its curve.
+set(expected "70.000000 W")
+run(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}/tests/consumer" -B "${WORK}/build" -G Ninja
+            "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}")
+run(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build")
+run(COMMAND "${WORK}/build/consumer" PRINTS "${expected}")
+
+file(GLOB_RECURSE pc_file "${prefix}/*/tethercalc.pc")
+get_filename_component(pc_folder "${pc_file}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} "${pc_folder}")
+run(COMMAND "${PKG_CONFIG}" --modversion tethercalc PRINTS "^${VERSION}\n")
+run(COMMAND "${PKG_CONFIG}" --cflags --libs tethercalc)
+separate_arguments(flags UNIX_COMMAND "${printed}")
+run(COMMAND "${CXX}" "${SOURCE}/tests/consumer/main.cpp" -o "${WORK}/consumer" ${flags})
+run(COMMAND "${WORK}/consumer" PRINTS "${expected}")
+
+run(COMMAND "${PKG_CONFIG}" --cflags tethercalc)
+separate_arguments(flags UNIX_COMMAND "${printed}")
+file(GLOB_RECURSE headers "${prefix}/include/*.hpp")
+foreach(header IN LISTS headers)
+  run(COMMAND "${CXX}" -fsyntax-only -Wall -Wextra -Wpedantic -Werror ${flags} -x c++-header "${header}")
+endforeach()
+list(LENGTH headers count)
+message(STATUS "${count} public headers compile on their own")
