@@ -11,5 +11,6 @@ endif()
 execute_process(COMMAND "${doxygen}" docs/Doxyfile WORKING_DIRECTORY "${ROOT}"
   RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE warnings)
 if(NOT code EQUAL 0 OR NOT warnings STREQUAL "")
-  message(FATAL_ERROR "doxygen docs/Doxyfile:\n${warnings}")
+  message("${warnings}")
+  message(FATAL_ERROR "doxygen docs/Doxyfile complains")
 endif()
