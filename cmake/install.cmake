@@ -15,5 +15,8 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/tethercalcConfigVersion.
 install(FILES "${PROJECT_BINARY_DIR}/tethercalcConfig.cmake"
   "${PROJECT_BINARY_DIR}/tethercalcConfigVersion.cmake" DESTINATION "${package_folder}")
 
+# Relative to the .pc file, so that `cmake --install --prefix` and a moved tree both work.
+set(pkgconfig_folder "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+file(RELATIVE_PATH prefix_from_pkgconfig "/prefix/${pkgconfig_folder}" "/prefix")
 configure_file(cmake/tethercalc.pc.in "${PROJECT_BINARY_DIR}/tethercalc.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/tethercalc.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+install(FILES "${PROJECT_BINARY_DIR}/tethercalc.pc" DESTINATION "${pkgconfig_folder}")

@@ -16,7 +16,7 @@ namespace tethercalc {
 
 /// A spec as read.
 struct DesignFile {
-  Design design;
+  Design design;     ///< what the spec describes, in SI units
   std::string name;  ///< the spec's "name", otherwise the file's name without folder and suffix
   std::string file;  ///< as messages call it: the path as given, or "standard input"
   std::filesystem::path folder;       ///< what relative paths in the spec are relative to

@@ -16,7 +16,9 @@ struct InputProblem {
 /// Thrown by every reader; carries all problems of the input at once. `what()` joins them by line.
 class InputError : public std::runtime_error {
  public:
+  /// `problems` in the order of the input; at least one.
   explicit InputError(std::vector<InputProblem> problems);
+  /// What was given to the constructor.
   [[nodiscard]] const std::vector<InputProblem>& problems() const { return problems_; }
 
  private:

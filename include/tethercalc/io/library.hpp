@@ -14,32 +14,38 @@ namespace tethercalc {
 
 /// A motor with its propeller. Texts are empty and numbers absent where the file gives none.
 struct MotorEntry {
-  std::string id;
-  std::string name;
-  std::string source;
+  std::string id;                      ///< what specs and options call it
+  std::string name;                    ///< what people call it
+  std::string source;                  ///< where its numbers come from
   std::optional<double> voltage_V;     ///< at which the curve was measured
   std::optional<double> propeller_in;  ///< diameter in inches
-  MotorCurve curve;
-  std::vector<std::string> warnings;  ///< what was done to noisy points, one sentence each
+  MotorCurve curve;                    ///< of one motor, at that voltage with that propeller
+  std::vector<std::string> warnings;   ///< what was done to noisy points, one sentence each
 };
 
+/// A conductor material. Texts are empty where the file gives none.
 struct ConductorEntry {
-  std::string id;
-  std::string name;
-  std::string source;
-  Conductor conductor;
+  std::string id;       ///< what specs and options call it
+  std::string name;     ///< what people call it
+  std::string source;   ///< where its numbers come from
+  Conductor conductor;  ///< its physics
 };
 
+/// An insulation material. Texts are empty where the file gives none.
 struct InsulationEntry {
-  std::string id;
-  std::string name;
-  std::string source;
+  std::string id;      ///< what specs and options call it
+  std::string name;    ///< what people call it
+  std::string source;  ///< where its numbers come from
   double density = 0;  ///< kg/m³
 };
 
-/// All entries of the library, by id. They are part of the program, which needs no files for them.
+/// All motors of the library, by id. They are part of the program, which needs no files for them.
 [[nodiscard]] std::vector<MotorEntry> library_motors();
+
+/// All conductor materials of the library, by id.
 [[nodiscard]] std::vector<ConductorEntry> library_conductors();
+
+/// All insulation materials of the library, by id.
 [[nodiscard]] std::vector<InsulationEntry> library_insulation();
 
 /// The motor that `reference` names: an id in the library or, where it holds a "/" or ends in
@@ -53,10 +59,14 @@ struct InsulationEntry {
                                     const std::filesystem::path& folder = {},
                                     const std::string& where = "motor");
 
-/// Likewise; the files are JSON objects with `conductor_fields` or `insulation_fields`.
+/// The conductor material that `reference` names, found as `find_motor` does; a file is a JSON
+/// object with `conductor_fields`.
 [[nodiscard]] ConductorEntry find_conductor(const std::string& reference,
                                             const std::filesystem::path& folder = {},
                                             const std::string& where = "conductor");
+
+/// The insulation material that `reference` names, found as `find_motor` does; a file is a JSON
+/// object with `insulation_fields`.
 [[nodiscard]] InsulationEntry find_insulation(const std::string& reference,
                                               const std::filesystem::path& folder = {},
                                               const std::string& where = "insulation");
@@ -75,7 +85,7 @@ struct WireSize {
 /// Neighbours of an area among the sizes of one standard. Both are the same where it is one of
 /// them.
 struct WireNeighbours {
-  std::string standard;
+  std::string standard;           ///< as in WireSize
   std::optional<WireSize> below;  ///< the largest not above the area
   std::optional<WireSize> above;  ///< the smallest not below it
 };

@@ -19,12 +19,16 @@ class MappedFile {
   /// or is a directory.
   explicit MappedFile(const std::filesystem::path& path);
   ~MappedFile();
+  /// Takes the bytes of `other`, which is left without any.
   MappedFile(MappedFile&& other) noexcept;
+  /// Exchanges the bytes of the two.
   MappedFile& operator=(MappedFile&& other) noexcept;
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
 
+  /// The whole file.
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+  /// The same as characters, whatever their encoding.
   [[nodiscard]] std::string_view text() const {
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }

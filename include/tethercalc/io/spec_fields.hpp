@@ -33,10 +33,10 @@ enum class FieldKind {
 
 /// Allowed numbers, in the unit of the field.
 struct FieldRange {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
-  bool min_excluded = false;
-  bool max_excluded = false;
+  double min = -std::numeric_limits<double>::infinity();  ///< the smallest
+  double max = std::numeric_limits<double>::infinity();   ///< the largest
+  bool min_excluded = false;  ///< true: more than `min`, not equal to it
+  bool max_excluded = false;  ///< true: less than `max`, not equal to it
 
   [[nodiscard]] bool contains(double value) const;  ///< false for NaN
 };
@@ -47,28 +47,37 @@ using FieldAccess =
                  int& (*)(Design&), bool& (*)(Design&), Condition& (*)(Design&),
                  MotorCurve& (*)(Design&), Conductor& (*)(Design&), Converter& (*)(Design&)>;
 
+/// One field: how a spec writes it, what it may hold, and where it goes.
 struct SpecField {
   std::string_view pointer;  ///< JSON pointer from the root of its object: "/supply/voltage_V"
-  FieldKind kind = FieldKind::number;
-  std::string_view unit;          ///< "" where it has none
-  FieldRange range;               ///< of numbers
-  std::string_view default_json;  ///< JSON text of the default; "" where the field is required
-  std::string_view help;          ///< one sentence
-  double si_factor = 1;           ///< times the practical number gives SI
-  FieldAccess access{};
+  FieldKind kind = FieldKind::number;  ///< what may stand in it
+  std::string_view unit;               ///< "" where it has none
+  FieldRange range;                    ///< of numbers
+  std::string_view default_json;       ///< JSON text of the default; "" where the field is required
+  std::string_view help;               ///< one sentence
+  double si_factor = 1;                ///< times the practical number gives SI
+  FieldAccess access{};                ///< where in a Design it lives
 
+  /// True where a spec without the field is refused.
   [[nodiscard]] bool required() const { return default_json.empty(); }
 };
 
 /// The fields of a design spec, in the order in which people should read them.
 [[nodiscard]] std::span<const SpecField> spec_fields();
 
-/// The fields of the objects that a spec may hold or name: motor, one point of its curve,
-/// conductor, insulation material, one point of an efficiency curve.
+/// The fields of a motor, which a spec may hold or name.
 [[nodiscard]] std::span<const SpecField> motor_fields();
+
+/// The fields of one point of a motor's curve.
 [[nodiscard]] std::span<const SpecField> motor_point_fields();
+
+/// The fields of a conductor material, which a spec may hold or name.
 [[nodiscard]] std::span<const SpecField> conductor_fields();
+
+/// The fields of an insulation material, which a spec may hold or name.
 [[nodiscard]] std::span<const SpecField> insulation_fields();
+
+/// The fields of one point of a converter's efficiency curve.
 [[nodiscard]] std::span<const SpecField> efficiency_point_fields();
 
 /// The field of a spec at `path`, either "supply.voltage_V" or "/supply/voltage_V"; null where
@@ -101,7 +110,7 @@ void set_field(Design& design, const SpecField& field, double value);
 /// Two fields that are each in range and do not go together.
 struct FieldConflict {
   std::string_view pointer;  ///< the field to change first
-  std::string message;
+  std::string message;       ///< a sentence with both values
 };
 
 /// Conflicts between the fields of a design: a converter that cuts off at or above the supply

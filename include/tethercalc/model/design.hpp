@@ -15,20 +15,23 @@ namespace tethercalc {
 /// `forward` flies at the design airspeed plus the headwind.
 enum class Condition { hover, forward };
 
+/// What flies, without its tether.
 struct Drone {
-  double mass = 0;  ///< kg, ready to fly, without tether
-  int motor_count = 4;
-  MotorCurve motor;
+  double mass = 0;                ///< kg, ready to fly, without tether
+  int motor_count = 4;            ///< motors sharing the thrust equally
+  MotorCurve motor;               ///< of one motor with its propeller
   double motor_power_factor = 1;  ///< motors draw this times what the curve says
   double auxiliary_power = 0;     ///< W at the converter input: flight controller and payload
-  AirframeDrag drag;
+  AirframeDrag drag;              ///< of the airframe, not of the tether
 };
 
+/// What feeds the drone: the ground supply, and the converter at the tether's upper end.
 struct Supply {
-  double voltage = 0;  ///< V at the ground end of the tether
-  Converter converter;
+  double voltage = 0;   ///< V at the ground end of the tether
+  Converter converter;  ///< from tether voltage to motor voltage
 };
 
+/// Where and how fast the drone flies.
 struct Flight {
   double airspeed = 0;                ///< m/s in forward flight
   double headwind = 0;                ///< m/s, added to the airspeed in both conditions
@@ -36,21 +39,23 @@ struct Flight {
   double gravity = standard_gravity;  ///< m/s²
 };
 
+/// What a cross-section must satisfy, and what is minimised among those that do.
 struct Requirements {
-  double thrust_headroom = 2;  ///< available over necessary thrust, at least
-  Condition headroom_at = Condition::hover;
-  Condition power_at = Condition::forward;  ///< where the power is minimised
-  double max_pitch = std::numbers::pi / 4;  ///< rad, in (0, π/2)
+  double thrust_headroom = 2;                ///< available over necessary thrust, at least
+  Condition headroom_at = Condition::hover;  ///< where the headroom is demanded
+  Condition power_at = Condition::forward;   ///< where the power is minimised
+  double max_pitch = std::numbers::pi / 4;   ///< rad, in (0, π/2)
   bool buffer_battery =
       false;  ///< true: headroom is reported but not enforced (paper section III-A)
 };
 
+/// All that decides an operating point, but for the cross-section and the flight condition.
 struct Design {
-  Drone drone;
-  Tether tether;
-  Supply supply;
-  Flight flight;
-  Requirements requirements;
+  Drone drone;                ///< what flies
+  Tether tether;              ///< what it hangs on
+  Supply supply;              ///< what feeds it
+  Flight flight;              ///< where and how fast it flies
+  Requirements requirements;  ///< what the optimum must satisfy
 };
 
 /// Airspeed in m/s in `condition`.

@@ -12,9 +12,10 @@ namespace tethercalc {
 /// Measured points that contradicted each other and were replaced by their mean.
 struct PooledMotorPoints {
   std::vector<std::size_t> members;  ///< positions in the measured points, by rising thrust
-  MotorPoint mean;
+  MotorPoint mean;                   ///< the point in their place
 };
 
+/// What `isotonic_motor_points` made of measured points.
 struct IsotonicMotorPoints {
   std::vector<MotorPoint> points;         ///< by strictly rising thrust and strictly rising power
   std::vector<PooledMotorPoints> pooled;  ///< by rising thrust; empty where nothing was pooled

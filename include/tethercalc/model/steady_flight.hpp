@@ -13,11 +13,14 @@ namespace tethercalc {
 /// Radii are in m and positive; thrusts are in N per motor; powers in W; masses in kg.
 class SteadyFlight {
  public:
+  /// Prepares `design` for `condition`. The design is taken as valid: no check is made here.
   SteadyFlight(const Design& design, Condition condition);
 
+  /// Mass of the airborne tether.
   [[nodiscard]] double tether_mass(double radius) const {
     return mass_0_ + radius * (mass_1_ + radius * mass_2_);
   }
+  /// Mass of drone and airborne tether, all of which the motors lift.
   [[nodiscard]] double takeoff_mass(double radius) const {
     return drone_mass_ + tether_mass(radius);
   }
@@ -28,6 +31,7 @@ class SteadyFlight {
   /// heavier.
   [[nodiscard]] double radius_of_mass(double mass) const;
 
+  /// Resistance of the loop in Ω: both conductors, the part on the drum, and the contacts.
   [[nodiscard]] double resistance(double radius) const {
     return contact_resistance_ + resistance_area_ / (radius * radius);
   }
@@ -47,26 +51,30 @@ class SteadyFlight {
   /// Tangent of the design's largest allowed tilt.
   [[nodiscard]] double tan_pitch_limit() const { return tan_pitch_limit_; }
 
-  /// Range of radii, [lo, hi], in which the tilt exceeds its limit, open at both ends and empty
-  /// where lo ≥ hi. (Weight grows with r², tether drag with r: there is at most one such range.)
+  /// A range of radii, open at both ends and empty where lo ≥ hi.
   struct Radii {
-    double lo = 0;
-    double hi = 0;
+    double lo = 0;  ///< m
+    double hi = 0;  ///< m
   };
+  /// The radii at which the tilt exceeds its limit. (Weight grows with r², tether drag with r:
+  /// there is at most one such range.)
   [[nodiscard]] Radii beyond_pitch_limit() const;
 
-  /// Necessary thrust and its derivative by the radius (N/m) for the tangent of the tilt there.
+  /// A thrust of one motor and how it changes with the radius.
   struct Thrust {
-    double value = 0;
-    double slope = 0;
+    double value = 0;  ///< N
+    double slope = 0;  ///< N/m
   };
+  /// Thrust that carries the weight at a tilt with tangent `tan_pitch`: (m_d + m_t)g/(n·cosθ).
   [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const;
+  /// The same with its derivative, where `tan_pitch` is that of the equilibrium at `radius`.
   [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const;
 
   /// Largest power at the converter's input over a loop of `resistance`.
   [[nodiscard]] double available_power(double resistance) const {
     return deliverable_ / resistance;
   }
+  /// Thrust the motors make of `available_power` at the converter's input.
   [[nodiscard]] double available_thrust(double available_power) const;
 
   /// Loop resistance at which the available power is exactly `power` (> 0).
@@ -83,6 +91,7 @@ class SteadyFlight {
   /// Power at the converter's output for one motor's data-sheet power.
   [[nodiscard]] double output_power(double motor_power) const { return power_scale_ * motor_power; }
 
+  /// The design this was made of.
   [[nodiscard]] const Design& design() const { return *design_; }
 
  private:

@@ -18,12 +18,13 @@ struct Insulation {
   double thickness = 0;  ///< m, wall thickness s
 };
 
+/// The cable as bought and laid, but for its cross-section where that is still to be found.
 struct Tether {
   double length = 0;          ///< m in the air, h; also the flight height
   double spooled_length = 0;  ///< m still on the drum: adds resistance, not airborne mass or drag
-  Conductor conductor;
-  double conductor_temperature_C = 20;
-  Insulation insulation;
+  Conductor conductor;        ///< material of both conductors
+  double conductor_temperature_C = 20;  ///< °C, mean along the tether, in operation
+  Insulation insulation;                ///< of each conductor
   double contact_resistance = 0;        ///< Ω, plugs and slip rings of the whole loop
   double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
   double projection_factor = 0.75;      ///< k, mean projected width of the turning pair over 4(r+s)

@@ -22,6 +22,8 @@ struct BestHeadroom {
   double value = 0;  ///< available over necessary thrust; 0 where no thrust is available at all
   double area = 0;   ///< m², where it is reached; NaN where value is 0
 };
+
+/// The cross-section that leaves the most thrust in hand, whatever it costs in power.
 [[nodiscard]] BestHeadroom best_headroom(const SteadyFlight& flight);
 
 }  // namespace tethercalc

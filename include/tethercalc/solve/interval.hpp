@@ -7,15 +7,17 @@ namespace tethercalc {
 
 /// A closed range, lo ≤ hi; hi may be +infinity.
 struct Interval {
-  double lo = 0;
-  double hi = 0;
+  double lo = 0;  ///< m²
+  double hi = 0;  ///< m²
 
+  /// Whether `x` lies in it, its ends included.
   [[nodiscard]] bool contains(double x) const { return lo <= x && x <= hi; }
 };
 
 /// Disjoint intervals in rising order.
 using IntervalSet = std::vector<Interval>;
 
+/// Whether `x` lies in any interval of `set`, ends included.
 [[nodiscard]] bool contains(const IntervalSet& set, double x);
 
 /// What lies in both.

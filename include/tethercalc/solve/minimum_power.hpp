@@ -8,6 +8,7 @@
 
 namespace tethercalc {
 
+/// The least power and the cross-section that draws it.
 struct MinimumPower {
   double area = 0;   ///< m²; NaN where no area in the range can be flown on this line
   double power = 0;  ///< W from the ground supply; NaN likewise

@@ -18,8 +18,8 @@ enum class Limit {
 
 /// The answer to "which cross-section", or to why there is none. Areas in m².
 struct Optimization {
-  bool feasible = false;
-  Limit limited_by = Limit::minimum_power;
+  bool feasible = false;                    ///< whether any area meets all that is asked
+  Limit limited_by = Limit::minimum_power;  ///< what binds: at the optimum, or where there is none
   Condition limiting_condition = Condition::hover;  ///< where the limit binds
 
   double area = 0;         ///< the optimum; NaN where infeasible

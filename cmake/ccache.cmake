@@ -1,0 +1,5 @@
+# ccache shortens rebuilds where it is installed; -DCMAKE_CXX_COMPILER_LAUNCHER= turns it off.
+find_program(CCACHE_PROGRAM ccache)
+if(PROJECT_IS_TOP_LEVEL AND CCACHE_PROGRAM AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
