@@ -155,7 +155,7 @@ TEST_CASE("a spec on standard input gives the same answer as the file") {
   CHECK(piped.out == file.out);
 }
 
-TEST_CASE("--set equals editing the file, and the order of keys does not matter") {
+TEST_CASE("a --set equals editing the file, and the order of keys does not matter") {
   nlohmann::ordered_json edited = nlohmann::ordered_json::parse(file_text(published));
   edited["supply"]["voltage_V"] = 60;
   edited["drone"]["motor"] = "tmotor-mn2806-650kv-13in";
@@ -195,7 +195,7 @@ TEST_CASE("validate names the problems of every file at once") {
   CHECK_THAT(run.err, Contains("a.json") && Contains("b.json"));
 }
 
-TEST_CASE("--output writes the whole answer, or leaves what was there") {
+TEST_CASE("an --output file gets the whole answer or keeps what it held") {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "answer.json").string();
   CHECK(run_tethercalc({"optimize", published, "--format", "json", "--output", file}).exit_code ==

@@ -20,12 +20,14 @@ struct TextStyle {
 /// right, words on the left.
 class TextTable {
  public:
-  enum class Align { left, right };
+  enum class Align { left, right };  ///< side of the column that cells touch
+  /// A column's header and where its cells are pushed to.
   struct Column {
-    std::string title;
-    Align align = Align::right;
+    std::string title;           ///< also the least width
+    Align align = Align::right;  ///< right for numbers
   };
 
+  /// A table without rows.
   explicit TextTable(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
   /// Adds a row; missing cells at its end are empty. `emphasis` prints it bold where colours are
