@@ -340,6 +340,12 @@ std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const st
           line, in_practical_units(point)));
     }
   }
+  if (points.size() < 2 && !entry.warnings.empty()) {
+    problems.add(name, fmt::format("{} of {} rows have no thrust or no power above 0, and a motor "
+                                   "curve needs 2 that have; is a sign reversed?",
+                                   entry.warnings.size(), values[0].size()));
+    return std::nullopt;
+  }
   if (!set_curve(entry, points, name, problems)) return std::nullopt;
   return entry;
 }

@@ -1,14 +1,16 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "support/reference_data.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/model/operating_point.hpp"
@@ -106,13 +108,9 @@ TEST_CASE("every example reads without a warning") {
 }
 
 TEST_CASE("the spec of the power logs reads, its cable included") {
-  const fs::path path =
-      fs::path(TETHERCALC_REFERENCE_DATA) / "data/practice/x500-tethered.spec.json";
-  if (!fs::exists(path)) {
-    std::cout << "SKIPPED: " << path << " is absent\n";
-    return;
-  }
-  const DesignFile file = read_design(path.string());
+  const auto path = test::reference_file("data/practice/x500-tethered.spec.json");
+  if (!path) return;
+  const DesignFile file = read_design(path->string());
   REQUIRE(file.design.tether.cross_section);
   CHECK(*file.design.tether.cross_section == Approx(1.09e-6).epsilon(1e-15));
 }
