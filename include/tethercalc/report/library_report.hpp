@@ -13,8 +13,8 @@ namespace tethercalc {
 /// A table of texts and numbers; keys of numbers end in their unit.
 struct LibraryListing {
   using Cell = std::variant<std::string, double>;  ///< a NaN is a number nobody stated
-  std::vector<std::string> keys;
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::string> keys;                   ///< of the columns
+  std::vector<std::vector<Cell>> rows;             ///< as long as keys
 };
 
 /// What the library holds of `what`: "motors", "conductors", "insulation" or "sizes". Throws
@@ -23,7 +23,9 @@ struct LibraryListing {
 
 /// Numbers with the digits that distinguish them; sources below the table, one an entry.
 [[nodiscard]] std::string listing_text(const LibraryListing& listing, const TextStyle& style);
+/// An object an entry.
 [[nodiscard]] nlohmann::ordered_json listing_json(const LibraryListing& listing);
+/// A header and a row an entry.
 [[nodiscard]] std::string listing_csv(const LibraryListing& listing);
 
 }  // namespace tethercalc

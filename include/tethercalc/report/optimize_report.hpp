@@ -18,21 +18,21 @@ namespace tethercalc {
 
 /// One cross-section in both flight conditions.
 struct AreaPoints {
-  double area = 0;  ///< m²
-  OperatingPoint hover;
-  OperatingPoint forward;
+  double area = 0;         ///< m²
+  OperatingPoint hover;    ///< in hover
+  OperatingPoint forward;  ///< in forward flight
 };
 
 /// A conductor that can be bought, or the one the spec names.
 struct SizePoints {
-  std::string name;  ///< "AWG 17"
-  AreaPoints points;
+  std::string name;   ///< "AWG 17"
+  AreaPoints points;  ///< what it would give
 };
 
 /// Everything `optimize` says about a design.
 struct OptimizeStudy {
-  DesignFile file;
-  Optimization result;
+  DesignFile file;                ///< the spec
+  Optimization result;            ///< the optimum, or what stands in its way
   BestHeadroom best_headroom;     ///< at `requirements.headroom_at`
   std::vector<SizePoints> sizes;  ///< neighbours of the optimum in each standard, by rising area
   std::vector<AreaPoints> table;  ///< by rising area; holds optimum, minimum and feasible edges
@@ -52,13 +52,16 @@ struct OptimizeStudy {
 /// Opens with the answer in sentences, then standard sizes and the power table; 100 columns at
 /// most.
 [[nodiscard]] std::string optimize_text(const OptimizeStudy& study, const TextStyle& style);
+/// The result keys of `optimize`.
 [[nodiscard]] nlohmann::ordered_json optimize_json(const OptimizeStudy& study);
 
 /// A header and one row: status, limit, area, and both operating points.
 [[nodiscard]] std::string optimize_csv(const OptimizeStudy& study);
 
+/// A table a condition, and what keeps an area from being usable.
 [[nodiscard]] std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
                                         const TextStyle& style);
+/// The key `table` of `evaluate`.
 [[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
                                                    std::span<const AreaPoints> table);
 /// A header and two rows an area, hover first.
@@ -66,21 +69,24 @@ struct OptimizeStudy {
 
 /// One motor's best tether.
 struct MotorOptimum {
-  MotorEntry motor;
-  Design design;
-  Optimization result;
-  BestHeadroom best_headroom;
+  MotorEntry motor;            ///< from the library or a file
+  Design design;               ///< the design with this motor
+  Optimization result;         ///< its optimum
+  BestHeadroom best_headroom;  ///< at `requirements.headroom_at`
 };
 
 /// The design with each of `motors` in turn, feasible ones first by rising power, infeasible ones
 /// last by falling best headroom.
 [[nodiscard]] std::vector<MotorOptimum> compare_motors(const Design& design,
                                                        std::vector<MotorEntry> motors);
+/// The ranking as a table, the infeasible motors below it with the reason.
 [[nodiscard]] std::string compare_text(const DesignFile& file,
                                        std::span<const MotorOptimum> ranking,
                                        const TextStyle& style);
+/// An object a motor, with its optimum as in `optimize`.
 [[nodiscard]] nlohmann::ordered_json compare_json(const DesignFile& file,
                                                   std::span<const MotorOptimum> ranking);
+/// A header and a row a motor, with the columns of `optimize_csv` after its id.
 [[nodiscard]] std::string compare_csv(std::span<const MotorOptimum> ranking);
 
 }  // namespace tethercalc

@@ -8,9 +8,9 @@ namespace tethercalc {
 
 /// Whether text may carry terminal colours.
 struct TextStyle {
-  bool colour = false;
+  bool colour = false;  ///< false: every function below returns its text as it is
 
-  [[nodiscard]] std::string bold(const std::string& text) const;
+  [[nodiscard]] std::string bold(const std::string& text) const;     ///< bright
   [[nodiscard]] std::string good(const std::string& text) const;     ///< green
   [[nodiscard]] std::string bad(const std::string& text) const;      ///< red
   [[nodiscard]] std::string subdued(const std::string& text) const;  ///< grey
@@ -20,7 +20,8 @@ struct TextStyle {
 /// right, words on the left.
 class TextTable {
  public:
-  enum class Align { left, right };  ///< side of the column that cells touch
+  /// The side of the column that cells touch.
+  enum class Align { left, right };
   /// A column's header and where its cells are pushed to.
   struct Column {
     std::string title;           ///< also the least width

@@ -15,8 +15,9 @@ enum class Quantity {
   airspeed,        ///< `design.flight.airspeed`, m/s, lowered
 };
 
+/// One change that makes the design feasible.
 struct Remedy {
-  Quantity quantity = Quantity::supply_voltage;
+  Quantity quantity = Quantity::supply_voltage;  ///< what to change
   double value = 0;  ///< SI: what the quantity must become for the design to be feasible
 };
 
