@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
-#include <memory>
 #include <utility>
 
 #include "io/dataflash_walk.hpp"
@@ -115,7 +114,7 @@ class FormatKeeper {
     on_format(dataflash::fmt_type, dataflash::definition_of_fmt());
   }
   void on_format(std::uint8_t type, const std::byte* fmt) {
-    formats_[type] = std::make_unique<DataFlashFormat>(dataflash::parse_format(fmt));
+    formats_[type] = &kept_.emplace_back(dataflash::parse_format(fmt));
   }
   void on_rejected(std::uint8_t, const std::byte*, std::string_view) {}
   void on_message(std::uint8_t type, const std::byte* message) { act_(*formats_[type], message); }
@@ -123,7 +122,8 @@ class FormatKeeper {
 
  private:
   Act act_;
-  std::array<std::unique_ptr<DataFlashFormat>, 256> formats_;
+  std::array<const DataFlashFormat*, 256> formats_{};
+  std::deque<DataFlashFormat> kept_;  // also those no longer in force
 };
 
 class ContentsTaker {
@@ -314,13 +314,13 @@ std::string field_text(const std::byte* message, const DataFlashField& field) {
 
 std::optional<DataFlashTime> time_of(const DataFlashFormat& format) {
   if (!format.fields.empty() && format.fields.front().is_number()) {
-    if (format.fields.front().name == "TimeUS") return DataFlashTime{format.fields.front(), 1e-6};
-    if (format.fields.front().name == "TimeMS") return DataFlashTime{format.fields.front(), 1e-3};
+    if (format.fields.front().name == "TimeUS") return DataFlashTime{format.fields.front(), 1e6};
+    if (format.fields.front().name == "TimeMS") return DataFlashTime{format.fields.front(), 1e3};
   }
   const DataFlashField* const since_start = format.find("T");
   const bool older_gps = format.name.starts_with("GPS") && format.find("TimeMS") != nullptr;
   if (older_gps && since_start != nullptr && since_start->is_number()) {
-    return DataFlashTime{*since_start, 1e-3};
+    return DataFlashTime{*since_start, 1e3};
   }
   return std::nullopt;
 }

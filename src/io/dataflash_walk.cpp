@@ -43,6 +43,10 @@ std::string_view fault_in(const std::byte* fmt) {
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_name_character)) {
     return "its name is not made of letters and digits";
   }
+  const std::string_view labels = labels_in(fmt);
+  if (!std::all_of(labels.begin(), labels.end(), [](char c) { return c > 0x20 && c < 0x7F; })) {
+    return "its fields' names are not plain text";
+  }
   std::size_t length = header_size;
   for (const char kind : format_in(fmt)) {
     const std::size_t size = size_of_kind(kind);
@@ -199,7 +203,6 @@ bool Framing::ends_or_continues(std::size_t at, const Definitions& known) const 
   // Filler must begin right here: if the message seems to end inside it, its own end may be filler.
   if (at == filler_ || at == log_.size()) return true;
   const std::size_t left = log_.size() - at;
-  if (left == 1) return log_[at] == mark_first;
   // One damaged byte in the next message's mark must not cost this message, provided that the next
   // one's length shows where the one after it begins.
   if (left < header_size || (log_[at] != mark_first && log_[at + 1] != mark_second)) return false;

@@ -68,7 +68,7 @@ struct DataFlashFormat {
 /// the satellites' week and have the controller's in `T`. Nothing where a message has no time.
 struct DataFlashTime {
   DataFlashField field;
-  double unit = 1;  ///< s for each count
+  double counts_per_second = 1;  ///< divide by it
 };
 [[nodiscard]] std::optional<DataFlashTime> time_of(const DataFlashFormat& format);
 
@@ -107,7 +107,8 @@ struct DataFlashContents {
 /// Reads the whole log once. Any bytes are a log, if only one without messages; nothing is thrown.
 [[nodiscard]] DataFlashContents scan_dataflash(std::span<const std::byte> log);
 
-/// Calls `visit` for each message in the log's order, with its format and its first byte.
+/// Calls `visit` for each message in the log's order, with its format and its first byte. Formats
+/// stay where they are until the function returns, so that their address can be a key.
 void for_each_message(
     std::span<const std::byte> log,
     const std::function<void(const DataFlashFormat& format, const std::byte* message)>& visit);
