@@ -31,6 +31,12 @@ bool same_definition(const std::byte* a, const std::byte* b) {
          labels_in(a) == labels_in(b);
 }
 
+/// Whether the first field is of that kind and has that name.
+bool begins_with(const std::byte* fmt, char kind, std::string_view label) {
+  const std::string_view labels = labels_in(fmt);
+  return format_in(fmt).starts_with(kind) && labels.substr(0, labels.find(',')) == label;
+}
+
 bool is_name_character(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
@@ -140,12 +146,33 @@ Definitions::Definitions() {
   settled_[fmt_type] = true;
 }
 
+std::optional<std::int64_t> Definitions::time_us(const std::byte* message) const {
+  switch (time_[std::to_integer<std::size_t>(message[2])]) {
+    case TimeKind::microseconds: {
+      std::uint64_t count = 0;
+      std::memcpy(&count, message + header_size, sizeof count);
+      // Sums and differences of times must not overflow; above this, none is plausible.
+      constexpr std::uint64_t greatest = std::uint64_t{1} << 62;
+      return static_cast<std::int64_t>(std::min(count, greatest));
+    }
+    case TimeKind::milliseconds: {
+      std::uint32_t count = 0;
+      std::memcpy(&count, message + header_size, sizeof count);
+      return std::int64_t{count} * 1000;
+    }
+    case TimeKind::none:
+      break;
+  }
+  return std::nullopt;
+}
+
 Definitions::Change Definitions::take(const std::byte* message) {
   const auto type = std::to_integer<std::uint8_t>(message[type_at]);
   if (type == fmt_type) {
     // Every log begins with the definition of FMT itself, so here one may begin behind another, and
     // its numbers may mean other messages.
     if (name_in(message) == "FMT" && format_in(message) == "BBnNZ") {
+      ++beginnings_;
       settled_.fill(false);
       settled_[fmt_type] = true;
       return {};
@@ -166,6 +193,9 @@ Definitions::Change Definitions::take(const std::byte* message) {
     const std::byte* const before = definition_[type];
     definition_[type] = message;
     length_[type] = std::to_integer<std::uint8_t>(message[length_at]);
+    time_[type] = begins_with(message, 'Q', "TimeUS")   ? TimeKind::microseconds
+                  : begins_with(message, 'I', "TimeMS") ? TimeKind::milliseconds
+                                                        : TimeKind::none;
     const bool same = before != nullptr && same_definition(before, message);
     return {same ? Outcome::unchanged : Outcome::defined, type};
   }
@@ -208,6 +238,33 @@ bool Framing::ends_or_continues(std::size_t at, const Definitions& known) const 
   if (left < header_size || (log_[at] != mark_first && log_[at + 1] != mark_second)) return false;
   const std::size_t length = known.length(log_[at + 2]);
   return length != 0 && (length == left || (length + 2 <= left && mark_at(at + length)));
+}
+
+bool Framing::hides_messages(std::size_t at, std::size_t length, const Definitions& known,
+                             const TimeGuard& guard) const {
+  const std::size_t end = at + length;
+  const auto leads_to_end = [&](std::size_t from) {
+    while (from + header_size <= end && mark_at(from)) {
+      const std::size_t step = known.length(log_[from + 2]);
+      if (step == 0 || step > end - from) return false;
+      const auto time = known.time_us(log_.data() + from);
+      if (time && !guard.is_plausible(std::to_integer<std::uint8_t>(log_[from + 2]), *time)) {
+        return false;
+      }
+      from += step;
+    }
+    return from == end;
+  };
+  std::size_t from = at + header_size;
+  while (from + header_size <= end) {
+    const void* const found =
+        std::memchr(log_.data() + from, std::to_integer<int>(mark_first), end - from);
+    if (found == nullptr) return false;
+    from = static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
+    if (from + header_size <= end && mark_at(from) && leads_to_end(from)) return true;
+    ++from;
+  }
+  return false;
 }
 
 std::size_t Framing::next_message(std::size_t at, const Definitions& known) const {

@@ -33,6 +33,10 @@ class Definitions {
     return length_[std::to_integer<std::size_t>(type)];
   }
 
+  /// The time that the message starting at `message` carries in its first field, in µs; nothing for
+  /// a type without one. The type must be known.
+  [[nodiscard]] std::optional<std::int64_t> time_us(const std::byte* message) const;
+
   enum class Outcome { unchanged, defined, rejected };
   struct Change {
     Outcome outcome = Outcome::unchanged;
@@ -41,14 +45,60 @@ class Definitions {
   };
   /// Takes over what the FMT message starting at `message` defines.
   Change take(const std::byte* message);
+  /// How often a log began anew: at FMT's definition of itself.
+  [[nodiscard]] std::size_t beginnings() const { return beginnings_; }
 
  private:
   [[nodiscard]] std::optional<std::uint8_t> settled_type_called(std::string_view name) const;
   void forget(std::uint8_t type);
 
   std::array<std::uint8_t, 256> length_{};
+  enum class TimeKind : std::uint8_t { none, microseconds, milliseconds };
+  std::array<TimeKind, 256> time_{};
+  std::size_t beginnings_ = 0;
   std::array<const std::byte*, 256> definition_{};  // the FMT message in force, nullptr if none
   std::array<bool, 256> settled_{};                 // defined since the log began anew
+};
+
+/// Whether a message's time can be right. A message whose type number is lost takes a byte of its
+/// payload for one, and where that number's length happens to fit, only its time betrays it: that
+/// is shifted by whole bytes, which is a factor of 256.
+class TimeGuard {
+ public:
+  /// Near the log's latest time, or near the latest of the same type (which may have a clock of its
+  /// own); anything is plausible before the first time.
+  [[nodiscard]] bool is_plausible(std::uint8_t type, std::int64_t time) const {
+    return !clock_ || follows(*clock_, time) || (own_[type] && follows(*own_[type], time));
+  }
+
+  /// Takes the next time. Says whether the message is to be believed: if its time is plausible, or
+  /// follows one that was not (so that only the first message after a jump is lost).
+  bool accept(std::uint8_t type, std::int64_t time) {
+    const bool with_clock = !clock_ || follows(*clock_, time);
+    if (!with_clock && !(own_[type] && follows(*own_[type], time)) &&
+        !(rejected_ && follows(*rejected_, time))) {
+      rejected_ = time;
+      return false;
+    }
+    if (with_clock || !own_[type] || !follows(*own_[type], time)) {
+      clock_ = time;
+      rejected_.reset();
+    }
+    own_[type] = time;
+    return true;
+  }
+
+ private:
+  // Messages are written a little out of order, by milliseconds; pauses can be long.
+  static constexpr std::int64_t furthest_back = 10'000'000;      // µs
+  static constexpr std::int64_t furthest_ahead = 3'600'000'000;  // µs
+  static bool follows(std::int64_t before, std::int64_t time) {
+    return time >= before - furthest_back && time <= before + furthest_ahead;
+  }
+
+  std::optional<std::int64_t> clock_;
+  std::optional<std::int64_t> rejected_;
+  std::array<std::optional<std::int64_t>, 256> own_;
 };
 
 /// Where in the log messages can be, and where they end.
@@ -66,6 +116,12 @@ class Framing {
     const bool followed = next + 1 < log_.size() && mark_at(next);
     return followed || ends_or_continues(next, known) ? length : 0;
   }
+
+  /// Whether what seems to be one message of `length` bytes is rather a damaged header in front of
+  /// whole messages that end where it ends: with marks all over a log, a wrong length easily leads
+  /// to one.
+  [[nodiscard]] bool hides_messages(std::size_t at, std::size_t length, const Definitions& known,
+                                    const TimeGuard& guard) const;
 
   /// First position from `at` on where message_at() finds a message, or the log's end.
   [[nodiscard]] std::size_t next_message(std::size_t at, const Definitions& known) const;
@@ -92,9 +148,16 @@ template <class Visitor>
 void walk(std::span<const std::byte> log, Visitor& visitor) {
   const Framing framing(log);
   Definitions known;
+  TimeGuard guard;
+  const auto believed_length = [&](std::size_t at) -> std::size_t {
+    const std::size_t length = framing.message_at(at, known);
+    if (length == 0 || framing.hides_messages(at, length, known, guard)) return 0;
+    const auto time = known.time_us(log.data() + at);
+    return !time || guard.accept(std::to_integer<std::uint8_t>(log[at + 2]), *time) ? length : 0;
+  };
   std::size_t at = 0;
   while (at < log.size()) {
-    const std::size_t length = framing.message_at(at, known);
+    const std::size_t length = believed_length(at);
     if (length == 0) {
       const std::size_t next = framing.next_message(at + 1, known);
       visitor.on_skipped(framing.skipped(at, next));
@@ -104,7 +167,9 @@ void walk(std::span<const std::byte> log, Visitor& visitor) {
     const std::byte* const message = log.data() + at;
     const auto type = std::to_integer<std::uint8_t>(message[2]);
     if (type == fmt_type) {
+      const std::size_t beginnings = known.beginnings();
       const Definitions::Change change = known.take(message);
+      if (known.beginnings() != beginnings) guard = TimeGuard();
       if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
       if (change.outcome == Definitions::Outcome::rejected) {
         visitor.on_rejected(change.type, message, change.reason);

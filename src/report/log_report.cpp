@@ -11,9 +11,12 @@
 #include "io/closest_name.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/report/json_results.hpp"
 
 namespace tethercalc {
 namespace {
+
+using nlohmann::ordered_json;
 
 std::string skipped_text(const LogSummary& summary) {
   if (summary.skipped_bytes == 0) return "nothing skipped";
@@ -62,8 +65,8 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "";
 }
 
-nlohmann::json number_or_null(const std::optional<double>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json();
+ordered_json value_or_null(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : ordered_json();
 }
 
 /// Text that a terminal and JSON can take, whatever bytes the log holds.
@@ -101,9 +104,9 @@ std::string csv_cell(const std::byte* message, const DataFlashField& field) {
 
 }  // namespace
 
-std::string log_report_text(const LogSummary& summary, std::string_view name) {
-  std::string text = fmt::format("{}: {} bytes, {} messages, {}\n", name, summary.bytes,
-                                 summary.messages, skipped_text(summary));
+std::string log_text(const LogSummary& summary, std::string_view name, const TextStyle& style) {
+  std::string text = fmt::format("{}: {} bytes, {} messages, {}\n", style.bold(std::string(name)),
+                                 summary.bytes, summary.messages, skipped_text(summary));
   if (!summary.firmware.empty()) text += "firmware   " + printable(summary.firmware) + "\n";
   text += time_text(summary);
   if (summary.flying) {
@@ -113,17 +116,22 @@ std::string log_report_text(const LogSummary& summary, std::string_view name) {
     text += "flying     not known: neither take-off events nor velocities in the log\n";
   }
   text += damage_text(summary);
-  text += fmt::format("\n{:<8}{:>9}{:>10}{:>13}{:>13}{:>11}\n", "message", "count", "rate_Hz",
-                      "first_s", "last_s", "gap_s");
+  TextTable table({{"message", TextTable::Align::left},
+                   {"count"},
+                   {"rate Hz"},
+                   {"first s"},
+                   {"last s"},
+                   {"longest gap s"}});
   for (const LogSummary::Message& message : summary.types) {
-    text += fmt::format("{:<8}{:>9}{:>10}{:>13}{:>13}{:>11}\n", message.name, message.count,
-                        cell(message.rate, 2), cell(message.first_time, 3),
-                        cell(message.last_time, 3), cell(message.longest_gap, 3));
+    table.add({message.name, std::to_string(message.count), cell(message.rate, 2),
+               cell(message.first_time, 3), cell(message.last_time, 3),
+               cell(message.longest_gap, 3)});
   }
+  text += '\n' + table.text(style);
   return text;
 }
 
-std::string log_report_csv(const LogSummary& summary) {
+std::string log_csv(const LogSummary& summary) {
   std::string text = "name,count,rate_Hz,first_s,last_s,longest_gap_s\n";
   for (const LogSummary::Message& message : summary.types) {
     text += fmt::format("{},{},{},{},{},{}\n", message.name, message.count, cell(message.rate, 6),
@@ -133,24 +141,24 @@ std::string log_report_csv(const LogSummary& summary) {
   return text;
 }
 
-nlohmann::json log_report_json(const LogSummary& summary, std::string_view name) {
-  nlohmann::json report = {{"file", name},
-                           {"bytes", summary.bytes},
-                           {"messages", summary.messages},
-                           {"firmware", printable(summary.firmware)},
-                           {"first_s", number_or_null(summary.first_time)},
-                           {"last_s", number_or_null(summary.last_time)},
-                           {"duration_s", nullptr},
-                           {"flying", nullptr},
-                           {"gaps", nlohmann::json::array()},
-                           {"gap_count", summary.gap_count},
-                           {"implausible_times", summary.implausible_times},
-                           {"skipped",
-                            {{"bytes", summary.skipped_bytes},
-                             {"messages", summary.skipped_messages},
-                             {"stretches", nlohmann::json::array()}}},
-                           {"rejected_definitions", summary.rejected_definitions},
-                           {"types", nlohmann::json::array()}};
+ordered_json log_json(const LogSummary& summary, std::string_view name) {
+  ordered_json report = {{"file", name},
+                         {"bytes", summary.bytes},
+                         {"messages", summary.messages},
+                         {"firmware", printable(summary.firmware)},
+                         {"first_s", value_or_null(summary.first_time)},
+                         {"last_s", value_or_null(summary.last_time)},
+                         {"duration_s", nullptr},
+                         {"flying", nullptr},
+                         {"gaps", ordered_json::array()},
+                         {"gap_count", summary.gap_count},
+                         {"implausible_times", summary.implausible_times},
+                         {"skipped",
+                          {{"bytes", summary.skipped_bytes},
+                           {"messages", summary.skipped_messages},
+                           {"stretches", ordered_json::array()}}},
+                         {"rejected_definitions", summary.rejected_definitions},
+                         {"types", ordered_json::array()}};
   if (summary.first_time) report["duration_s"] = *summary.last_time - *summary.first_time;
   if (summary.flying) {
     report["flying"] = {{"duration_s", summary.flying->duration},
@@ -166,10 +174,10 @@ nlohmann::json log_report_json(const LogSummary& summary, std::string_view name)
   for (const LogSummary::Message& message : summary.types) {
     report["types"].push_back({{"name", message.name},
                                {"count", message.count},
-                               {"rate_Hz", number_or_null(message.rate)},
-                               {"first_s", number_or_null(message.first_time)},
-                               {"last_s", number_or_null(message.last_time)},
-                               {"longest_gap_s", number_or_null(message.longest_gap)},
+                               {"rate_Hz", value_or_null(message.rate)},
+                               {"first_s", value_or_null(message.first_time)},
+                               {"last_s", value_or_null(message.last_time)},
+                               {"longest_gap_s", value_or_null(message.longest_gap)},
                                {"fields", message.fields}});
   }
   return report;

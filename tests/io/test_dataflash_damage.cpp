@@ -100,6 +100,17 @@ std::vector<Bytes> intact_logs(Random& random) {
   return logs;
 }
 
+/// Messages lost, apart from those whose definition was lost with its FMT message: some firmware
+/// writes definitions throughout the log.
+std::size_t lost_though_defined(const std::vector<Message>& before,
+                                const std::vector<Message>& after) {
+  std::set<std::string> defined;
+  for (const Message& message : after) defined.insert(message.name);
+  const auto of_defined = [&defined](const Message& m) { return defined.count(m.name) != 0; };
+  return static_cast<std::size_t>(std::count_if(before.begin(), before.end(), of_defined)) -
+         after.size();
+}
+
 std::uint64_t new_seed() { return std::random_device{}(); }
 
 void check_accounted_for(const Bytes& log) {
@@ -150,7 +161,7 @@ TEST_CASE("inserted or removed bytes invent no message and cost at most two each
       std::size_t invented = 0;
       for (const Message& message : after) invented += known.count(message.bytes) == 0 ? 1 : 0;
       CHECK(invented == 0);
-      CHECK(after.size() + 2 * static_cast<std::size_t>(times) >= before.size());
+      CHECK(lost_though_defined(before, after) <= 2 * static_cast<std::size_t>(times));
       check_accounted_for(damaged);
     }
   }
@@ -180,7 +191,7 @@ TEST_CASE("flipped bytes move no message and cost at most two each") {
         moved += same ? 0 : 1;
       }
       CHECK(moved == 0);
-      CHECK(after.size() + 2 * times >= before.size());
+      CHECK(lost_though_defined(before, after) <= 2 * times);
       check_accounted_for(damaged);
     }
   }

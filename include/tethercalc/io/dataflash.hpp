@@ -7,9 +7,11 @@
 //
 // Logs arrive damaged: cut where the battery was pulled, with blocks missing or filled with zeros.
 // Reading goes on behind the damage, and tells how much was skipped. A message counts only if it is
-// complete, of a type defined before it, and followed by the next message's mark or by the end of
-// the data; so one that lost or gained bytes, or whose own definition is damaged, is skipped rather
-// than misread. Flipped bits inside a payload cannot be noticed: the format has no checksum.
+// complete, of a type defined before it, followed by the next message's mark or by the end of the
+// data, no disguise for whole messages inside it, and of a time that fits its neighbours'. So one
+// that lost or gained bytes, or whose own definition is damaged, is skipped rather than misread.
+// Flipped bits inside a payload, or a type number flipped to that of a message of the same length,
+// cannot be noticed: the format has no checksum.
 #pragma once
 
 #include <cstddef>

@@ -8,22 +8,24 @@
 #include <string_view>
 
 #include "tethercalc/io/log_summary.hpp"
+#include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
 
 /// The summary as text to read, ending with a line end; `name` is the log's.
-[[nodiscard]] std::string log_report_text(const LogSummary& summary, std::string_view name);
+[[nodiscard]] std::string log_text(const LogSummary& summary, std::string_view name,
+                                   const TextStyle& style = {});
 
 /// The summary's table of messages as CSV: `name,count,rate_Hz,first_s,last_s,longest_gap_s`, with
 /// empty cells where a message carries no time.
-[[nodiscard]] std::string log_report_csv(const LogSummary& summary);
+[[nodiscard]] std::string log_csv(const LogSummary& summary);
 
 /// The summary as JSON: `file, bytes, messages, firmware, first_s, last_s, duration_s, flying`
 /// {`duration_s, determined_by`} or null, `gaps` [{`start_s, duration_s`}…], `gap_count,
 /// implausible_times, skipped` {`bytes, messages, stretches` [{`offset, bytes, messages`}…]},
 /// `rejected_definitions, types` [{`name, count, rate_Hz, first_s, last_s, longest_gap_s,
 /// fields`}…]. Times are null where there are none.
-[[nodiscard]] nlohmann::json log_report_json(const LogSummary& summary, std::string_view name);
+[[nodiscard]] nlohmann::ordered_json log_json(const LogSummary& summary, std::string_view name);
 
 /// Writes all messages called `message` as CSV, one row a message in the log's order, one column a
 /// field, named as in the log. Numbers as field_text() gives them, with an empty cell for what is
