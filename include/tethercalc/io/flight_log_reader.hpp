@@ -1,0 +1,63 @@
+// Flight logs from what people have: DataFlash logs and CSV.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tethercalc/identify/flight_log.hpp"
+
+namespace tethercalc {
+
+struct FlightLogOptions {
+  /// Which of the estimators that run side by side, 0 ≤ core ≤ 255. Not used for CSV.
+  int core = 0;
+};
+
+/// A flight log, and how it came about.
+struct FlightLogReading {
+  FlightLog log;
+  std::string source;  ///< "XKF1 of EKF core 0", "NKF6", "EKF1", or "CSV"
+  /// Samples left out because their time does not increase; as few as make the rest increase.
+  std::size_t samples_out_of_order = 0;
+  /// Samples left out because a value is not finite, or cannot be: |pitch| above 90°, |roll| above
+  /// 360°, a velocity above 500 m/s, which flipped bits produce.
+  std::size_t samples_implausible = 0;
+  std::size_t skipped_bytes = 0;     ///< of a damaged DataFlash log
+  std::size_t skipped_messages = 0;  ///< at least
+  /// Sentences for the user about all of the above; empty where nothing was amiss.
+  std::vector<std::string> notes;
+};
+
+/// Reads attitude and velocity over time.
+///
+/// From a DataFlash log: message XKF1 (EKF3) of the wanted core; without it NKF1 (EKF2; core 1 of
+/// logs before the messages had a core field is NKF6), without it EKF1, which had one core only.
+/// Time from `TimeUS` or `TimeMS`.
+///
+/// From CSV: columns `time_s, roll_deg, pitch_deg, yaw_deg, vn_m_s, ve_m_s, vd_m_s` in any order,
+/// named exactly so; every value finite, angles within ±90° (pitch), ±360° (roll) and ±360 000°
+/// (yaw), velocities within ±500 m/s, time increasing.
+///
+/// Which of the two it is, the content tells: a log has zero bytes or marks among its first bytes.
+///
+/// Yaw comes out without wraps: it continues beyond ±π rather than jump, so that it can be
+/// interpolated. The first value is as logged.
+///
+/// Throws InputError: a file that cannot be read; a log without messages, without attitude and
+/// velocity, or without the wanted core (the message lists the cores there are); every problem of a
+/// CSV file, with its line.
+[[nodiscard]] FlightLogReading read_flight_log(const std::filesystem::path& path,
+                                               const FlightLogOptions& options = {});
+
+/// The same from bytes in memory; `name` stands for the file in messages.
+[[nodiscard]] FlightLogReading parse_flight_log(std::span<const std::byte> content,
+                                                const std::string& name,
+                                                const FlightLogOptions& options = {});
+
+/// Whether the content is a DataFlash log rather than text.
+[[nodiscard]] bool looks_like_dataflash(std::span<const std::byte> content);
+
+}  // namespace tethercalc

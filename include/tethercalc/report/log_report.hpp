@@ -1,0 +1,39 @@
+// What a DataFlash log holds, for people and for programs.
+#pragma once
+
+#include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tethercalc/io/log_summary.hpp"
+#include "tethercalc/report/text_table.hpp"
+
+namespace tethercalc {
+
+/// The summary as text to read, ending with a line end; `name` is the log's.
+[[nodiscard]] std::string log_text(const LogSummary& summary, std::string_view name,
+                                   const TextStyle& style = {});
+
+/// The summary's table of messages as CSV: `name,count,rate_Hz,first_s,last_s,longest_gap_s`, with
+/// empty cells where a message carries no time.
+[[nodiscard]] std::string log_csv(const LogSummary& summary);
+
+/// The summary as JSON: `file, bytes, messages, firmware, first_s, last_s, duration_s, flying`
+/// {`duration_s, determined_by`} or null, `gaps` [{`start_s, duration_s`}…], `gap_count,
+/// implausible_times, skipped` {`bytes, messages, stretches` [{`offset, bytes, messages`}…]},
+/// `rejected_definitions, types` [{`name, count, rate_Hz, first_s, last_s, longest_gap_s,
+/// fields`}…]. Times are null where there are none.
+[[nodiscard]] nlohmann::ordered_json log_json(const LogSummary& summary, std::string_view name);
+
+/// Writes all messages called `message` as CSV, one row a message in the log's order, one column a
+/// field, named as in the log. Numbers as field_text() gives them, with an empty cell for what is
+/// not finite; text is quoted where it has to be (RFC 4180).
+///
+/// Throws InputError naming `name`, the log's, where there is no such message in it, with the
+/// closest one that there is; nothing has been written then.
+void write_messages_csv(std::span<const std::byte> log, std::string_view message,
+                        std::string_view name, std::ostream& out);
+
+}  // namespace tethercalc

@@ -1,0 +1,189 @@
+// The one loop over a DataFlash log that every use of a log runs through.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tethercalc/io/dataflash.hpp"
+
+namespace tethercalc::dataflash {
+
+inline constexpr std::byte mark_first{0xA3};
+inline constexpr std::byte mark_second{0x95};
+inline constexpr std::size_t header_size = 3;
+inline constexpr std::uint8_t fmt_type = 128;
+inline constexpr std::size_t fmt_length = 89;
+
+/// Builds the format that the FMT message starting at `message` defines.
+DataFlashFormat parse_format(const std::byte* message);
+
+/// The lengths and definitions in force at a point of the log, by type number.
+class Definitions {
+ public:
+  Definitions();
+
+  /// Length of a message of `type`, 0 where it is not known.
+  [[nodiscard]] std::size_t length(std::byte type) const {
+    return length_[std::to_integer<std::size_t>(type)];
+  }
+
+  /// The time that the message starting at `message` carries in its first field, in µs; nothing for
+  /// a type without one. The type must be known.
+  [[nodiscard]] std::optional<std::int64_t> time_us(const std::byte* message) const;
+
+  enum class Outcome { unchanged, defined, rejected };
+  struct Change {
+    Outcome outcome = Outcome::unchanged;
+    std::uint8_t type = 0;
+    std::string_view reason = {};  ///< why it was rejected
+  };
+  /// Takes over what the FMT message starting at `message` defines.
+  Change take(const std::byte* message);
+  /// How often a log began anew: at FMT's definition of itself.
+  [[nodiscard]] std::size_t beginnings() const { return beginnings_; }
+
+ private:
+  [[nodiscard]] std::optional<std::uint8_t> settled_type_called(std::string_view name) const;
+  void forget(std::uint8_t type);
+
+  std::array<std::uint8_t, 256> length_{};
+  enum class TimeKind : std::uint8_t { none, microseconds, milliseconds };
+  std::array<TimeKind, 256> time_{};
+  std::size_t beginnings_ = 0;
+  std::array<const std::byte*, 256> definition_{};  // the FMT message in force, nullptr if none
+  std::array<bool, 256> settled_{};                 // defined since the log began anew
+};
+
+/// Whether a message's time can be right. A message whose type number is lost takes a byte of its
+/// payload for one, and where that number's length happens to fit, only its time betrays it: that
+/// is shifted by whole bytes, which is a factor of 256.
+class TimeGuard {
+ public:
+  /// Near the log's latest time, or near the latest of the same type (which may have a clock of its
+  /// own); anything is plausible before the first time.
+  [[nodiscard]] bool is_plausible(std::uint8_t type, std::int64_t time) const {
+    return !clock_ || follows(*clock_, time) || (own_[type] && follows(*own_[type], time));
+  }
+
+  /// Takes the next time. Says whether the message is to be believed: if its time is plausible, or
+  /// follows one that was not (so that only the first message after a jump is lost).
+  bool accept(std::uint8_t type, std::int64_t time) {
+    const bool with_clock = !clock_ || follows(*clock_, time);
+    if (!with_clock && !(own_[type] && follows(*own_[type], time)) &&
+        !(rejected_ && follows(*rejected_, time))) {
+      rejected_ = time;
+      return false;
+    }
+    if (with_clock || !own_[type] || !follows(*own_[type], time)) {
+      clock_ = time;
+      rejected_.reset();
+    }
+    own_[type] = time;
+    return true;
+  }
+
+ private:
+  // Messages are written a little out of order, by milliseconds; pauses can be long.
+  static constexpr std::int64_t furthest_back = 10'000'000;      // µs
+  static constexpr std::int64_t furthest_ahead = 3'600'000'000;  // µs
+  static bool follows(std::int64_t before, std::int64_t time) {
+    return time >= before - furthest_back && time <= before + furthest_ahead;
+  }
+
+  std::optional<std::int64_t> clock_;
+  std::optional<std::int64_t> rejected_;
+  std::array<std::optional<std::int64_t>, 256> own_;
+};
+
+/// Where in the log messages can be, and where they end.
+class Framing {
+ public:
+  explicit Framing(std::span<const std::byte> log);
+
+  /// Length of the message at `at` if one begins there, is complete, and is followed by what may
+  /// follow a message; otherwise 0.
+  [[nodiscard]] std::size_t message_at(std::size_t at, const Definitions& known) const {
+    if (at + header_size > log_.size() || !mark_at(at)) return 0;
+    const std::size_t length = known.length(log_[at + 2]);
+    if (length == 0 || length > log_.size() - at) return 0;
+    const std::size_t next = at + length;
+    const bool followed = next + 1 < log_.size() && mark_at(next);
+    return followed || ends_or_continues(next, known) ? length : 0;
+  }
+
+  /// Whether what seems to be one message of `length` bytes is rather a damaged header in front of
+  /// whole messages that end where it ends: with marks all over a log, a wrong length easily leads
+  /// to one.
+  [[nodiscard]] bool hides_messages(std::size_t at, std::size_t length, const Definitions& known,
+                                    const TimeGuard& guard) const;
+
+  /// First position from `at` on where message_at() finds a message, or the log's end.
+  [[nodiscard]] std::size_t next_message(std::size_t at, const Definitions& known) const;
+
+  /// What was lost between two positions.
+  [[nodiscard]] SkippedBytes skipped(std::size_t from, std::size_t to) const;
+
+ private:
+  [[nodiscard]] bool mark_at(std::size_t at) const {
+    return log_[at] == mark_first && log_[at + 1] == mark_second;
+  }
+  [[nodiscard]] bool ends_or_continues(std::size_t at, const Definitions& known) const;
+
+  std::span<const std::byte> log_;
+  std::size_t filler_;  // from here to the end, all bytes are the same filler
+};
+
+/// Walks through the log. The visitor is told, in the log's order:
+///   on_format(type, const std::byte* fmt)   the FMT message at `fmt` now defines `type`;
+///   on_rejected(type, const std::byte* fmt, std::string_view reason)   it could not be used;
+///   on_message(type, const std::byte* message)   after the above, if it is an FMT message;
+///   on_skipped(SkippedBytes).
+template <class Visitor>
+void walk(std::span<const std::byte> log, Visitor& visitor) {
+  const Framing framing(log);
+  Definitions known;
+  TimeGuard guard;
+  const auto believed_length = [&](std::size_t at) -> std::size_t {
+    const std::size_t length = framing.message_at(at, known);
+    if (length == 0 || framing.hides_messages(at, length, known, guard)) return 0;
+    const auto time = known.time_us(log.data() + at);
+    return !time || guard.accept(std::to_integer<std::uint8_t>(log[at + 2]), *time) ? length : 0;
+  };
+  std::size_t at = 0;
+  while (at < log.size()) {
+    const std::size_t length = believed_length(at);
+    if (length == 0) {
+      const std::size_t next = framing.next_message(at + 1, known);
+      visitor.on_skipped(framing.skipped(at, next));
+      at = next;
+      continue;
+    }
+    const std::byte* const message = log.data() + at;
+    const auto type = std::to_integer<std::uint8_t>(message[2]);
+    if (type == fmt_type) {
+      const std::size_t beginnings = known.beginnings();
+      const Definitions::Change change = known.take(message);
+      if (known.beginnings() != beginnings) guard = TimeGuard();
+      if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
+      if (change.outcome == Definitions::Outcome::rejected) {
+        visitor.on_rejected(change.type, message, change.reason);
+      }
+    }
+    visitor.on_message(type, message);
+    at += length;
+  }
+}
+
+/// The FMT message that defines FMT itself: what a reader knows before it has read anything.
+const std::byte* definition_of_fmt();
+
+/// Number of bytes of a field of that kind, 0 where the kind is not known.
+std::size_t size_of_kind(char kind);
+
+}  // namespace tethercalc::dataflash

@@ -1,0 +1,270 @@
+#include "tethercalc/io/flight_log_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "io/csv_columns.hpp"
+#include "io/longest_increasing.hpp"
+#include "tethercalc/io/dataflash.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/mapped_file.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+namespace {
+
+// What attitude angles and a drone's velocity can be; see FlightLogReading::samples_implausible.
+constexpr double steepest_pitch_deg = 90;
+constexpr double furthest_roll_deg = 360;  // upside down, logged rolls run past 180°
+constexpr double fastest_m_s = 500;
+// A thousand turns: some tools export yaw without wraps.
+constexpr double furthest_yaw_deg = 360'000;
+
+/// Samples as logged: time in s, angles in degrees, velocities in m/s.
+enum Channel : std::size_t { time_s, roll_deg, pitch_deg, yaw_deg, vn, ve, vd, channel_count };
+using Samples = std::vector<std::vector<double>>;
+
+bool is_plausible(const Samples& samples, std::size_t i) {
+  const auto within = [&](Channel channel, double limit) {
+    return std::abs(samples[channel][i]) <= limit;  // false for NaN
+  };
+  return std::isfinite(samples[time_s][i]) && within(roll_deg, furthest_roll_deg) &&
+         within(pitch_deg, steepest_pitch_deg) && within(yaw_deg, furthest_yaw_deg) &&
+         within(vn, fastest_m_s) && within(ve, fastest_m_s) && within(vd, fastest_m_s);
+}
+
+void keep(Samples& samples, std::span<const std::size_t> kept) {
+  for (auto& channel : samples) {
+    for (std::size_t i = 0; i < kept.size(); ++i) channel[i] = channel[kept[i]];
+    channel.resize(kept.size());
+  }
+}
+
+/// Returns the number of samples removed.
+std::size_t remove_implausible(Samples& samples) {
+  const std::size_t before = samples[time_s].size();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < before; ++i) {
+    if (is_plausible(samples, i)) kept.push_back(i);
+  }
+  if (kept.size() < before) keep(samples, kept);
+  return before - kept.size();
+}
+
+/// Returns the number of samples removed.
+std::size_t remove_out_of_order(Samples& samples) {
+  const std::vector<double>& time = samples[time_s];
+  const std::size_t before = time.size();
+  if (std::adjacent_find(time.begin(), time.end(), std::greater_equal<>()) == time.end()) return 0;
+  const auto kept = longest_increasing(time);
+  keep(samples, kept);
+  return before - kept.size();
+}
+
+std::vector<double> in_radians(std::vector<double> degrees) {
+  for (double& angle : degrees) angle *= unit::degree;
+  return degrees;
+}
+
+/// Removes jumps of more than half a turn by adding whole turns.
+std::vector<double> without_wraps(std::vector<double> angle) {
+  constexpr double turn = 2 * std::numbers::pi;
+  double turns = 0;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    angle[i] += turns * turn;
+    const double correction = -std::round((angle[i] - angle[i - 1]) / turn);
+    angle[i] += correction * turn;
+    turns += correction;
+  }
+  return angle;
+}
+
+FlightLog to_flight_log(Samples samples) {
+  FlightLog log;
+  log.time = std::move(samples[time_s]);
+  log.roll = in_radians(std::move(samples[roll_deg]));
+  log.pitch = in_radians(std::move(samples[pitch_deg]));
+  log.yaw = without_wraps(in_radians(std::move(samples[yaw_deg])));
+  log.north_velocity = std::move(samples[vn]);
+  log.east_velocity = std::move(samples[ve]);
+  log.down_velocity = std::move(samples[vd]);
+  return log;
+}
+
+/// Where a DataFlash log has the wanted samples.
+struct EstimatorMessage {
+  const DataFlashFormat* format = nullptr;
+  std::optional<DataFlashInstance> core;
+  std::string description;
+};
+
+/// The field that tells the cores apart, or nullptr in logs from before there was one.
+const DataFlashField* core_field(const DataFlashFormat& format) {
+  const DataFlashField* const field = format.find("C");
+  return field != nullptr && field->is_number() ? field : nullptr;
+}
+
+[[noreturn]] void fail(const std::string& name, std::string message) {
+  throw InputError({{name, std::move(message)}});
+}
+
+[[noreturn]] void fail_without_core(std::span<const std::byte> content, const std::string& name,
+                                    std::string_view message, int core) {
+  std::string cores;
+  const std::vector<std::string> field = {"C"};
+  const auto found = extract_columns(content, message, field);
+  for (const double c : std::set<double>(found[0].begin(), found[0].end())) {
+    cores += (cores.empty() ? "" : ", ") + fmt::format("{}", c);
+  }
+  fail(name, fmt::format("there is no EKF core {} in the log's {} messages; it has core {}", core,
+                         message, cores.empty() ? "0" : cores));
+}
+
+[[noreturn]] void fail_without_estimator(const DataFlashContents& contents,
+                                         const std::string& name) {
+  if (contents.messages == 0) {
+    fail(name, fmt::format("no DataFlash message found in {} bytes; expected an ArduPilot .bin log "
+                           "or CSV",
+                           contents.bytes));
+  }
+  fail(name, fmt::format("the log holds {} messages, but no attitude and velocity: expected XKF1, "
+                         "NKF1 or EKF1 messages (set bit 'attitude' of LOG_BITMASK to log them)",
+                         contents.messages));
+}
+
+/// The newest estimator that wrote into the log.
+EstimatorMessage find_estimator(std::span<const std::byte> content,
+                                const DataFlashContents& contents, const std::string& name,
+                                int core) {
+  for (const std::string_view message : {"XKF1", "NKF1", "EKF1"}) {
+    if (contents.count(message) == 0) continue;
+    const DataFlashFormat* const format = contents.find(message);
+    if (core_field(*format) != nullptr) {
+      return {format, DataFlashInstance{"C", static_cast<double>(core)},
+              fmt::format("{} of EKF core {}", message, core)};
+    }
+    if (core == 0) return {format, std::nullopt, std::string(message)};
+    if (core == 1 && message == "NKF1" && contents.count("NKF6") > 0) {
+      return {contents.find("NKF6"), std::nullopt, "NKF6"};
+    }
+    fail_without_core(content, name, message, core);
+  }
+  fail_without_estimator(contents, name);
+}
+
+Samples read_samples(std::span<const std::byte> content, const EstimatorMessage& from,
+                     const std::string& name) {
+  const auto time = time_of(*from.format);
+  if (!time) fail(name, fmt::format("{} messages have no time", from.format->name));
+  const std::vector<std::string> fields = {
+      time->field.name, "Roll", "Pitch", "Yaw", "VN", "VE", "VD"};
+  for (const std::string& field : fields) {
+    const DataFlashField* const found = from.format->find(field);
+    if (found == nullptr || !found->is_number()) {
+      fail(name, fmt::format("{} messages have no number {}; their fields are {}",
+                             from.format->name, field, from.format->labels));
+    }
+  }
+  Samples samples = extract_columns(content, from.format->name, fields, from.core);
+  for (double& t : samples[time_s]) t /= time->counts_per_second;
+  return samples;
+}
+
+void note_damage(FlightLogReading& reading, const DataFlashContents& contents) {
+  reading.skipped_bytes = contents.skipped_bytes;
+  reading.skipped_messages = contents.skipped_messages;
+  if (contents.skipped_bytes > 0) {
+    reading.notes.push_back(
+        fmt::format("the log is damaged or cut: {} bytes and at least {} messages were skipped",
+                    contents.skipped_bytes, contents.skipped_messages));
+  }
+  reading.notes.insert(reading.notes.end(), contents.rejected_definitions.begin(),
+                       contents.rejected_definitions.end());
+}
+
+void note_removed(FlightLogReading& reading) {
+  if (reading.samples_implausible > 0) {
+    reading.notes.push_back(fmt::format("{} samples left out: values that no flight can have",
+                                        reading.samples_implausible));
+  }
+  if (reading.samples_out_of_order > 0) {
+    reading.notes.push_back(fmt::format("{} samples left out: their time does not increase",
+                                        reading.samples_out_of_order));
+  }
+}
+
+FlightLogReading read_dataflash(std::span<const std::byte> content, const std::string& name,
+                                const FlightLogOptions& options) {
+  const DataFlashContents contents = scan_dataflash(content);
+  const EstimatorMessage from = find_estimator(content, contents, name, options.core);
+  Samples samples = read_samples(content, from, name);
+  if (samples[time_s].empty() && from.core) {
+    fail_without_core(content, name, from.format->name, options.core);
+  }
+  FlightLogReading reading;
+  reading.source = from.description;
+  reading.samples_implausible = remove_implausible(samples);
+  reading.samples_out_of_order = remove_out_of_order(samples);
+  note_damage(reading, contents);
+  note_removed(reading);
+  reading.log = to_flight_log(std::move(samples));
+  return reading;
+}
+
+FlightLogReading read_csv(std::string_view text, const std::string& name) {
+  if (text.starts_with("FMT,")) {
+    fail(name, "is a DataFlash log converted to text; expected the .bin log itself, or CSV");
+  }
+  constexpr auto within = [](std::string_view column, double limit) {
+    return CsvColumn{.name = column, .minimum = -limit, .maximum = limit};
+  };
+  constexpr std::array<CsvColumn, channel_count> wanted = {
+      CsvColumn{.name = "time_s", .increasing = true},
+      within("roll_deg", furthest_roll_deg),
+      within("pitch_deg", steepest_pitch_deg),
+      within("yaw_deg", furthest_yaw_deg),
+      within("vn_m_s", fastest_m_s),
+      within("ve_m_s", fastest_m_s),
+      within("vd_m_s", fastest_m_s)};
+  FlightLogReading reading;
+  reading.source = "CSV";
+  reading.log = to_flight_log(read_csv_columns(text, name, wanted, OtherCsvColumns::rejected));
+  return reading;
+}
+
+}  // namespace
+
+bool looks_like_dataflash(std::span<const std::byte> content) {
+  constexpr std::size_t looked_at = 4096;
+  const auto head = content.first(std::min(content.size(), looked_at));
+  constexpr std::array mark = {std::byte{0xA3}, std::byte{0x95}};
+  return std::find(head.begin(), head.end(), std::byte{0}) != head.end() ||
+         std::search(head.begin(), head.end(), mark.begin(), mark.end()) != head.end();
+}
+
+FlightLogReading parse_flight_log(std::span<const std::byte> content, const std::string& name,
+                                  const FlightLogOptions& options) {
+  if (options.core < 0 || options.core > 255) {
+    fail("core", fmt::format("{} is no EKF core, expected 0 to 255", options.core));
+  }
+  if (looks_like_dataflash(content)) return read_dataflash(content, name, options);
+  return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name);
+}
+
+FlightLogReading read_flight_log(const std::filesystem::path& path,
+                                 const FlightLogOptions& options) {
+  const MappedFile file(path);
+  return parse_flight_log(file.bytes(), path.string(), options);
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,183 @@
+// CSV: what is accepted, and what every refusal says.
+#include <array>
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "io/csv_columns.hpp"
+#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/power_log_reader.hpp"
+#include "tethercalc/model/units.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+constexpr std::array<CsvColumn, 3> wanted = {
+    CsvColumn{.name = "time_s", .increasing = true},
+    CsvColumn{.name = "load_N", .minimum = 0, .maximum = 100},
+    CsvColumn{.name = "note_V", .required = false}};
+
+std::vector<std::vector<double>> read(const std::string& text,
+                                      OtherCsvColumns others = OtherCsvColumns::rejected) {
+  return read_csv_columns(text, "run.csv", wanted, others);
+}
+
+/// All problems of a text, "where: message" line by line.
+std::string problems_of(const std::string& text) {
+  try {
+    (void)read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+std::string flight_problems(const std::string& text) {
+  try {
+    (void)parse_flight_log(bytes_of(text), "flight.csv", {});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+const std::string flight_header = "time_s,roll_deg,pitch_deg,yaw_deg,vn_m_s,ve_m_s,vd_m_s\n";
+
+}  // namespace
+
+TEST_CASE("columns are found by name, in whatever order the file has them") {
+  const auto columns = read("load_N,note_V,time_s\n1,2,0\n3,4,0.5\n");
+  CHECK(columns[0] == std::vector<double>{0, 0.5});
+  CHECK(columns[1] == std::vector<double>{1, 3});
+  CHECK(columns[2] == std::vector<double>{2, 4});
+}
+
+TEST_CASE("an optional column that is missing is an empty vector") {
+  CHECK(read("time_s,load_N\n0,1\n")[2].empty());
+}
+
+TEST_CASE(
+    "byte order mark, CRLF, blanks, exponents, no last line end and blank last lines are fine") {
+  const std::vector<std::vector<double>> expected = {{0, 1}, {25, 30}, {}};
+  CHECK(read("\xEF\xBB\xBFtime_s,load_N\r\n0,2.5e1\r\n1,30\r\n") == expected);
+  CHECK(read("time_s , load_N\n 0,\t25 \n1,30") == expected);
+  CHECK(read("time_s,load_N\n0,25\n1,30\n\n\r\n") == expected);
+}
+
+TEST_CASE("columns with other names can be ignored, with whatever they hold") {
+  const auto columns = read("name,time_s,load_N\nfoo,0,1\n,1,2\n", OtherCsvColumns::ignored);
+  CHECK(columns[1] == std::vector<double>{1, 2});
+}
+
+TEST_CASE("every problem is told at once, with its line") {
+  CHECK(problems_of("time_s,load_N\n0,abc\n1,\n2,3,4\n3,nan\n4,inf\n5,1e999\n6,101\n7,1\n7,1\n") ==
+        "run.csv:2: load_N is \"abc\", expected a number such as -1.25\n"
+        "run.csv:3: load_N is empty, expected a number such as -1.25\n"
+        "run.csv:4: 3 cells in the row, expected 2 as in the header\n"
+        "run.csv:5: load_N is \"nan\", expected a finite number\n"
+        "run.csv:6: load_N is \"inf\", expected a finite number\n"
+        "run.csv:7: load_N is \"1e999\", expected a finite number\n"
+        "run.csv:8: load_N is \"101\", expected 0 to 100\n"
+        "run.csv:10: time_s is 7, expected more than the 7 before it");
+}
+
+TEST_CASE("a number with anything behind or before it is not a number") {
+  for (const std::string cell :
+       {"1.5x", "1_5", "0x10", "--1", "1 2", "1;2", "\"1\"", "+", "-", ".", "e5"}) {
+    INFO(cell);
+    CHECK(problems_of("time_s,load_N\n0," + cell + "\n").find("run.csv:2: load_N is") == 0);
+  }
+}
+
+TEST_CASE("header problems name the column, and the closest known one") {
+  CHECK(problems_of("time,load_N\n0,1\n") ==
+        "run.csv:1: unknown column \"time\", known are time_s,load_N,note_V; did you mean "
+        "\"time_s\"?\n"
+        "run.csv:1: column \"time_s\" is missing from the header");
+  CHECK(problems_of("time_s,load_N,load_N\n0,1,1\n") ==
+        "run.csv:1: column \"load_N\" appears twice");
+}
+
+TEST_CASE("files without a header or without rows are refused") {
+  CHECK(problems_of("") ==
+        "run.csv:1: the file is empty, expected the header time_s,load_N,note_V");
+  CHECK(problems_of("time_s,load_N\n") == "run.csv:1: there are no rows below the header");
+  CHECK(problems_of("time_s,load_N\n\n0,1\n").find("run.csv:2: 0 cells in the row") == 0);
+}
+
+TEST_CASE("of very many problems, the first are told and the others counted") {
+  std::string text = "time_s,load_N\n";
+  for (int i = 0; i < 100; ++i) text += std::to_string(i) + ",x\n";
+  try {
+    (void)read(text);
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    REQUIRE(error.problems().size() == 21);
+    CHECK(error.problems().back().message == "and 80 more problems");
+  }
+}
+
+TEST_CASE("a flight log in CSV comes out in radians, NED as given") {
+  const std::string text = flight_header + "0,10,-20,359,1,2,3\n0.1,-10,20,1,4,5,-6\n";
+  const FlightLogReading reading = parse_flight_log(bytes_of(text), "flight.csv", {});
+  const FlightLog& log = reading.log;
+  CHECK(reading.source == "CSV");
+  CHECK(reading.notes.empty());
+  CHECK(log.time == std::vector<double>{0, 0.1});
+  CHECK(log.roll[0] == 10 * unit::degree);
+  CHECK(log.pitch[1] == 20 * unit::degree);
+  CHECK(log.yaw[0] == 359 * unit::degree);
+  CHECK(log.yaw[1] == Approx(361 * unit::degree).epsilon(1e-15));  // no jump at north
+  CHECK(log.north_velocity == std::vector<double>{1, 4});
+  CHECK(log.east_velocity == std::vector<double>{2, 5});
+  CHECK(log.down_velocity == std::vector<double>{3, -6});
+}
+
+TEST_CASE("a flight log in CSV is refused where a value cannot be, or time does not increase") {
+  CHECK(flight_problems(flight_header + "0,0,90.1,0,0,0,0\n") ==
+        "flight.csv:2: pitch_deg is \"90.1\", expected -90 to 90");
+  CHECK(flight_problems(flight_header + "1,0,0,0,0,0,0\n0.5,0,0,0,0,0,0\n") ==
+        "flight.csv:3: time_s is 0.5, expected more than the 1 before it");
+  CHECK(flight_problems("FMT, 128, 89, FMT, BBnNZ\n").find("converted to text") !=
+        std::string::npos);
+}
+
+TEST_CASE("a power log has its optional channels only where the file has them") {
+  const PowerLog full = parse_power_log(
+      "time_s,height_m,airspeed_m_s,ambient_temperature_C,supply_voltage_V,supply_current_A,"
+      "drone_voltage_V,bus_voltage_V,bus_current_A\n1,2,3,4,5,6,7,8,9\n",
+      "power.csv");
+  CHECK(full.time == std::vector<double>{1});
+  CHECK(full.height == std::vector<double>{2});
+  CHECK(full.airspeed == std::vector<double>{3});
+  CHECK(full.ambient_temperature_C == std::vector<double>{4});
+  CHECK(full.supply_voltage == std::vector<double>{5});
+  CHECK(full.supply_current == std::vector<double>{6});
+  CHECK(full.drone_voltage == std::vector<double>{7});
+  CHECK(full.bus_voltage == std::vector<double>{8});
+  CHECK(full.bus_current == std::vector<double>{9});
+  const PowerLog least = parse_power_log(
+      "time_s,height_m,airspeed_m_s,supply_voltage_V,supply_current_A\n1,2,3,5,6\n", "power.csv");
+  CHECK(least.supply_current == std::vector<double>{6});
+  CHECK(least.ambient_temperature_C.empty());
+  CHECK(least.drone_voltage.empty());
+  CHECK(least.bus_voltage.empty());
+  CHECK(least.bus_current.empty());
+}
+
+TEST_CASE("a power log without a supply channel is refused by its name") {
+  CHECK_THROWS_WITH(
+      parse_power_log("time_s,height_m,airspeed_m_s,supply_voltage_V\n1,2,3,5\n", "power.csv"),
+      "power.csv:1: column \"supply_current_A\" is missing from the header");
+}
+
+TEST_CASE("a file that is not there is refused with the system's reason") {
+  CHECK_THROWS_WITH(read_power_log("/nowhere/power.csv"),
+                    Catch::Contains("/nowhere/power.csv: cannot be opened: "));
+  CHECK_THROWS_WITH(read_flight_log("/"), Catch::Contains("is a directory"));
+}

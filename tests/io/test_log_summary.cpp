@@ -1,0 +1,129 @@
+// What a log's summary tells, on logs whose content is known by construction.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/dataflash_writer.hpp"
+#include "tethercalc/io/log_summary.hpp"
+
+using namespace tethercalc;
+using test::DataFlashWriter;
+
+namespace {
+
+constexpr int ev_type = 12;
+
+void define_ev(DataFlashWriter& log) { log.define(ev_type, "EV", "QB", "TimeUS,Id"); }
+void add_ev(DataFlashWriter& log, double time, std::int64_t id) {
+  log.add(ev_type, {static_cast<std::uint64_t>(time * 1e6), id});
+}
+
+/// EKF samples at 10 Hz from `start` to `end` s, moving north at `speed`.
+void add_samples(DataFlashWriter& log, double start, double end, double speed) {
+  for (double t = start; t < end - 0.05; t += 0.1) {
+    test::add_xkf1(log, 0,
+                   {.time_us = static_cast<std::uint64_t>(std::lround(t * 1e6)), .vn = speed});
+  }
+}
+
+const LogSummary::Message& message(const LogSummary& summary, const std::string& name) {
+  for (const auto& type : summary.types) {
+    if (type.name == name) return type;
+  }
+  FAIL("no " + name);
+  throw 0;
+}
+
+}  // namespace
+
+TEST_CASE("counts, rates, time range and gaps of a log are told") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  log.define(11, "MSG", "QZ", "TimeUS,Message");
+  log.add(11, {std::uint64_t{10'000'000}, std::string("ArduCopter V4.5.7")});
+  add_samples(log, 10, 20, 0);
+  add_samples(log, 25, 30, 0);
+  const LogSummary summary = summarize_log(log.bytes());
+  CHECK(summary.messages == 3 + 1 + 150);
+  CHECK(summary.bytes == log.bytes().size());
+  CHECK(summary.firmware == "ArduCopter V4.5.7");
+  CHECK(*summary.first_time == Approx(10));
+  CHECK(*summary.last_time == Approx(29.9));
+  REQUIRE(summary.gaps.size() == 1);
+  CHECK(summary.gaps[0].start == Approx(19.9));
+  CHECK(summary.gaps[0].duration == Approx(5.1));
+  const auto& xkf1 = message(summary, "XKF1");
+  CHECK(xkf1.count == 150);
+  CHECK(*xkf1.rate == Approx(149 / 19.9));
+  CHECK(*xkf1.longest_gap == Approx(5.1));
+  const auto& msg = message(summary, "MSG");
+  CHECK(msg.count == 1);
+  CHECK_FALSE(msg.rate.has_value());
+  CHECK_FALSE(msg.longest_gap.has_value());
+  CHECK_FALSE(message(summary, "FMT").first_time.has_value());
+}
+
+TEST_CASE("one time that is far off is not believed; a long pause is") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  add_samples(log, 10, 20, 0);
+  test::add_xkf1(log, 0, {.time_us = 200'000'000});
+  add_samples(log, 20, 21, 0);
+  add_samples(log, 321, 322, 0);
+  const LogSummary summary = summarize_log(log.bytes());
+  CHECK(summary.implausible_times == 1);
+  CHECK(*summary.last_time == Approx(321.9));
+  CHECK(*summary.first_time == Approx(10));
+  REQUIRE(summary.gap_count == 1);
+  CHECK(summary.gaps[0].duration == Approx(300.1));
+}
+
+TEST_CASE("flying time goes from take-off to landing events, and over several flights") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  define_ev(log);
+  add_ev(log, 1, 10);  // armed
+  add_ev(log, 5, 28);
+  add_ev(log, 25, 18);
+  add_ev(log, 40, 28);
+  add_ev(log, 43.5, 18);
+  const LogSummary summary = summarize_log(log.bytes());
+  REQUIRE(summary.flying.has_value());
+  CHECK(summary.flying->duration == Approx(23.5));
+}
+
+TEST_CASE("a log that begins or ends in the air counts from its beginning or to its end") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  define_ev(log);
+  add_samples(log, 2, 3, 0);
+  add_ev(log, 10, 18);
+  add_ev(log, 20, 28);
+  add_samples(log, 20, 26, 0);
+  CHECK(summarize_log(log.bytes()).flying->duration == Approx(8 + 5.9));
+}
+
+TEST_CASE("without events, flying is moving, short pauses included and twitches not") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  add_samples(log, 0, 10, 0.1);
+  add_samples(log, 10, 11, 2);  // carried to the field: too short
+  add_samples(log, 11, 30, 0.1);
+  add_samples(log, 30, 40, 5);
+  add_samples(log, 40, 45, 0.1);  // hovers
+  add_samples(log, 45, 50, 5);
+  add_samples(log, 50, 80, 0.1);
+  const LogSummary summary = summarize_log(log.bytes());
+  REQUIRE(summary.flying.has_value());
+  CHECK(summary.flying->duration == Approx(19.9));
+  CHECK(summary.flying->determined_by.find("XKF1") != std::string::npos);
+}
+
+TEST_CASE("an empty file has an empty summary") {
+  const LogSummary summary = summarize_log({});
+  CHECK(summary.messages == 0);
+  CHECK(summary.types.empty());
+  CHECK_FALSE(summary.first_time.has_value());
+  CHECK_FALSE(summary.flying.has_value());
+}
