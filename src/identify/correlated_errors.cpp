@@ -47,7 +47,7 @@ double effective_sample_size(std::span<const double> series) {
 std::size_t cosine_terms(double samples, double effective_samples) {
   constexpr double reference_worth = (1 - 0.7) / (1 + 0.7);
   const double equivalent = std::min(samples, effective_samples / reference_worth);
-  return static_cast<std::size_t>(std::max(1.0, std::floor(0.4 * std::pow(equivalent, 2.0 / 3.0))));
+  return static_cast<std::size_t>(std::max(1.0, std::round(0.4 * std::pow(equivalent, 2.0 / 3.0))));
 }
 
 std::vector<double> long_run_covariance(std::span<const double> rows, std::size_t columns,

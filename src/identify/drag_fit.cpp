@@ -359,14 +359,21 @@ struct Minimum {
 /// code because Eigen's unsupported module knows no bounds and wants the whole Jacobian, whose
 /// decomposition costs more than this problem: three shared parameters and a diagonal block.
 Minimum minimise(const std::vector<Samples>& flights, double k, VectorXd start, const Box& within) {
-  constexpr int most_iterations = 200;  // 5 to 10 are used; the rest is for a start given from afar
-  constexpr double negligible = 1e-6;   // of a standard error: below anything that is printed
-  constexpr double rounding = 1e-14;    // relative step where noise-free data ends
-  constexpr double least_damping = 1e-9, most_damping = 1e12;
+  constexpr int most_iterations = 200;  // 5 to 10 are used; the rest is for a start from afar
+  // A step this small against every standard error is far below anything printed, and still lowers
+  // the sum of squares by more than its rounding error (1e-8/N against 1e-16).
+  constexpr double negligible = 1e-4;
+  constexpr double rounding = 1e-13;  // of the observations: where noise-free data ends
+  constexpr double least_damping = 1e-9;
+  constexpr double most_damping = 1e12;
 
-  std::size_t count = 0;
-  for (const auto& flight : flights) count += flight.size();
-  const auto freedom = static_cast<double>(count) - static_cast<double>(start.size());
+  double count = 0;
+  double power = 0;
+  for (const auto& flight : flights) {
+    count += static_cast<double>(flight.size());
+    for (const Sample& s : flight) power += s.observed * s.observed;
+  }
+  const double freedom = count - static_cast<double>(start.size());
 
   Minimum best;
   best.x = start.cwiseMax(within.lower).cwiseMin(within.upper);
@@ -387,10 +394,10 @@ Minimum minimise(const std::vector<Samples>& flights, double k, VectorXd start, 
     const VectorXd moved = x - best.x;
     NormalEquations at = normal_equations(flights, k, x);
     const bool improved = at.sse < best.at.sse;
-    // |moved_i| ≤ ε·se_i for all i follows from movedᵀ·H·moved ≤ ε²·s².
-    const double statistical =
-        std::sqrt(std::max(0.0, moved.dot(best.at.h * moved)) / (best.at.sse / freedom));
-    const bool small = statistical <= negligible || moved.norm() <= rounding * best.x.norm();
+    // movedᵀ·H·moved ≤ ε²·s² bounds every |moved_i| by ε standard errors.
+    const bool small =
+        moved.dot(best.at.h * moved) <=
+        std::max(negligible * negligible * best.at.sse / freedom, rounding * rounding * power);
     if (improved) {
       best.x = std::move(x);
       best.at = std::move(at);
@@ -479,6 +486,36 @@ Scores scores_of(const Samples& samples, double k, const LocalDrag& drag) {
   return out;
 }
 
+/// What undoes the central differences' own error in the parameters, to first order: H⁻¹·Jᵀe. The
+/// leading error of a central difference of v over steps h is e = h²/6·d²a/dt² (Abramowitz and
+/// Stegun 25.3.21), here from second differences of the acceleration that tilt and fitted drag
+/// predict: that of the observed one would be noise. Samples beside a gap or at an end count as
+/// exact.
+VectorXd differentiation_correction(std::span<const Observations> flights,
+                                    const std::vector<Samples>& samples, double k,
+                                    const Minimum& minimum, const MatrixXd& inverse) {
+  VectorXd pull = VectorXd::Zero(minimum.x.size());
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    const Observations& flight = flights[f];
+    const LocalDrag drag = local(minimum.x, static_cast<Index>(f));
+    std::vector<double> predicted(flight.size());
+    for (std::size_t i = 0; i < flight.size(); ++i) {
+      const Row r = row_at(samples[f][i], k, drag);
+      predicted[i] = flight.forward_acceleration[i] + r.residual;
+    }
+    for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
+      const double before = flight.time[i] - flight.time[i - 1];
+      const double after = flight.time[i + 1] - flight.time[i];
+      if (before > 2 * after || after > 2 * before) continue;
+      const double error = (predicted[i - 1] - 2 * predicted[i] + predicted[i + 1]) / 6;
+      const Row r = row_at(samples[f][i], k, drag);
+      pull.head<shared>() += error * Eigen::Vector3d(r.front_area, r.top_area, r.linear_speed);
+      pull(shared + static_cast<Index>(f)) += error * r.wind;
+    }
+  }
+  return inverse * pull;
+}
+
 /// Variance and degrees of freedom of the combination `a` of the parameters. Flights are
 /// independent, so variances add, and degrees of freedom combine after Satterthwaite (1946).
 struct Variance {
@@ -502,7 +539,9 @@ Variance variance(const DragFit& fit, std::span<const double> a) {
     total += part;
     spread += part * part / fit.degrees_of_freedom_by_flight[f];
   }
-  return {total, spread > 0 ? total * total / spread : 0};
+  const double correction =
+      std::inner_product(a.begin(), a.end(), fit.differentiation_correction.begin(), 0.0);
+  return {total + correction * correction, spread > 0 ? total * total / spread : 0};
 }
 
 }  // namespace
@@ -513,9 +552,9 @@ AirframeDrag DragFit::drag() const {
 
 double DragFit::correlation(std::size_t i, std::size_t j) const {
   const std::size_t size = parameters.size();
-  double ij = 0;
-  double ii = 0;
-  double jj = 0;
+  double ij = differentiation_correction[i] * differentiation_correction[j];
+  double ii = differentiation_correction[i] * differentiation_correction[i];
+  double jj = differentiation_correction[j] * differentiation_correction[j];
   for (const auto& covariance : covariance_by_flight) {
     ij += covariance[i * size + j];
     ii += covariance[i * size + i];
@@ -572,8 +611,11 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   fit.iterations = minimum.iterations;
   fit.converged = minimum.converged;
 
-  // Residual statistics and the honest covariance, flight by flight.
   const MatrixXd inverse = free_inverse(minimum);
+  const VectorXd undone = differentiation_correction(flights, samples, k, minimum, inverse);
+  fit.differentiation_correction.assign(undone.data(), undone.data() + undone.size());
+
+  // Residual statistics and the honest covariance, flight by flight.
   const auto size = minimum.x.size();
   FitQuality& quality = fit.quality;
   double sum = 0;

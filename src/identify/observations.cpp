@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -139,6 +140,25 @@ SampleRange range_in_percent(const FlightLog& log, double from, double to) {
   if (range.first >= range.last) {
     throw UnsuitableFlight(fmt::format("no sample from {} % to {} % of a log of {} samples", from,
                                        to, log.time.size()));
+  }
+  return range;
+}
+
+SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
+                         std::optional<LogPosition> to) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto range_of = [&log](std::optional<LogPosition> lower, std::optional<LogPosition> upper) {
+    const bool percent = (lower && lower->percent) || (upper && upper->percent);
+    if (percent) {
+      return range_in_percent(log, lower ? lower->value : 0, upper ? upper->value : 100);
+    }
+    return range_in_seconds(log, lower ? lower->value : -infinity, upper ? upper->value : infinity);
+  };
+  if (!from || !to || from->percent == to->percent) return range_of(from, to);
+  const SampleRange range{range_of(from, std::nullopt).first, range_of(std::nullopt, to).last};
+  if (range.first >= range.last) {
+    throw UnsuitableFlight(fmt::format("the range ends at {:.3f} s, before it begins at {:.3f} s",
+                                       log.time[range.last - 1], log.time[range.first]));
   }
   return range;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -55,6 +56,17 @@ void validate(const FlightLog& log);
 /// 0 ≤ from < to ≤ 100. Throws UnsuitableFlight otherwise, or where no sample is left.
 [[nodiscard]] SampleRange range_in_percent(const FlightLog& log, double from, double to);
 
+/// A place in a log: seconds of its own clock, or percent of its samples.
+struct LogPosition {
+  double value = 0;
+  bool percent = false;
+};
+
+/// The samples from `from` to `to`, each in its own unit and either absent for the log's own end.
+/// Throws UnsuitableFlight where no sample is left.
+[[nodiscard]] SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
+                                       std::optional<LogPosition> to);
+
 /// The part of the flight that is flown forward and backward: from the first to the last time that
 /// the forward speed stays at 1 m/s or more, in magnitude, for at least 1 s. Such stretches with
 /// less than 30 s between them belong together (a pause in the air is data too); of several such
@@ -75,7 +87,9 @@ void validate(const FlightLog& log);
 ///   three-point formula exact for parabolas), taken over the whole log, so that a bound of the
 ///   range is not an edge. No smoothing (paper section IV).
 /// - expected_acceleration = (g − a_D)·tanθ/cosφ with the roll φ: the thrust that carries the drone
-///   in height, leaning forward (paper eq. for a_ef, whose a_od is positive upward).
+///   in height, leaning forward (paper eq. for a_ef, whose a_od is positive upward). For Euler
+///   angles in the order yaw, pitch, roll the factor 1/cosφ should not be there; it is kept as
+///   published. Within ±5° of roll it is 1 to 0.4 %.
 ///
 /// A step of more than three times the median one is a gap. Nothing is differentiated across it:
 /// the neighbours of a gap, like the ends of the log, get one-sided differences, and a sample alone
