@@ -341,7 +341,7 @@ std::vector<Index> free_parameters(const VectorXd& x, const VectorXd& g, const B
   std::vector<Index> free;
   for (Index i = 0; i < x.size(); ++i) {
     const bool held =
-        (x(i) <= within.lower(i) && g(i) <= 0) || (x(i) >= within.upper(i) && g(i) >= 0);
+        (x(i) <= within.lower(i) && g(i) < 0) || (x(i) >= within.upper(i) && g(i) > 0);
     if (!held) free.push_back(i);
   }
   return free;

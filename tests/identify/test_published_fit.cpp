@@ -52,3 +52,47 @@ TEST_CASE("the published fit comes out to every printed digit") {
   CHECK(fit.quality.samples == 3396);
   check_as_printed(fit);
 }
+
+TEST_CASE("the published fit is reached from many random starts") {
+  if (absent()) return;
+  const Observations flight = published_observations();
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937_64 random(seed);
+  const auto between = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int i = 0; i < 100; ++i) {
+    DragFitOptions options;
+    options.start = DragParameters{
+        between(0.001, 0.1), between(0.001, 0.1), between(1, 100), {between(-10, 10)}};
+    check_as_printed(fit_drag({&flight, 1}, published_conditions, options));
+  }
+}
+
+TEST_CASE("the published errors understate, and the drag force is known better than A_f and j") {
+  if (absent()) return;
+  const Observations flight = published_observations();
+  const DragFit fit = fit_drag({&flight, 1}, published_conditions);
+  CHECK(fit.quality.residual_lag1_autocorrelation == Approx(0.86).margin(0.01));
+  CHECK(fit.quality.effective_samples < 0.1 * 3396);
+  for (const FittedParameter& p : fit.parameters) {
+    CHECK(p.estimate.standard_error > 3 * p.estimate.standard_error_independent);
+  }
+  // The published correlation of A_f and j, from the independent covariance.
+  const auto& c = fit.covariance_independent;
+  CHECK(c[2] / std::sqrt(c[0] * c[10]) == Approx(-0.97).margin(0.005));
+  REQUIRE(entangled_pairs(fit).size() == 1);
+  const Estimate force = steady_drag(fit, 30 / 3.6)->force;
+  CHECK(force.standard_error < 0.03 * force.value);
+  const Estimate& j = fit.linear_speed().estimate;
+  CHECK(j.standard_error > 0.15 * j.value);
+}
+
+TEST_CASE("the moving part of the published flight is found") {
+  if (absent()) return;
+  const FlightLog log = test::read_flight_csv(published_log);
+  const SampleRange part = moving_part(log);
+  CHECK(log.time[part.first] == Approx(160).margin(25));    // passes begin at about 155 s
+  CHECK(log.time[part.last - 1] == Approx(472).margin(4));  // and end before the descent
+}
