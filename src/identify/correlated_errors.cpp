@@ -58,22 +58,26 @@ std::vector<double> long_run_covariance(std::span<const double> rows, std::size_
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> z(
       rows.data(), height, width);
 
-  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(width, count);
+  // All cosines advance together by cos(a + d) = 2cos(d)cos(a) − cos(a − d), one cosine a term
+  // instead of one a sample and term. The recurrence's error grows no faster than N²·ε: 3e-7
+  // for an hour at 10 Hz, far below the 1/√ν by which the estimate itself scatters.
+  const double unit_step = std::numbers::pi / static_cast<double>(height);
+  const Eigen::ArrayXd steps =
+      Eigen::ArrayXd::LinSpaced(count, 1.0, static_cast<double>(terms)) * unit_step;
+  const Eigen::ArrayXd twice_cosine = 2 * steps.cos();
+  Eigen::ArrayXd before = (0.5 * steps).cos();  // at t = −½, as at t = ½
+  Eigen::ArrayXd now = before;
+  Eigen::ArrayXd next(count);
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(count, width);
   for (Eigen::Index t = 0; t < height; ++t) {
-    // cos((j+1)x) = 2cos(x)cos(jx) − cos((j−1)x): one cosine a row instead of one a term.
-    const double angle =
-        std::numbers::pi * (static_cast<double>(t) + 0.5) / static_cast<double>(height);
-    const double twice_cosine = 2 * std::cos(angle);
-    double before = 1;
-    double now = twice_cosine / 2;
-    for (Eigen::Index j = 0; j < count; ++j) {
-      coefficients.col(j) += now * z.row(t).transpose();
-      const double next = twice_cosine * now - before;
-      before = now;
-      now = next;
+    for (Eigen::Index column = 0; column < width; ++column) {
+      coefficients.col(column).array() += z(t, column) * now;
     }
+    next = twice_cosine * now - before;
+    before.swap(now);
+    now.swap(next);
   }
-  const Eigen::MatrixXd covariance = coefficients * coefficients.transpose() *
+  const Eigen::MatrixXd covariance = coefficients.transpose() * coefficients *
                                      (2 / static_cast<double>(height) / static_cast<double>(terms));
   return {covariance.data(), covariance.data() + covariance.size()};
 }
