@@ -1,0 +1,172 @@
+// The drone's drag, learned from its own flights, with errors that hold for correlated residuals.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tethercalc/identify/observations.hpp"
+#include "tethercalc/model/airframe.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+
+/// What a fit takes as known.
+struct DragFitConditions {
+  double mass = 0;             ///< kg, > 0, of the drone as flown. A wrong mass rescales both areas
+  double air_density = 1.293;  ///< kg/m³, > 0. A wrong density rescales both areas inversely
+  double gravity = standard_gravity;  ///< m/s², > 0, the value the observations were made with
+};
+
+/// The box the parameters are kept in; areas and j are never negative. Wide enough that no
+/// multirotor reaches it; a parameter found at its bound says that the data lacks something.
+struct DragBounds {
+  double max_area = 10;           ///< m², front and top
+  double max_linear_speed = 500;  ///< m/s: at 25 m/s the quadratic part is then 5 % of the drag
+  double max_wind = 30;           ///< m/s either way
+};
+
+/// The parameters of the paper's drag model, F_D = ½·ρ·(A_f cos|θ| + A_t sin|θ|)(u|u| + j·u) with
+/// u = v − w.
+struct DragParameters {
+  double front_area = 0;     ///< A_f, m²
+  double top_area = 0;       ///< A_t, m²
+  double linear_speed = 0;   ///< j, m/s
+  std::vector<double> wind;  ///< w, m/s, one a flight: motion of the air along the forward axis
+};
+
+struct DragFitOptions {
+  DragBounds bounds;
+
+  /// Where to start instead of at the best point of the search grid. The result does not depend on
+  /// it wherever the fit converges; it is here so that this can be checked. `wind` one a flight.
+  std::optional<DragParameters> start;
+};
+
+/// A number with its uncertainty, all in the unit of `value`. Where the fit holds a parameter at
+/// its bound it has no error and all of these but `value` are NaN.
+struct Estimate {
+  double value = 0;
+  double standard_error_independent =
+      0;                          ///< if all residuals were independent, as the paper prints
+  double standard_error = 0;      ///< holds for correlated and uneven residuals
+  double degrees_of_freedom = 0;  ///< of `standard_error`
+  double lower = 0;               ///< 95 % confidence interval: value ± t·standard_error with
+  double upper = 0;               ///< Student's t for those degrees of freedom
+};
+
+enum class Bound { none, lower, upper };
+
+/// One fitted parameter.
+struct FittedParameter {
+  std::string name;  ///< "front_area_m2", "top_area_m2", "linear_m_s", "wind_m_s" or, of several
+                     ///< flights, "wind_m_s[0]", "wind_m_s[1]", …
+  Estimate estimate;
+  Bound at_bound = Bound::none;
+};
+
+/// How the model explains the observed drag, per unit of mass: expected minus observed
+/// acceleration.
+struct FitQuality {
+  double rmse = 0;       ///< m/s²
+  double mae = 0;        ///< m/s², mean absolute residual
+  double r_squared = 0;  ///< share of the observed drag's variance that the model explains
+  double residual_lag1_autocorrelation = 0;  ///< mean over the flights, weighted by their samples
+  std::size_t samples = 0;
+  double effective_samples = 0;  ///< independent samples the residuals are worth
+};
+
+/// The outcome of `fit_drag`.
+struct DragFit {
+  DragFitConditions conditions;
+  /// A_f, A_t, j, then one wind a flight.
+  std::vector<FittedParameter> parameters;
+  /// Covariance of the parameters (SI units, order of `parameters`), one matrix a flight, row after
+  /// row: the part of the total that this flight's residuals cause. Zero for parameters at a bound.
+  std::vector<std::vector<double>> covariance_by_flight;
+  std::vector<double> degrees_of_freedom_by_flight;
+  /// What would have to be added to each parameter to undo, to first order, the error of
+  /// differentiating speeds at the log's rate, which quick reversals make felt. The values are left
+  /// as the method gives them; the squares of these are added to the variances.
+  std::vector<double> differentiation_correction;
+  /// The covariance if all residuals were independent.
+  std::vector<double> covariance_independent;
+  FitQuality quality;
+  double max_airspeed = 0;  ///< m/s, the largest |v − w| flown
+  int iterations = 0;
+  bool converged = false;  ///< the last step was below 1e-4 of every standard error
+
+  [[nodiscard]] AirframeDrag drag() const;  ///< the three shared parameters, without wind
+  [[nodiscard]] const FittedParameter& front_area() const { return parameters[0]; }
+  [[nodiscard]] const FittedParameter& top_area() const { return parameters[1]; }
+  [[nodiscard]] const FittedParameter& linear_speed() const { return parameters[2]; }
+  [[nodiscard]] std::span<const FittedParameter> wind() const {
+    return std::span(parameters).subspan(3);
+  }
+
+  /// Correlation in [−1, 1] of parameters `i` and `j` under the honest covariance; 0 where either
+  /// is at a bound.
+  [[nodiscard]] double correlation(std::size_t i, std::size_t j) const;
+};
+
+/// Fits A_f, A_t, j, shared by all `flights`, and one wind a flight, by nonlinear least squares on
+/// forward acceleration: a = expected_acceleration − F_D/m.
+///
+/// The start is deterministic. For a given wind and j the model is linear in the areas, so on a
+/// grid of winds and j the best areas are solved for exactly; from the best grid point a damped
+/// Gauss–Newton iteration within the bounds goes to the minimum.
+///
+/// Errors: the independent-sample covariance is s²(JᵀJ)⁻¹; the honest one is the sandwich
+/// (JᵀJ)⁻¹·N·Ω·(JᵀJ)⁻¹ with the long-run covariance Ω of the scores J_t·r_t, see
+/// `long_run_covariance`. Flights are taken as independent of each other and degrees of freedom
+/// combine after Satterthwaite. To it is added what differentiating at the log's rate costs, see
+/// `differentiation_correction`. Not included: a wrong mass, density or pitch offset, effects the
+/// model lacks, and the small bias of gusts that both push the drone and are pushed against
+/// (simulated at the noise of the published flight it stays below half a standard error).
+/// Parameters at a bound count as known in the errors of the others.
+///
+/// Throws UnsuitableFlight where the data cannot determine the parameters: no flight, fewer than 50
+/// samples in one, speeds of all flights within 3 m/s (of the middle 90 %), accelerations that show
+/// no drag, or parameters that have no separate effect. Throws std::invalid_argument for conditions
+/// or bounds outside their range.
+[[nodiscard]] DragFit fit_drag(std::span<const Observations> flights,
+                               const DragFitConditions& conditions,
+                               const DragFitOptions& options = {});
+
+/// A quantity computed from the fit, with the errors that follow from those of the parameters:
+/// `gradient` is its derivative with respect to `parameters`, in SI units.
+[[nodiscard]] Estimate propagate(const DragFit& fit, double value,
+                                 std::span<const double> gradient);
+
+/// Steady level flight as the fit predicts it.
+struct SteadyDrag {
+  double airspeed = 0;  ///< m/s
+  Estimate force;       ///< N
+  Estimate tilt;        ///< rad
+};
+
+/// Drag force and tilt at which the fitted drone, without tether, flies steadily at `airspeed` ≥ 0
+/// in m/s: F_D(v, θ) = m·g·tanθ. This is what the data determines well even where A_f, A_t and j
+/// are entangled. Empty where there is no such tilt below 60°.
+[[nodiscard]] std::optional<SteadyDrag> steady_drag(const DragFit& fit, double airspeed);
+
+/// Two parameters that the data hardly tells apart.
+struct EntangledPair {
+  std::size_t first = 0;  ///< indices into `DragFit::parameters`
+  std::size_t second = 0;
+  double correlation = 0;
+};
+
+/// Pairs correlated beyond ±0.9: each alone is then more than twice as uncertain as it would be if
+/// the other were known (1/√(1 − 0.9²) = 2.3).
+[[nodiscard]] std::vector<EntangledPair> entangled_pairs(const DragFit& fit);
+
+/// Density of dry air in kg/m³ from `pressure` in Pa (> 0) and `temperature` in K (> 0), as an
+/// ideal gas: p/(R·T) with R = 287.05287 J/(kg·K) (ISO 2533:1975, Standard Atmosphere). Moist air
+/// is lighter, by up to 1 % at 25 °C. Throws std::invalid_argument outside the range.
+[[nodiscard]] double dry_air_density(double pressure, double temperature);
+
+}  // namespace tethercalc

@@ -1,0 +1,104 @@
+// What a flight log says about drag: motion and attitude in the stabilised frame, sample by sample.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "tethercalc/identify/flight_log.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+
+/// A log, or the chosen part of it, that cannot tell what it is asked. The message is a sentence
+/// for the user: what is wrong, where, and what would help.
+class UnsuitableFlight : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Samples first ≤ i < last of a log.
+struct SampleRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  [[nodiscard]] std::size_t size() const { return last - first; }
+  bool operator==(const SampleRange&) const = default;
+};
+
+/// Time series in the stabilised frame, which turns with the yaw but neither pitches nor rolls: its
+/// forward and right axes are horizontal, down is down. One element a sample in every vector.
+struct Observations {
+  std::vector<double> time;                   ///< s, the log's own clock
+  std::vector<double> tilt;                   ///< rad, θ: positive leaning forward (nose down)
+  std::vector<double> roll;                   ///< rad
+  std::vector<double> yaw;                    ///< rad
+  std::vector<double> forward_speed;          ///< m/s over ground
+  std::vector<double> right_speed;            ///< m/s over ground
+  std::vector<double> down_speed;             ///< m/s
+  std::vector<double> forward_acceleration;   ///< m/s², rate of change of forward_speed
+  std::vector<double> down_acceleration;      ///< m/s²
+  std::vector<double> expected_acceleration;  ///< m/s² forward if there were no drag
+
+  [[nodiscard]] std::size_t size() const { return time.size(); }
+};
+
+/// Throws UnsuitableFlight unless all series of `log` have the same length of at least 3, are
+/// finite, and time strictly increases; names the first offending sample.
+void validate(const FlightLog& log);
+
+/// The samples taken at `from` ≤ time ≤ `to` seconds of the log's own clock (either may be
+/// infinite). Throws UnsuitableFlight where there are none.
+[[nodiscard]] SampleRange range_in_seconds(const FlightLog& log, double from, double to);
+
+/// The samples from `from` to `to` percent of the number of samples, each bound rounded down:
+/// 0 ≤ from < to ≤ 100. Throws UnsuitableFlight otherwise, or where no sample is left.
+[[nodiscard]] SampleRange range_in_percent(const FlightLog& log, double from, double to);
+
+/// A place in a log: seconds of its own clock, or percent of its samples.
+struct LogPosition {
+  double value = 0;
+  bool percent = false;
+};
+
+/// The samples from `from` to `to`, each in its own unit and either absent for the log's own end.
+/// Throws UnsuitableFlight where no sample is left.
+[[nodiscard]] SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
+                                       std::optional<LogPosition> to);
+
+/// The part of the flight that is flown forward and backward: from the first to the last time that
+/// the forward speed stays at 1 m/s or more, in magnitude, for at least 1 s. Such stretches with
+/// less than 30 s between them belong together (a pause in the air is data too); of several such
+/// parts it is the longest, since a longer pause may be a landing, and on the ground attitude is no
+/// thrust. Throws UnsuitableFlight where the drone never moves so.
+[[nodiscard]] SampleRange moving_part(const FlightLog& log);
+
+/// Mean pitch in rad over the whole of `hover`: what the attitude estimator reads in level flight
+/// without wind, to be passed to `observe` (paper section IV, first flight). The hover should turn
+/// through all headings, else a steady wind leans into it.
+[[nodiscard]] double pitch_offset_from_hover(const FlightLog& hover);
+
+/// Turns samples `range` of `log` into observations.
+///
+/// - θ = −(pitch − pitch_offset), `pitch_offset` in rad.
+/// - Velocities are rotated by the yaw; accelerations are the derivative of the *rotated* speeds:
+///   central differences of second order for the given, not necessarily even, times (the
+///   three-point formula exact for parabolas), taken over the whole log, so that a bound of the
+///   range is not an edge. No smoothing (paper section IV).
+/// - expected_acceleration = (g − a_D)·tanθ/cosφ with the roll φ: the thrust that carries the drone
+///   in height, leaning forward (paper eq. for a_ef, whose a_od is positive upward). For Euler
+///   angles in the order yaw, pitch, roll the factor 1/cosφ should not be there; it is kept as
+///   published. Within ±5° of roll it is 1 to 0.4 %.
+///
+/// A step of more than three times the median one is a gap. Nothing is differentiated across it:
+/// the neighbours of a gap, like the ends of the log, get one-sided differences, and a sample alone
+/// between two gaps is left out, so the result may be shorter than the range.
+///
+/// `gravity` in m/s², > 0. Throws UnsuitableFlight for an invalid log, a range that is empty or
+/// exceeds it, and where the drone tilts or rolls beyond 75° within the range: there the thrust no
+/// longer carries it.
+[[nodiscard]] Observations observe(const FlightLog& log, const SampleRange& range,
+                                   double pitch_offset, double gravity = standard_gravity);
+
+}  // namespace tethercalc

@@ -1,0 +1,85 @@
+#include "tethercalc/identify/correlated_errors.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tethercalc {
+namespace {
+
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+Vector as_vector(std::span<const double> series) {
+  return {series.data(), static_cast<Eigen::Index>(series.size())};
+}
+
+/// Σ x_t·x_{t+lag}.
+double lagged_product(const Eigen::VectorXd& x, Eigen::Index lag) {
+  return x.head(x.size() - lag).dot(x.tail(x.size() - lag));
+}
+
+}  // namespace
+
+double autocorrelation(std::span<const double> series, std::size_t lag) {
+  if (series.size() <= lag) return 0;
+  const Eigen::VectorXd x = as_vector(series).array() - as_vector(series).mean();
+  const double variance = x.squaredNorm();
+  return variance > 0 ? lagged_product(x, static_cast<Eigen::Index>(lag)) / variance : 0;
+}
+
+double effective_sample_size(std::span<const double> series) {
+  const auto size = static_cast<double>(series.size());
+  if (series.size() < 2) return size;
+  const Eigen::VectorXd x = as_vector(series).array() - as_vector(series).mean();
+  const double variance = x.squaredNorm();
+  if (!(variance > 0)) return size;
+  double correlation_time = -1;  // −1 + 2·Σ of the pairs, the first of which holds ρ_0 = 1
+  for (Eigen::Index lag = 0; lag + 1 < x.size(); lag += 2) {
+    const double pair = (lagged_product(x, lag) + lagged_product(x, lag + 1)) / variance;
+    if (pair <= 0) break;
+    correlation_time += 2 * pair;
+  }
+  return std::clamp(size / std::max(correlation_time, 1.0), 1.0, size);
+}
+
+std::size_t cosine_terms(double samples, double effective_samples) {
+  constexpr double reference_worth = (1 - 0.7) / (1 + 0.7);
+  const double equivalent = std::min(samples, effective_samples / reference_worth);
+  return static_cast<std::size_t>(std::max(1.0, std::round(0.4 * std::pow(equivalent, 2.0 / 3.0))));
+}
+
+std::vector<double> long_run_covariance(std::span<const double> rows, std::size_t columns,
+                                        std::size_t terms) {
+  const auto width = static_cast<Eigen::Index>(columns);
+  const auto height = static_cast<Eigen::Index>(rows.size() / columns);
+  const auto count = static_cast<Eigen::Index>(terms);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> z(
+      rows.data(), height, width);
+
+  // All cosines advance together by cos(a + d) = 2cos(d)cos(a) − cos(a − d), one cosine a term
+  // instead of one a sample and term. The recurrence's error grows no faster than N²·ε: 3e-7
+  // for an hour at 10 Hz, far below the 1/√ν by which the estimate itself scatters.
+  const double unit_step = std::numbers::pi / static_cast<double>(height);
+  const Eigen::ArrayXd steps =
+      Eigen::ArrayXd::LinSpaced(count, 1.0, static_cast<double>(terms)) * unit_step;
+  const Eigen::ArrayXd twice_cosine = 2 * steps.cos();
+  Eigen::ArrayXd before = (0.5 * steps).cos();  // at t = −½, as at t = ½
+  Eigen::ArrayXd now = before;
+  Eigen::ArrayXd next(count);
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(count, width);
+  for (Eigen::Index t = 0; t < height; ++t) {
+    for (Eigen::Index column = 0; column < width; ++column) {
+      coefficients.col(column).array() += z(t, column) * now;
+    }
+    next = twice_cosine * now - before;
+    before.swap(now);
+    now.swap(next);
+  }
+  const Eigen::MatrixXd covariance = coefficients.transpose() * coefficients *
+                                     (2 / static_cast<double>(height) / static_cast<double>(terms));
+  return {covariance.data(), covariance.data() + covariance.size()};
+}
+
+}  // namespace tethercalc

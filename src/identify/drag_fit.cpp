@@ -1,0 +1,720 @@
+#include "tethercalc/identify/drag_fit.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "tethercalc/identify/correlated_errors.hpp"
+
+// Notation, after the paper's section III-B: θ tilt, v forward speed over ground, w wind, u = v −
+// w, A_f, A_t effective areas, j linear speed, ρ air density, m mass, k = ρ/(2m). y = expected −
+// observed acceleration = F_D/m = k·(A_f cosθ + A_t |sinθ|)(u|u| + j·u). H = JᵀJ, g = Jᵀr with the
+// Jacobian J of the model and the residual r = y − model.
+
+namespace tethercalc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t fewest_samples =
+    50;  // at 10 Hz one pass; fewer give no autocorrelation either
+constexpr double smallest_speed_spread = 3.0;  // m/s: below it every column of J is nearly the same
+constexpr Index shared = 3;                    // A_f, A_t, j
+constexpr Index front = 0;
+constexpr Index top = 1;
+constexpr Index linear = 2;
+
+struct Sample {
+  double cosine;    // cosθ
+  double sine;      // |sinθ|
+  double speed;     // v
+  double observed;  // y
+};
+using Samples = std::vector<Sample>;
+
+Samples to_samples(const Observations& flight) {
+  Samples samples(flight.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i] = {std::cos(flight.tilt[i]), std::abs(std::sin(flight.tilt[i])),
+                  flight.forward_speed[i],
+                  flight.expected_acceleration[i] - flight.forward_acceleration[i]};
+  }
+  return samples;
+}
+
+// ---- demands on the input ----
+
+void demand(bool holds, const char* field, double value, const char* allowed) {
+  if (!holds) {
+    throw std::invalid_argument(fmt::format("{} is {} but must be {}", field, value, allowed));
+  }
+}
+
+void validate(const DragFitConditions& conditions, const DragFitOptions& options,
+              std::size_t flights) {
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  demand(positive(conditions.mass), "the mass in kg", conditions.mass, "positive");
+  demand(positive(conditions.air_density), "the air density in kg/m³", conditions.air_density,
+         "positive");
+  demand(positive(conditions.gravity), "gravity in m/s²", conditions.gravity, "positive");
+  demand(positive(options.bounds.max_area), "the largest area in m²", options.bounds.max_area,
+         "positive");
+  demand(positive(options.bounds.max_linear_speed), "the largest linear speed in m/s",
+         options.bounds.max_linear_speed, "positive");
+  demand(positive(options.bounds.max_wind), "the largest wind in m/s", options.bounds.max_wind,
+         "positive");
+  if (options.start) {
+    demand(options.start->wind.size() == flights, "the number of winds to start from",
+           static_cast<double>(options.start->wind.size()), "the number of flights");
+  }
+}
+
+void demand_enough_samples(std::span<const Observations> flights) {
+  if (flights.empty()) throw UnsuitableFlight("a drag fit needs at least one flight");
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    if (flights[k].size() < fewest_samples) {
+      throw UnsuitableFlight(
+          fmt::format("flight {} has {} samples in the chosen range; a drag fit needs at least {}",
+                      k + 1, flights[k].size(), fewest_samples));
+    }
+  }
+}
+
+void demand_speed_spread(std::span<const Observations> flights) {
+  std::vector<double> speeds;
+  for (const auto& flight : flights) {
+    speeds.insert(speeds.end(), flight.forward_speed.begin(), flight.forward_speed.end());
+  }
+  const auto quantile = [&speeds](double q) {
+    const auto nth =
+        speeds.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(speeds.size() - 1));
+    std::nth_element(speeds.begin(), nth, speeds.end());
+    return *nth;
+  };
+  const double slow = quantile(0.05);
+  const double fast = quantile(0.95);
+  if (fast - slow < smallest_speed_spread) {
+    throw UnsuitableFlight(fmt::format(
+        "the forward speed stays between {:.2f} and {:.2f} m/s for 90 % of the samples; to tell "
+        "drag "
+        "from wind it must vary by at least {} m/s: fly forward and backward at several tilts",
+        slow, fast, smallest_speed_spread));
+  }
+}
+
+// ---- the deterministic start ----
+
+/// Normal equations of y/k in the basis (cosθ·u|u|, |sinθ|·u|u|, cosθ·u, |sinθ|·u), in which the
+/// model is linear with coefficients (A_f, A_t, A_f·j, A_t·j).
+struct Gram {
+  Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+
+  Gram& operator+=(const Gram& other) {
+    h += other.h;
+    b += other.b;
+    return *this;
+  }
+};
+
+struct SharedDrag {
+  double front_area = 0;
+  double top_area = 0;
+  double linear_speed = 0;
+  double explained = 0;  // how much they lower the sum of squares
+};
+
+double explained(const Gram& gram, const SharedDrag& drag) {
+  const Eigen::Vector4d x(drag.front_area, drag.top_area, drag.front_area * drag.linear_speed,
+                          drag.top_area * drag.linear_speed);
+  return x.dot(2 * gram.b - gram.h * x);
+}
+
+/// The areas ≥ 0 that fit best for a given j.
+SharedDrag best_areas(const Gram& gram, double j) {
+  Eigen::Matrix<double, 4, 2> reduce;
+  reduce << 1, 0, 0, 1, j, 0, 0, j;
+  const Eigen::Matrix2d h = reduce.transpose() * gram.h * reduce;
+  const Eigen::Vector2d b = reduce.transpose() * gram.b;
+  const double determinant = h.determinant();
+  if (determinant > 0) {
+    const double f = (h(1, 1) * b(0) - h(0, 1) * b(1)) / determinant;
+    const double t = (h(0, 0) * b(1) - h(0, 1) * b(0)) / determinant;
+    if (f >= 0 && t >= 0) return {f, t, j, f * b(0) + t * b(1)};
+  }
+  // The constrained optimum then lies on an axis.
+  const double f = h(0, 0) > 0 ? std::max(0.0, b(0) / h(0, 0)) : 0;
+  const double t = h(1, 1) > 0 ? std::max(0.0, b(1) / h(1, 1)) : 0;
+  return f * b(0) >= t * b(1) ? SharedDrag{f, 0, j, f * b(0)} : SharedDrag{0, t, j, t * b(1)};
+}
+
+SharedDrag best_shared(const Gram& gram, const std::vector<double>& linear_grid) {
+  SharedDrag best = best_areas(gram, linear_grid.front());
+  for (double j : linear_grid) {
+    const SharedDrag candidate = best_areas(gram, j);
+    if (candidate.explained > best.explained) best = candidate;
+  }
+  return best;
+}
+
+Gram gram_at(const Samples& samples, std::size_t stride, double k, double wind) {
+  std::array<double, 10> h{};
+  std::array<double, 4> b{};
+  for (std::size_t i = 0; i < samples.size(); i += stride) {
+    const Sample& s = samples[i];
+    const double u = s.speed - wind;
+    const double q = u * std::abs(u);
+    const double x0 = s.cosine * q;
+    const double x1 = s.sine * q;
+    const double x2 = s.cosine * u;
+    const double x3 = s.sine * u;
+    h[0] += x0 * x0, h[1] += x0 * x1, h[2] += x0 * x2, h[3] += x0 * x3;
+    h[4] += x1 * x1, h[5] += x1 * x2, h[6] += x1 * x3;
+    h[7] += x2 * x2, h[8] += x2 * x3;
+    h[9] += x3 * x3;
+    b[0] += x0 * s.observed, b[1] += x1 * s.observed;
+    b[2] += x2 * s.observed, b[3] += x3 * s.observed;
+  }
+  Gram gram;
+  gram.h << h[0], h[1], h[2], h[3], h[1], h[4], h[5], h[6], h[2], h[5], h[7], h[8], h[3], h[6],
+      h[8], h[9];
+  gram.b << b[0], b[1], b[2], b[3];
+  gram.b /= k;
+  return gram;
+}
+
+std::vector<double> linear_speed_grid(double max) {
+  std::vector<double> grid{0};
+  for (double j = 0.5; j < max; j *= 2) grid.push_back(j);
+  grid.push_back(max);
+  return grid;
+}
+
+std::vector<double> wind_grid(double max) {
+  constexpr double widest_step = 2.0;  // m/s, well below the speeds over which the model bends
+  const auto steps = static_cast<int>(std::ceil(max / widest_step));
+  std::vector<double> grid;
+  for (int i = -steps; i <= steps; ++i) grid.push_back(max * i / steps);
+  return grid;
+}
+
+/// The best point of a grid over j and the winds. One flight: the global one. Several: each
+/// flight's own best wind first, then shared drag and winds in turns; every turn is a lookup.
+VectorXd grid_start(const std::vector<Samples>& flights, double k, const DragBounds& bounds) {
+  constexpr std::size_t enough = 500;  // samples: a start need not be precise
+  const std::size_t total =
+      std::accumulate(flights.begin(), flights.end(), std::size_t{0},
+                      [](std::size_t sum, const Samples& flight) { return sum + flight.size(); });
+  const std::size_t stride = std::max<std::size_t>(1, total / enough);
+  const auto winds = wind_grid(bounds.max_wind);
+  const auto linear_speeds = linear_speed_grid(bounds.max_linear_speed);
+
+  std::vector<std::vector<Gram>> grams(flights.size());  // [flight][wind]
+  std::vector<std::size_t> chosen(flights.size(), 0);
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    double most = -1;
+    for (std::size_t i = 0; i < winds.size(); ++i) {
+      grams[f].push_back(gram_at(flights[f], stride, k, winds[i]));
+      const double now = best_shared(grams[f][i], linear_speeds).explained;
+      if (now > most) most = now, chosen[f] = i;
+    }
+  }
+
+  SharedDrag drag;
+  constexpr int most_turns =
+      20;  // each turn improves the fit, so it settles; in practice in 2 or 3
+  for (int turn = 0; turn < most_turns; ++turn) {
+    Gram sum;
+    for (std::size_t f = 0; f < flights.size(); ++f) sum += grams[f][chosen[f]];
+    drag = best_shared(sum, linear_speeds);
+    const auto before = chosen;
+    for (std::size_t f = 0; f < flights.size(); ++f) {
+      for (std::size_t i = 0; i < winds.size(); ++i) {
+        if (explained(grams[f][i], drag) > explained(grams[f][chosen[f]], drag)) chosen[f] = i;
+      }
+    }
+    if (chosen == before) break;
+  }
+
+  VectorXd start(shared + static_cast<Index>(flights.size()));
+  start.head<shared>() << drag.front_area, drag.top_area, drag.linear_speed;
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    start(shared + static_cast<Index>(f)) = winds[chosen[f]];
+  }
+  return start;
+}
+
+// ---- damped Gauss–Newton within bounds ----
+
+struct Box {
+  VectorXd lower;
+  VectorXd upper;
+};
+
+Box box(const DragBounds& bounds, Index flights) {
+  Box out{VectorXd::Constant(shared + flights, -bounds.max_wind),
+          VectorXd::Constant(shared + flights, bounds.max_wind)};
+  out.lower.head<shared>().setZero();
+  out.upper.head<shared>() << bounds.max_area, bounds.max_area, bounds.max_linear_speed;
+  return out;
+}
+
+struct LocalDrag {
+  double front_area;
+  double top_area;
+  double linear_speed;
+  double wind;
+};
+
+LocalDrag local(const VectorXd& x, Index flight) {
+  return {x(front), x(top), x(linear), x(shared + flight)};
+}
+
+/// One row of J and the residual.
+struct Row {
+  double front_area;
+  double top_area;
+  double linear_speed;
+  double wind;
+  double residual;
+};
+
+inline Row row_at(const Sample& s, double k, const LocalDrag& drag) {
+  const double u = s.speed - drag.wind;
+  const double speed = std::abs(u);
+  const double factor = k * u * (speed + drag.linear_speed);
+  const double area = drag.front_area * s.cosine + drag.top_area * s.sine;
+  return {s.cosine * factor, s.sine * factor, k * area * u,
+          -k * area * (2 * speed + drag.linear_speed), s.observed - area * factor};
+}
+
+struct NormalEquations {
+  MatrixXd h;
+  VectorXd g;
+  double sse = 0;
+};
+
+NormalEquations normal_equations(const std::vector<Samples>& flights, double k, const VectorXd& x) {
+  NormalEquations out{MatrixXd::Zero(x.size(), x.size()), VectorXd::Zero(x.size()), 0};
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    const Index w = shared + static_cast<Index>(f);
+    const LocalDrag drag = local(x, static_cast<Index>(f));
+    std::array<double, 10> h{};
+    std::array<double, 4> g{};
+    double sse = 0;
+    for (const Sample& s : flights[f]) {
+      const Row r = row_at(s, k, drag);
+      h[0] += r.front_area * r.front_area, h[1] += r.front_area * r.top_area;
+      h[2] += r.front_area * r.linear_speed, h[3] += r.front_area * r.wind;
+      h[4] += r.top_area * r.top_area, h[5] += r.top_area * r.linear_speed;
+      h[6] += r.top_area * r.wind, h[7] += r.linear_speed * r.linear_speed;
+      h[8] += r.linear_speed * r.wind, h[9] += r.wind * r.wind;
+      g[0] += r.front_area * r.residual, g[1] += r.top_area * r.residual;
+      g[2] += r.linear_speed * r.residual, g[3] += r.wind * r.residual;
+      sse += r.residual * r.residual;
+    }
+    out.h(front, front) += h[0], out.h(top, front) += h[1], out.h(linear, front) += h[2];
+    out.h(top, top) += h[4], out.h(linear, top) += h[5], out.h(linear, linear) += h[7];
+    out.h(w, front) = h[3], out.h(w, top) = h[6], out.h(w, linear) = h[8], out.h(w, w) = h[9];
+    out.g.head<shared>() += Eigen::Vector3d(g[0], g[1], g[2]);
+    out.g(w) = g[3];
+    out.sse += sse;
+  }
+  out.h = out.h.selfadjointView<Eigen::Lower>();
+  return out;
+}
+
+/// Parameters that may move: all but those at a bound that the data pushes outward.
+std::vector<Index> free_parameters(const VectorXd& x, const VectorXd& g, const Box& within) {
+  std::vector<Index> free;
+  for (Index i = 0; i < x.size(); ++i) {
+    const bool held =
+        (x(i) <= within.lower(i) && g(i) < 0) || (x(i) >= within.upper(i) && g(i) > 0);
+    if (!held) free.push_back(i);
+  }
+  return free;
+}
+
+struct Minimum {
+  VectorXd x;
+  NormalEquations at;
+  std::vector<Index> free;
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Levenberg and Marquardt's damping on the free parameters, each step projected onto the box. Own
+/// code because Eigen's unsupported module knows no bounds and wants the whole Jacobian, whose
+/// decomposition costs more than this problem: three shared parameters and a diagonal block.
+Minimum minimise(const std::vector<Samples>& flights, double k, VectorXd start, const Box& within) {
+  constexpr int most_iterations = 200;  // 5 to 10 are used; the rest is for a start from afar
+  // A step this small against every standard error is far below anything printed, and still lowers
+  // the sum of squares by more than its rounding error (1e-8/N against 1e-16).
+  constexpr double negligible = 1e-4;
+  constexpr double rounding = 1e-13;  // of the observations: where noise-free data ends
+  constexpr double least_damping = 1e-9;
+  constexpr double most_damping = 1e12;
+
+  double count = 0;
+  double power = 0;
+  for (const auto& flight : flights) {
+    count += static_cast<double>(flight.size());
+    for (const Sample& s : flight) power += s.observed * s.observed;
+  }
+  const double freedom = count - static_cast<double>(start.size());
+
+  Minimum best;
+  best.x = start.cwiseMax(within.lower).cwiseMin(within.upper);
+  best.at = normal_equations(flights, k, best.x);
+  double damping = 1e-4;
+  while (best.iterations < most_iterations && damping < most_damping) {
+    ++best.iterations;
+    best.free = free_parameters(best.x, best.at.g, within);
+    const MatrixXd h = best.at.h(best.free, best.free);
+    const VectorXd g = best.at.g(best.free);
+    // An area at 0 leaves columns of zeros; any positive number keeps such a parameter in place.
+    const VectorXd scale = h.diagonal().cwiseMax(std::numeric_limits<double>::min());
+    const VectorXd step = (h + MatrixXd(damping * scale.asDiagonal())).ldlt().solve(g);
+
+    VectorXd x = best.x;
+    x(best.free) += step;
+    x = x.cwiseMax(within.lower).cwiseMin(within.upper);
+    const VectorXd moved = x - best.x;
+    NormalEquations at = normal_equations(flights, k, x);
+    const bool improved = at.sse < best.at.sse;
+    // movedᵀ·H·moved ≤ ε²·s² bounds every |moved_i| by ε standard errors.
+    const bool small =
+        moved.dot(best.at.h * moved) <=
+        std::max(negligible * negligible * best.at.sse / freedom, rounding * rounding * power);
+    if (improved) {
+      best.x = std::move(x);
+      best.at = std::move(at);
+      damping = std::max(damping / 10, least_damping);
+    } else {
+      damping *= 10;
+    }
+    if (small && damping < 1) {
+      best.converged = true;
+      break;
+    }
+  }
+  best.free = free_parameters(best.x, best.at.g, within);
+  return best;
+}
+
+// ---- errors and quality ----
+
+std::vector<std::string> parameter_names(std::size_t flights) {
+  std::vector<std::string> names{"front_area_m2", "top_area_m2", "linear_m_s"};
+  if (flights == 1) names.emplace_back("wind_m_s");
+  for (std::size_t f = 0; flights > 1 && f < flights; ++f) {
+    names.push_back(fmt::format("wind_m_s[{}]", f));
+  }
+  return names;
+}
+
+void demand_drag(const VectorXd& x) {
+  if (x(front) > 0 || x(top) > 0) return;
+  throw UnsuitableFlight(
+      "the flight shows no drag: the drone accelerates at least as its tilt alone would make it. "
+      "Is "
+      "the pitch positive nose-up, and is the pitch offset right?");
+}
+
+/// Throws where some combination of the free parameters leaves no trace in the residuals.
+void demand_separate_effects(const Minimum& minimum, const std::vector<std::string>& names) {
+  constexpr double singular = 1e-9;  // errors 30,000 times those of the parameters taken alone
+  const MatrixXd h = minimum.at.h(minimum.free, minimum.free);
+  const VectorXd scale =
+      h.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = scale.asDiagonal() * h * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
+  if (eigen.eigenvalues()(0) > singular) return;
+  std::vector<std::string> involved;
+  for (std::size_t i = 0; i < minimum.free.size(); ++i) {
+    if (std::abs(eigen.eigenvectors()(static_cast<Index>(i), 0)) > 0.1) {
+      involved.push_back(names[static_cast<std::size_t>(minimum.free[i])]);
+    }
+  }
+  throw UnsuitableFlight(fmt::format(
+      "the flight cannot determine {}: fly forward and backward, at several tilts and speeds",
+      fmt::join(involved, " and ")));
+}
+
+/// H⁻¹ over the free parameters, zero elsewhere.
+MatrixXd free_inverse(const Minimum& minimum) {
+  MatrixXd inverse = MatrixXd::Zero(minimum.x.size(), minimum.x.size());
+  const MatrixXd h = minimum.at.h(minimum.free, minimum.free);
+  const MatrixXd h_inverse = h.ldlt().solve(MatrixXd::Identity(h.rows(), h.cols()));
+  inverse(minimum.free, minimum.free) = h_inverse;
+  return inverse;
+}
+
+std::vector<double> flatten(const MatrixXd& symmetric) {
+  return {symmetric.data(), symmetric.data() + symmetric.size()};
+}
+
+/// Residuals and scores J_t·r_t of one flight, the latter in rows of four.
+struct Scores {
+  std::vector<double> residuals;
+  std::vector<double> rows;
+};
+
+Scores scores_of(const Samples& samples, double k, const LocalDrag& drag) {
+  Scores out;
+  out.residuals.reserve(samples.size());
+  out.rows.reserve(4 * samples.size());
+  for (const Sample& s : samples) {
+    const Row r = row_at(s, k, drag);
+    out.residuals.push_back(r.residual);
+    for (double column : {r.front_area, r.top_area, r.linear_speed, r.wind}) {
+      out.rows.push_back(column * r.residual);
+    }
+  }
+  return out;
+}
+
+/// What undoes the central differences' own error in the parameters, to first order: H⁻¹·Jᵀe. The
+/// leading error of a central difference of v over steps h is e = h²/6·d²a/dt² (Abramowitz and
+/// Stegun 25.3.21), here from second differences of the acceleration that tilt and fitted drag
+/// predict: that of the observed one would be noise. Samples beside a gap or at an end count as
+/// exact.
+VectorXd differentiation_correction(std::span<const Observations> flights,
+                                    const std::vector<Samples>& samples, double k,
+                                    const Minimum& minimum, const MatrixXd& inverse) {
+  VectorXd pull = VectorXd::Zero(minimum.x.size());
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    const Observations& flight = flights[f];
+    const LocalDrag drag = local(minimum.x, static_cast<Index>(f));
+    std::vector<double> predicted(flight.size());
+    for (std::size_t i = 0; i < flight.size(); ++i) {
+      const Row r = row_at(samples[f][i], k, drag);
+      predicted[i] = flight.forward_acceleration[i] + r.residual;
+    }
+    for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
+      const double before = flight.time[i] - flight.time[i - 1];
+      const double after = flight.time[i + 1] - flight.time[i];
+      if (before > 2 * after || after > 2 * before) continue;
+      const double error = (predicted[i - 1] - 2 * predicted[i] + predicted[i + 1]) / 6;
+      const Row r = row_at(samples[f][i], k, drag);
+      pull.head<shared>() += error * Eigen::Vector3d(r.front_area, r.top_area, r.linear_speed);
+      pull(shared + static_cast<Index>(f)) += error * r.wind;
+    }
+  }
+  return inverse * pull;
+}
+
+/// Variance and degrees of freedom of the combination `a` of the parameters. Flights are
+/// independent, so variances add, and degrees of freedom combine after Satterthwaite (1946).
+struct Variance {
+  double value = 0;
+  double degrees_of_freedom = 0;
+};
+
+double quadratic_form(std::span<const double> a, std::span<const double> matrix) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < a.size(); ++j) sum += a[i] * matrix[i * a.size() + j] * a[j];
+  }
+  return sum;
+}
+
+Variance variance(const DragFit& fit, std::span<const double> a) {
+  double total = 0;
+  double spread = 0;
+  for (std::size_t f = 0; f < fit.covariance_by_flight.size(); ++f) {
+    const double part = quadratic_form(a, fit.covariance_by_flight[f]);
+    total += part;
+    spread += part * part / fit.degrees_of_freedom_by_flight[f];
+  }
+  const double correction =
+      std::inner_product(a.begin(), a.end(), fit.differentiation_correction.begin(), 0.0);
+  return {total + correction * correction, spread > 0 ? total * total / spread : 0};
+}
+
+}  // namespace
+
+AirframeDrag DragFit::drag() const {
+  return {front_area().estimate.value, top_area().estimate.value, linear_speed().estimate.value, 0};
+}
+
+double DragFit::correlation(std::size_t i, std::size_t j) const {
+  const std::size_t size = parameters.size();
+  double ij = differentiation_correction[i] * differentiation_correction[j];
+  double ii = differentiation_correction[i] * differentiation_correction[i];
+  double jj = differentiation_correction[j] * differentiation_correction[j];
+  for (const auto& covariance : covariance_by_flight) {
+    ij += covariance[i * size + j];
+    ii += covariance[i * size + i];
+    jj += covariance[j * size + j];
+  }
+  return ii > 0 && jj > 0 ? std::clamp(ij / std::sqrt(ii * jj), -1.0, 1.0) : 0;
+}
+
+Estimate propagate(const DragFit& fit, double value, std::span<const double> gradient) {
+  const Variance honest = variance(fit, gradient);
+  Estimate out;
+  out.value = value;
+  out.standard_error_independent = std::sqrt(quadratic_form(gradient, fit.covariance_independent));
+  out.standard_error = std::sqrt(honest.value);
+  out.degrees_of_freedom = honest.degrees_of_freedom;
+  double half_width = 0;  // without variance the value is exact
+  if (honest.degrees_of_freedom > 0) {
+    const boost::math::students_t distribution(honest.degrees_of_freedom);
+    half_width = boost::math::quantile(distribution, 0.975) * out.standard_error;
+  }
+  out.lower = value - half_width;
+  out.upper = value + half_width;
+  return out;
+}
+
+DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions& conditions,
+                 const DragFitOptions& options) {
+  validate(conditions, options, flights.size());
+  demand_enough_samples(flights);
+  demand_speed_spread(flights);
+
+  std::vector<Samples> samples;
+  for (const auto& flight : flights) samples.push_back(to_samples(flight));
+  const double k = conditions.air_density / (2 * conditions.mass);
+  const Box within = box(options.bounds, static_cast<Index>(flights.size()));
+
+  VectorXd start;
+  if (options.start) {
+    start.resize(within.lower.size());
+    start.head<shared>() << options.start->front_area, options.start->top_area,
+        options.start->linear_speed;
+    start.tail(static_cast<Index>(flights.size())) =
+        Eigen::Map<const VectorXd>(options.start->wind.data(), static_cast<Index>(flights.size()));
+  } else {
+    start = grid_start(samples, k, options.bounds);
+  }
+  const Minimum minimum = minimise(samples, k, std::move(start), within);
+  const auto names = parameter_names(flights.size());
+  demand_drag(minimum.x);
+  demand_separate_effects(minimum, names);
+
+  DragFit fit;
+  fit.conditions = conditions;
+  fit.iterations = minimum.iterations;
+  fit.converged = minimum.converged;
+
+  const MatrixXd inverse = free_inverse(minimum);
+  const VectorXd undone = differentiation_correction(flights, samples, k, minimum, inverse);
+  fit.differentiation_correction.assign(undone.data(), undone.data() + undone.size());
+
+  // Residual statistics and the honest covariance, flight by flight.
+  const auto size = minimum.x.size();
+  FitQuality& quality = fit.quality;
+  double sum = 0;
+  double sum_of_squares = 0;
+  for (const auto& flight : samples) {
+    quality.samples += flight.size();
+    for (const Sample& s : flight) sum += s.observed;
+  }
+  const auto count = static_cast<double>(quality.samples);
+  const double correction = count / (count - static_cast<double>(minimum.free.size()));
+  for (std::size_t f = 0; f < samples.size(); ++f) {
+    const LocalDrag drag = local(minimum.x, static_cast<Index>(f));
+    const Scores scores = scores_of(samples[f], k, drag);
+    const auto length = static_cast<double>(samples[f].size());
+    const double effective = effective_sample_size(scores.residuals);
+    const std::size_t terms = cosine_terms(length, effective);
+    const auto omega = long_run_covariance(scores.rows, 4, terms);
+
+    const Eigen::Matrix<Index, 4, 1> place(front, top, linear, shared + static_cast<Index>(f));
+    MatrixXd middle = MatrixXd::Zero(size, size);
+    middle(place, place) = Eigen::Map<const Eigen::Matrix4d>(omega.data()) * length;
+    fit.covariance_by_flight.push_back(flatten(inverse * middle * inverse * correction));
+    fit.degrees_of_freedom_by_flight.push_back(static_cast<double>(terms));
+
+    quality.effective_samples += effective;
+    quality.residual_lag1_autocorrelation += autocorrelation(scores.residuals, 1) * length / count;
+    for (double r : scores.residuals) quality.mae += std::abs(r) / count;
+    for (const Sample& s : samples[f]) {
+      sum_of_squares += (s.observed - sum / count) * (s.observed - sum / count);
+      fit.max_airspeed = std::max(fit.max_airspeed, std::abs(s.speed - drag.wind));
+    }
+  }
+  quality.rmse = std::sqrt(minimum.at.sse / count);
+  quality.r_squared = sum_of_squares > 0 ? 1 - minimum.at.sse / sum_of_squares : 0;
+  fit.covariance_independent = flatten(inverse * (minimum.at.sse / count * correction));
+
+  for (Index i = 0; i < size; ++i) {
+    FittedParameter parameter{names[static_cast<std::size_t>(i)], {}, Bound::none};
+    if (std::find(minimum.free.begin(), minimum.free.end(), i) == minimum.free.end()) {
+      parameter.at_bound = minimum.x(i) <= within.lower(i) ? Bound::lower : Bound::upper;
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      parameter.estimate = {minimum.x(i), none, none, none, none, none};
+    } else {
+      std::vector<double> gradient(static_cast<std::size_t>(size), 0.0);
+      gradient[static_cast<std::size_t>(i)] = 1;
+      parameter.estimate = propagate(fit, minimum.x(i), gradient);
+    }
+    fit.parameters.push_back(std::move(parameter));
+  }
+  return fit;
+}
+
+std::optional<SteadyDrag> steady_drag(const DragFit& fit, double airspeed) {
+  const double steepest = std::tan(60 * unit::degree);
+  const AirframeDrag drag = fit.drag();
+  const double weight = fit.conditions.mass * fit.conditions.gravity;
+  const double pressure = 0.5 * fit.conditions.air_density * airspeed;
+  const double factor = pressure * (airspeed + drag.linear_speed);
+  const double t =
+      equilibrium_tan_pitch({weight, factor, 0, drag.front_area, drag.top_area}, steepest);
+  if (!std::isfinite(t)) return std::nullopt;
+
+  // Implicit derivative of weight·t = factor·(A_f + A_t·t)/√(1 + t²).
+  const double secant = std::sqrt(1 + t * t);
+  const double area = (drag.front_area + drag.top_area * t) / secant;
+  const double stiffness =
+      weight - factor * (drag.top_area - drag.front_area * t) / (secant * secant * secant);
+  std::vector<double> gradient(fit.parameters.size(), 0.0);
+  gradient[front] = factor / secant / stiffness;
+  gradient[top] = factor * t / secant / stiffness;
+  gradient[linear] = pressure * area / stiffness;
+
+  const auto scaled = [&gradient](double by) {
+    std::vector<double> out = gradient;
+    for (double& g : out) g *= by;
+    return out;
+  };
+  return SteadyDrag{airspeed, propagate(fit, weight * t, scaled(weight)),
+                    propagate(fit, std::atan(t), scaled(1 / (secant * secant)))};
+}
+
+std::vector<EntangledPair> entangled_pairs(const DragFit& fit) {
+  constexpr double entangled = 0.9;
+  std::vector<EntangledPair> pairs;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    for (std::size_t j = i + 1; j < fit.parameters.size(); ++j) {
+      const double correlation = fit.correlation(i, j);
+      if (std::abs(correlation) > entangled) pairs.push_back({i, j, correlation});
+    }
+  }
+  return pairs;
+}
+
+double dry_air_density(double pressure, double temperature) {
+  constexpr double gas_constant = 287.05287;  // J/(kg·K), ISO 2533:1975
+  demand(pressure > 0 && std::isfinite(pressure), "the pressure in Pa", pressure, "positive");
+  demand(temperature > 0 && std::isfinite(temperature), "the temperature in K", temperature,
+         "positive");
+  return pressure / (gas_constant * temperature);
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,251 @@
+#include "tethercalc/identify/observations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+namespace tethercalc {
+namespace {
+
+constexpr double moving_speed = 1.0;     // m/s: above what a hover drifts, below any useful pass
+constexpr double moving_duration = 1.0;  // s: longer than a twitch of the estimator
+constexpr double longest_pause = 30.0;   // s: shorter than landing, waiting and taking off again
+constexpr double gap_factor = 3.0;       // tolerates two lost samples; jitter stays well below 2
+constexpr double steepest_angle =
+    75 * unit::degree;  // cos is 1/4: expected acceleration amplifies errors
+
+struct NamedSeries {
+  std::string_view name;
+  const std::vector<double>& values;
+};
+
+std::array<NamedSeries, 7> named_series(const FlightLog& log) {
+  return {{{"time", log.time},
+           {"roll", log.roll},
+           {"pitch", log.pitch},
+           {"yaw", log.yaw},
+           {"north velocity", log.north_velocity},
+           {"east velocity", log.east_velocity},
+           {"down velocity", log.down_velocity}}};
+}
+
+double forward_speed(const FlightLog& log, std::size_t i) {
+  return std::cos(log.yaw[i]) * log.north_velocity[i] + std::sin(log.yaw[i]) * log.east_velocity[i];
+}
+
+double median_step(const std::vector<double>& time) {
+  std::vector<double> steps(time.size());
+  std::adjacent_difference(time.begin(), time.end(), steps.begin());
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin() + 1, middle, steps.end());
+  return *middle;
+}
+
+/// Derivative at the middle of three points, exact for a parabola.
+double central_difference(double t0, double t1, double t2, double x0, double x1, double x2) {
+  const double before = t1 - t0;
+  const double after = t2 - t1;
+  return ((x1 - x0) / before * after + (x2 - x1) / after * before) / (before + after);
+}
+
+/// Which neighbours of a sample may be used for its derivative.
+struct Neighbours {
+  bool before = false;
+  bool after = false;
+};
+
+double derivative(const std::vector<double>& time, const std::vector<double>& x, std::size_t i,
+                  Neighbours use) {
+  if (use.before && use.after) {
+    return central_difference(time[i - 1], time[i], time[i + 1], x[i - 1], x[i], x[i + 1]);
+  }
+  const std::size_t a = use.before ? i - 1 : i;
+  return (x[a + 1] - x[a]) / (time[a + 1] - time[a]);
+}
+
+void demand_carrying_thrust(double time, double tilt, double roll) {
+  if (std::abs(tilt) <= steepest_angle && std::abs(roll) <= steepest_angle) return;
+  throw UnsuitableFlight(fmt::format(
+      "at {:.3f} s the drone pitches {:.1f}° and rolls {:.1f}°; beyond {:.0f}° thrust no "
+      "longer carries it: choose a range without this part of the log",
+      time, -tilt / unit::degree, roll / unit::degree, steepest_angle / unit::degree));
+}
+
+void reserve(Observations& out, std::size_t count) {
+  for (auto* series : {&out.time, &out.tilt, &out.roll, &out.yaw, &out.forward_speed,
+                       &out.right_speed, &out.down_speed, &out.forward_acceleration,
+                       &out.down_acceleration, &out.expected_acceleration}) {
+    series->reserve(count);
+  }
+}
+
+}  // namespace
+
+void validate(const FlightLog& log) {
+  const std::size_t size = log.time.size();
+  for (const auto& [name, values] : named_series(log)) {
+    if (values.size() != size) {
+      throw UnsuitableFlight(fmt::format("the flight log has {} values of {} for {} times",
+                                         values.size(), name, size));
+    }
+    const auto bad = std::find_if_not(values.begin(), values.end(),
+                                      [](double value) { return std::isfinite(value); });
+    if (bad != values.end()) {
+      throw UnsuitableFlight(
+          fmt::format("sample {} of the flight log has a {} that is not a number",
+                      bad - values.begin() + 1, name));
+    }
+  }
+  if (size < 3) {
+    throw UnsuitableFlight(
+        fmt::format("the flight log has {} samples; accelerations need at least 3", size));
+  }
+  const auto back = std::adjacent_find(log.time.begin(), log.time.end(), std::greater_equal<>());
+  if (back != log.time.end()) {
+    throw UnsuitableFlight(
+        fmt::format("time does not increase from {:.6f} s to {:.6f} s at sample {}", *back,
+                    *(back + 1), back - log.time.begin() + 2));
+  }
+}
+
+SampleRange range_in_seconds(const FlightLog& log, double from, double to) {
+  validate(log);
+  const auto begin = log.time.begin();
+  const auto first = std::lower_bound(begin, log.time.end(), from);
+  const auto last = std::upper_bound(begin, log.time.end(), to);
+  if (!(from <= to) || first >= last) {
+    throw UnsuitableFlight(
+        fmt::format("no sample from {} s to {} s; the log runs from {:.3f} s to {:.3f} s", from, to,
+                    log.time.front(), log.time.back()));
+  }
+  return {static_cast<std::size_t>(first - begin), static_cast<std::size_t>(last - begin)};
+}
+
+SampleRange range_in_percent(const FlightLog& log, double from, double to) {
+  validate(log);
+  if (!(0 <= from && from < to && to <= 100)) {
+    throw UnsuitableFlight(fmt::format(
+        "the range {} % to {} % of the log must satisfy 0 <= from < to <= 100", from, to));
+  }
+  const auto size = static_cast<double>(log.time.size());
+  const SampleRange range{static_cast<std::size_t>(size * (from / 100)),
+                          static_cast<std::size_t>(size * (to / 100))};
+  if (range.first >= range.last) {
+    throw UnsuitableFlight(fmt::format("no sample from {} % to {} % of a log of {} samples", from,
+                                       to, log.time.size()));
+  }
+  return range;
+}
+
+SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
+                         std::optional<LogPosition> to) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto range_of = [&log](std::optional<LogPosition> lower, std::optional<LogPosition> upper) {
+    const bool percent = (lower && lower->percent) || (upper && upper->percent);
+    if (percent) {
+      return range_in_percent(log, lower ? lower->value : 0, upper ? upper->value : 100);
+    }
+    return range_in_seconds(log, lower ? lower->value : -infinity, upper ? upper->value : infinity);
+  };
+  if (!from || !to || from->percent == to->percent) return range_of(from, to);
+  const SampleRange range{range_of(from, std::nullopt).first, range_of(std::nullopt, to).last};
+  if (range.first >= range.last) {
+    throw UnsuitableFlight(fmt::format("the range ends at {:.3f} s, before it begins at {:.3f} s",
+                                       log.time[range.last - 1], log.time[range.first]));
+  }
+  return range;
+}
+
+SampleRange moving_part(const FlightLog& log) {
+  validate(log);
+  const auto& time = log.time;
+  const auto duration = [&time](const SampleRange& r) { return time[r.last - 1] - time[r.first]; };
+
+  SampleRange best;
+  SampleRange part;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (std::abs(forward_speed(log, i)) < moving_speed) continue;
+    SampleRange stretch{i, i + 1};
+    while (stretch.last < time.size() &&
+           std::abs(forward_speed(log, stretch.last)) >= moving_speed) {
+      ++stretch.last;
+    }
+    i = stretch.last;
+    if (duration(stretch) < moving_duration) continue;
+    const bool continues =
+        part.size() > 0 && time[stretch.first] - time[part.last - 1] < longest_pause;
+    part = continues ? SampleRange{part.first, stretch.last} : stretch;
+    if (best.size() == 0 || duration(part) > duration(best)) best = part;
+  }
+  if (best.size() == 0) {
+    throw UnsuitableFlight(fmt::format(
+        "the drone never flies forward or backward at {} m/s for {} s: there is no drag to "
+        "learn from; give a flight with passes in both directions, or a range",
+        moving_speed, moving_duration));
+  }
+  return best;
+}
+
+double pitch_offset_from_hover(const FlightLog& hover) {
+  validate(hover);
+  return std::accumulate(hover.pitch.begin(), hover.pitch.end(), 0.0) /
+         static_cast<double>(hover.pitch.size());
+}
+
+Observations observe(const FlightLog& log, const SampleRange& range, double pitch_offset,
+                     double gravity) {
+  validate(log);
+  const std::size_t size = log.time.size();
+  if (range.first >= range.last || range.last > size) {
+    throw UnsuitableFlight(fmt::format("samples {} to {} are no part of a log of {} samples",
+                                       range.first + 1, range.last, size));
+  }
+
+  // One sample beyond the range on either side for the derivatives.
+  std::vector<double> forward(size);
+  std::vector<double> right(size);
+  const std::size_t begin = range.first == 0 ? 0 : range.first - 1;
+  const std::size_t end = std::min(range.last + 1, size);
+  for (std::size_t i = begin; i < end; ++i) {
+    const double cos_yaw = std::cos(log.yaw[i]);
+    const double sin_yaw = std::sin(log.yaw[i]);
+    forward[i] = cos_yaw * log.north_velocity[i] + sin_yaw * log.east_velocity[i];
+    right[i] = cos_yaw * log.east_velocity[i] - sin_yaw * log.north_velocity[i];
+  }
+
+  const double longest_step = gap_factor * median_step(log.time);
+  const auto connected = [&log, longest_step](std::size_t i) {
+    return log.time[i + 1] - log.time[i] <= longest_step;
+  };
+
+  Observations out;
+  reserve(out, range.size());
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    const Neighbours use{i > 0 && connected(i - 1), i + 1 < size && connected(i)};
+    if (!use.before && !use.after) continue;
+    const double tilt = pitch_offset - log.pitch[i];
+    demand_carrying_thrust(log.time[i], tilt, log.roll[i]);
+    const double down_acceleration = derivative(log.time, log.down_velocity, i, use);
+    out.time.push_back(log.time[i]);
+    out.tilt.push_back(tilt);
+    out.roll.push_back(log.roll[i]);
+    out.yaw.push_back(log.yaw[i]);
+    out.forward_speed.push_back(forward[i]);
+    out.right_speed.push_back(right[i]);
+    out.down_speed.push_back(log.down_velocity[i]);
+    out.forward_acceleration.push_back(derivative(log.time, forward, i, use));
+    out.down_acceleration.push_back(down_acceleration);
+    out.expected_acceleration.push_back((gravity - down_acceleration) * std::tan(tilt) /
+                                        std::cos(log.roll[i]));
+  }
+  return out;
+}
+
+}  // namespace tethercalc
