@@ -55,8 +55,7 @@ int run_evaluate(const EvaluateOptions& options, const Output& output) {
   for (const double area : options.areas_mm2) areas.push_back(area * unit::square_millimetre);
   if (areas.empty()) {
     if (!file.design.tether.cross_section) {
-      throw InputError(
-          {InputProblem{"--area-mm2", "is needed: the spec sets no tether.cross_section_mm2"}});
+      throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
     }
     areas.push_back(*file.design.tether.cross_section);
   }

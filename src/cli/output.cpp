@@ -25,8 +25,8 @@ TextStyle style_for(const Output& output) {
 void emit(const Output& output, const std::string& text) {
   if (!output.file.empty()) return write_whole_file(output.file, text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw InputError(
-        {{"standard output", "cannot be written: " + std::generic_category().message(errno)}});
+    throw InputError("standard output",
+                     "cannot be written: " + std::generic_category().message(errno));
   }
 }
 

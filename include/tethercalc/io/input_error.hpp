@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tethercalc {
@@ -18,6 +19,9 @@ class InputError : public std::runtime_error {
  public:
   /// `problems` in the order of the input; at least one.
   explicit InputError(std::vector<InputProblem> problems);
+  /// A single problem.
+  InputError(std::string where, std::string message)
+      : InputError(std::vector{InputProblem{std::move(where), std::move(message)}}) {}
   /// What was given to the constructor.
   [[nodiscard]] const std::vector<InputProblem>& problems() const { return problems_; }
 
