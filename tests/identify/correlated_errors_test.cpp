@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "support/random.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
 
 using namespace tethercalc;
@@ -22,7 +23,7 @@ std::vector<double> autoregression(double coefficient, std::size_t size, std::ui
 }  // namespace
 
 TEST_CASE("autocorrelation of a first-order autoregression falls geometrically") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::run_seed();
   CAPTURE(seed);
   const auto x = autoregression(0.8, 100000, seed);
   CHECK(autocorrelation(x, 0) == Approx(1));
@@ -33,7 +34,7 @@ TEST_CASE("autocorrelation of a first-order autoregression falls geometrically")
 }
 
 TEST_CASE("effective samples of an autoregression are (1 − ρ)/(1 + ρ) of its samples") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::run_seed();
   CAPTURE(seed);
   constexpr std::size_t size = 100000;
   for (double coefficient : {0.0, 0.5, 0.86, 0.97}) {
@@ -61,7 +62,7 @@ TEST_CASE("taking a series faster does not widen the bandwidth") {
 }
 
 TEST_CASE("long-run variance of an autoregression is 1/(1 − ρ)²") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::run_seed();
   CAPTURE(seed);
   constexpr std::size_t size = 50000;
   const auto x = autoregression(0.7, size, seed);
@@ -72,7 +73,7 @@ TEST_CASE("long-run variance of an autoregression is 1/(1 − ρ)²") {
 }
 
 TEST_CASE("long-run covariance keeps the correlation of the columns and ignores their means") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::run_seed();
   CAPTURE(seed);
   constexpr std::size_t size = 40000;
   const auto a = autoregression(0.5, size, seed);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "support/random.hpp"
 #include "support/simulated_flight.hpp"
 #include "tethercalc/identify/observations.hpp"
 
@@ -80,7 +81,7 @@ TEST_CASE("speeds turn with the yaw") {
 }
 
 TEST_CASE("accelerations of a parabola are exact at uneven times, and one-sided at the ends") {
-  std::mt19937_64 random(std::random_device{}());
+  std::mt19937_64 random(test::run_seed());
   std::uniform_real_distribution<double> jitter(-0.03, 0.03);
   FlightLog log = still_log(50);
   for (double& t : log.time) t += jitter(random);

@@ -1,0 +1,264 @@
+#include "tethercalc/report/drag_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "tethercalc/report/csv_cell.hpp"
+#include "tethercalc/report/json_results.hpp"
+
+namespace tethercalc {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json estimate_json(const Estimate& e, double unit = 1) {
+  const auto interval =
+      std::isfinite(e.lower) ? ordered_json{e.lower / unit, e.upper / unit} : ordered_json(nullptr);
+  return {{"value", number_or_null(e.value / unit)},
+          {"standard_error_independent", number_or_null(e.standard_error_independent / unit)},
+          {"standard_error", number_or_null(e.standard_error / unit)},
+          {"ci95", interval}};
+}
+
+std::string_view bound_name(Bound bound) { return bound == Bound::lower ? "lower" : "upper"; }
+
+ordered_json parameter_json(const FittedParameter& parameter) {
+  ordered_json out = estimate_json(parameter.estimate);
+  if (parameter.at_bound != Bound::none) out["at_bound"] = bound_name(parameter.at_bound);
+  return out;
+}
+
+/// Correlations of all pairs, as a matrix in the order of `parameters`.
+ordered_json correlation_json(const DragFit& fit) {
+  ordered_json names = ordered_json::array();
+  ordered_json matrix = ordered_json::array();
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    names.push_back(fit.parameters[i].name);
+    ordered_json row = ordered_json::array();
+    for (std::size_t j = 0; j < fit.parameters.size(); ++j) row.push_back(fit.correlation(i, j));
+    matrix.push_back(row);
+  }
+  return {{"parameters", names}, {"matrix", matrix}};
+}
+
+ordered_json entangled_json(const DragFit& fit) {
+  ordered_json out = ordered_json::array();
+  for (const EntangledPair& pair : entangled_pairs(fit)) {
+    out.push_back(
+        {{"parameters", {fit.parameters[pair.first].name, fit.parameters[pair.second].name}},
+         {"correlation", pair.correlation}});
+  }
+  return out;
+}
+
+ordered_json parts_json(const DragIdentification& result) {
+  ordered_json out = ordered_json::array();
+  for (const FlightPart& part : result.parts) {
+    out.push_back({{"from_s", part.from}, {"to_s", part.to}, {"samples", part.samples}});
+  }
+  return out;
+}
+
+ordered_json table_json(const DragFit& fit) {
+  ordered_json out = ordered_json::array();
+  for (const SteadyDrag& row : steady_drag_table(fit)) {
+    out.push_back({{"airspeed_m_s", row.airspeed},
+                   {"drag_force_N", estimate_json(row.force)},
+                   {"pitch_deg", estimate_json(row.tilt, unit::degree)}});
+  }
+  return out;
+}
+
+bool automatic(const DragIdentification& result) {
+  return !result.options.from && !result.options.to;
+}
+
+/// "1.492e-2", as small areas are written in print; plain otherwise.
+std::string parameter_number(double value) {
+  if (!std::isfinite(value)) return "–";
+  return value != 0 && std::abs(value) < 0.1 ? fmt::format("{:.3e}", value) : significant(value, 4);
+}
+
+std::string percent_of(double error, double value) {
+  return std::isfinite(error) && value != 0 ? fixed(100 * error / std::abs(value), 2) + " %" : "–";
+}
+
+std::string parameter_table(const DragFit& fit, const TextStyle& style) {
+  TextTable table({{"", TextTable::Align::left},
+                   {"value"},
+                   {"±", TextTable::Align::right},
+                   {"95 % interval", TextTable::Align::right},
+                   {"± if independent", TextTable::Align::right},
+                   {"", TextTable::Align::left}});
+  for (const FittedParameter& p : fit.parameters) {
+    const Estimate& e = p.estimate;
+    const bool held = p.at_bound != Bound::none;
+    table.add({p.name, parameter_number(e.value), percent_of(e.standard_error, e.value),
+               held ? "–" : parameter_number(e.lower) + " … " + parameter_number(e.upper),
+               percent_of(e.standard_error_independent, e.value),
+               held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
+  }
+  return table.text(style);
+}
+
+std::string range_sentence(const DragIdentification& result) {
+  std::string out = automatic(result) ? "The moving part was chosen automatically: " : "Used: ";
+  for (std::size_t i = 0; i < result.parts.size(); ++i) {
+    const FlightPart& part = result.parts[i];
+    out += fmt::format("{}{:.1f} s to {:.1f} s ({} samples)", i > 0 ? ", " : "", part.from, part.to,
+                       part.samples);
+  }
+  return out + ".";
+}
+
+/// The tabulated speed whose force is relatively best known.
+const SteadyDrag* best_known(const std::vector<SteadyDrag>& table) {
+  const auto share = [](const SteadyDrag& row) {
+    return row.force.standard_error / row.force.value;
+  };
+  const auto best = std::min_element(
+      table.begin(), table.end(),
+      [&](const SteadyDrag& a, const SteadyDrag& b) { return share(a) < share(b); });
+  return best == table.end() ? nullptr : &*best;
+}
+
+std::string caveats(const DragFit& fit, const std::vector<SteadyDrag>& table) {
+  std::string out;
+  for (const EntangledPair& pair : entangled_pairs(fit)) {
+    out +=
+        wrapped(fmt::format("{} and {} are hardly told apart by this flight (correlation {}): only "
+                            "together do they mean something.",
+                            fit.parameters[pair.first].name, fit.parameters[pair.second].name,
+                            fixed(pair.correlation, 3)));
+  }
+  if (const SteadyDrag* best = best_known(table)) {
+    const Estimate& force = best->force;
+    out += wrapped(fmt::format(
+        "Well determined is the drag force: {} N ± {} at {} m/s.", significant(force.value, 3),
+        percent_of(force.standard_error, force.value), significant(best->airspeed, 2)));
+  }
+  for (const FittedParameter& p : fit.parameters) {
+    if (p.at_bound == Bound::none) continue;
+    out +=
+        wrapped(fmt::format("{} wants to leave its {} bound {}: the flight lacks what would "
+                            "determine it. The errors of the others take it as known.",
+                            p.name, bound_name(p.at_bound), parameter_number(p.estimate.value)));
+  }
+  if (!fit.converged) out += "The fit did not converge; take these numbers as a guess.\n";
+  return out;
+}
+
+std::string steady_table(const std::vector<SteadyDrag>& rows, const TextStyle& style) {
+  TextTable table(
+      {{"airspeed m/s"}, {"drag N"}, {"95 % interval"}, {"tilt deg"}, {"95 % interval"}});
+  const auto interval = [](const Estimate& e, double unit, int decimals) {
+    return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
+  };
+  for (const SteadyDrag& row : rows) {
+    table.add({significant(row.airspeed, 3), fixed(row.force.value, 3), interval(row.force, 1, 3),
+               fixed(row.tilt.value / unit::degree, 2), interval(row.tilt, unit::degree, 2)});
+  }
+  return table.text(style);
+}
+
+}  // namespace
+
+std::vector<SteadyDrag> steady_drag_table(const DragFit& fit) {
+  // The largest step of 1, 2 or 5 times a power of ten that gives at least eight rows, so at
+  // most 20.
+  constexpr double fewest_rows = 8;
+  double step =
+      std::pow(10.0, std::floor(std::log10(std::max(fit.max_airspeed, 1e-3) / fewest_rows)));
+  for (double factor : {5.0, 2.0}) {
+    if (fit.max_airspeed / (factor * step) >= fewest_rows) {
+      step *= factor;
+      break;
+    }
+  }
+  std::vector<SteadyDrag> rows;
+  for (int i = 1; i * step <= fit.max_airspeed; ++i) {
+    const auto row = steady_drag(fit, i * step);
+    if (row) rows.push_back(*row);
+  }
+  return rows;
+}
+
+ordered_json spec_drag_block(const DragFit& fit) {
+  const AirframeDrag drag = fit.drag();
+  return {{"front_area_m2", drag.front_area},
+          {"top_area_m2", drag.top_area},
+          {"linear_m_s", drag.linear_speed}};
+}
+
+ordered_json drag_json(const DragIdentification& result) {
+  const DragFit& fit = result.fit;
+  const FitQuality& quality = fit.quality;
+  ordered_json out;
+  out["front_area_m2"] = parameter_json(fit.front_area());
+  out["top_area_m2"] = parameter_json(fit.top_area());
+  out["linear_m_s"] = parameter_json(fit.linear_speed());
+  out["wind_m_s"] = ordered_json::array();
+  for (const FittedParameter& wind : fit.wind()) out["wind_m_s"].push_back(parameter_json(wind));
+  out["rmse_m_s2"] = quality.rmse;
+  out["mae_m_s2"] = quality.mae;
+  out["r_squared"] = quality.r_squared;
+  out["residual_lag1_autocorrelation"] = quality.residual_lag1_autocorrelation;
+  out["samples"] = quality.samples;
+  out["effective_samples"] = quality.effective_samples;
+  out["converged"] = fit.converged;
+  out["correlation"] = correlation_json(fit);
+  out["entangled"] = entangled_json(fit);
+  out["mass_g"] = fit.conditions.mass / unit::gram;
+  out["air_density_kg_m3"] = fit.conditions.air_density;
+  out["gravity_m_s2"] = fit.conditions.gravity;
+  out["pitch_offset_deg"] = result.options.pitch_offset / unit::degree;
+  out["range"] = automatic(result) ? "automatic" : "given";
+  out["flights"] = parts_json(result);
+  out["table"] = table_json(fit);
+  out["drone"]["drag"] = spec_drag_block(fit);
+  return out;
+}
+
+std::string drag_text(const DragIdentification& result, const TextStyle& style) {
+  const DragFit& fit = result.fit;
+  const FitQuality& quality = fit.quality;
+  const auto table = steady_drag_table(fit);
+  std::string out = style.bold("Drag from flight") + "\n";
+  out += wrapped(range_sentence(result));
+  out += wrapped(fmt::format("Taken as known: {} g, {} kg/m³, pitch offset {}°.",
+                             significant(fit.conditions.mass / unit::gram, 4),
+                             significant(fit.conditions.air_density, 4),
+                             fixed(result.options.pitch_offset / unit::degree, 3)));
+  out += "\n" + parameter_table(fit, style) + "\n" + caveats(fit, table);
+  out += wrapped(fmt::format(
+      "Residuals: {} m/s² root mean square, {} m/s² mean absolute; R² {}. They resemble their "
+      "neighbours (lag-1 autocorrelation {}), so {} samples are worth {} independent ones.",
+      significant(quality.rmse, 3), significant(quality.mae, 3), fixed(quality.r_squared, 4),
+      fixed(quality.residual_lag1_autocorrelation, 2), quality.samples,
+      fixed(quality.effective_samples, 0)));
+  return out + "\nSteady flight without wind and tether:\n" + steady_table(table, style);
+}
+
+std::string drag_csv(const DragIdentification& result) {
+  std::string out =
+      "airspeed_m_s,drag_force_N,drag_force_standard_error_N,drag_force_lower_N,drag_force_upper_N,"
+      "pitch_deg,pitch_standard_error_deg,pitch_lower_deg,pitch_upper_deg\n";
+  for (const SteadyDrag& row : steady_drag_table(result.fit)) {
+    out += csv_number(row.airspeed);
+    for (double value :
+         {row.force.value, row.force.standard_error, row.force.lower, row.force.upper}) {
+      out += "," + csv_number(value);
+    }
+    for (double value : {row.tilt.value, row.tilt.standard_error, row.tilt.lower, row.tilt.upper}) {
+      out += "," + csv_number(value / unit::degree);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace tethercalc
