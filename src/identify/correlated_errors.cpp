@@ -65,17 +65,21 @@ std::vector<double> long_run_covariance(std::span<const double> rows, std::size_
   const Eigen::ArrayXd steps =
       Eigen::ArrayXd::LinSpaced(count, 1.0, static_cast<double>(terms)) * unit_step;
   const Eigen::ArrayXd twice_cosine = 2 * steps.cos();
-  Eigen::ArrayXd before = (0.5 * steps).cos();  // at t = −½, as at t = ½
-  Eigen::ArrayXd now = before;
-  Eigen::ArrayXd next(count);
+
+  // In blocks of samples, so that the sums are matrix products.
+  constexpr Eigen::Index block = 64;
+  Eigen::ArrayXXd cosines(count, block);
+  cosines.col(block - 2) = (1.5 * steps).cos();  // those before the first sample: cos is even
+  cosines.col(block - 1) = (0.5 * steps).cos();
   Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(count, width);
-  for (Eigen::Index t = 0; t < height; ++t) {
-    for (Eigen::Index column = 0; column < width; ++column) {
-      coefficients.col(column).array() += z(t, column) * now;
+  for (Eigen::Index t = 0; t < height; t += block) {
+    const Eigen::Index length = std::min(block, height - t);
+    for (Eigen::Index i = 0; i < length; ++i) {
+      const Eigen::Index one_before = (i + block - 1) % block;
+      const Eigen::Index two_before = (i + block - 2) % block;
+      cosines.col(i) = twice_cosine * cosines.col(one_before) - cosines.col(two_before);
     }
-    next = twice_cosine * now - before;
-    before.swap(now);
-    now.swap(next);
+    coefficients.noalias() += cosines.leftCols(length).matrix() * z.middleRows(t, length);
   }
   const Eigen::MatrixXd covariance = coefficients.transpose() * coefficients *
                                      (2 / static_cast<double>(height) / static_cast<double>(terms));

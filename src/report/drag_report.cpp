@@ -139,7 +139,7 @@ std::string caveats(const DragFit& fit, const std::vector<SteadyDrag>& table) {
     const Estimate& force = best->force;
     out += wrapped(fmt::format(
         "Well determined is the drag force: {} N ± {} at {} m/s.", significant(force.value, 3),
-        percent_of(force.standard_error, force.value), significant(best->airspeed, 2)));
+        percent_of(force.standard_error, force.value), fmt::format("{:g}", best->airspeed)));
   }
   for (const FittedParameter& p : fit.parameters) {
     if (p.at_bound == Bound::none) continue;
@@ -159,8 +159,9 @@ std::string steady_table(const std::vector<SteadyDrag>& rows, const TextStyle& s
     return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
   };
   for (const SteadyDrag& row : rows) {
-    table.add({significant(row.airspeed, 3), fixed(row.force.value, 3), interval(row.force, 1, 3),
-               fixed(row.tilt.value / unit::degree, 2), interval(row.tilt, unit::degree, 2)});
+    table.add({fmt::format("{:g}", row.airspeed), fixed(row.force.value, 3),
+               interval(row.force, 1, 3), fixed(row.tilt.value / unit::degree, 2),
+               interval(row.tilt, unit::degree, 2)});
   }
   return table.text(style);
 }

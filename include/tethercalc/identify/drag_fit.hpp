@@ -38,8 +38,9 @@ struct DragParameters {
   std::vector<double> wind;  ///< w, m/s, one a flight: motion of the air along the forward axis
 };
 
+/// How to fit; the defaults are right for a flight.
 struct DragFitOptions {
-  DragBounds bounds;
+  DragBounds bounds;  ///< the box the parameters are kept in
 
   /// Where to start instead of at the best point of the search grid. The result does not depend on
   /// it wherever the fit converges; it is here so that this can be checked. `wind` one a flight.
@@ -49,7 +50,7 @@ struct DragFitOptions {
 /// A number with its uncertainty, all in the unit of `value`. Where the fit holds a parameter at
 /// its bound it has no error and all of these but `value` are NaN.
 struct Estimate {
-  double value = 0;
+  double value = 0;  ///< the estimate itself
   double standard_error_independent =
       0;                          ///< if all residuals were independent, as the paper prints
   double standard_error = 0;      ///< holds for correlated and uneven residuals
@@ -58,14 +59,15 @@ struct Estimate {
   double upper = 0;               ///< Student's t for those degrees of freedom
 };
 
+/// The bound that a parameter is held at.
 enum class Bound { none, lower, upper };
 
 /// One fitted parameter.
 struct FittedParameter {
-  std::string name;  ///< "front_area_m2", "top_area_m2", "linear_m_s", "wind_m_s" or, of several
-                     ///< flights, "wind_m_s[0]", "wind_m_s[1]", …
-  Estimate estimate;
-  Bound at_bound = Bound::none;
+  std::string name;   ///< "front_area_m2", "top_area_m2", "linear_m_s", "wind_m_s" or, of several
+                      ///< flights, "wind_m_s[0]", "wind_m_s[1]", …
+  Estimate estimate;  ///< SI
+  Bound at_bound = Bound::none;  ///< not none: held there, without an error of its own
 };
 
 /// How the model explains the observed drag, per unit of mass: expected minus observed
@@ -75,18 +77,19 @@ struct FitQuality {
   double mae = 0;        ///< m/s², mean absolute residual
   double r_squared = 0;  ///< share of the observed drag's variance that the model explains
   double residual_lag1_autocorrelation = 0;  ///< mean over the flights, weighted by their samples
-  std::size_t samples = 0;
-  double effective_samples = 0;  ///< independent samples the residuals are worth
+  std::size_t samples = 0;                   ///< of all flights
+  double effective_samples = 0;              ///< independent samples the residuals are worth
 };
 
 /// The outcome of `fit_drag`.
 struct DragFit {
-  DragFitConditions conditions;
+  DragFitConditions conditions;  ///< as given
   /// A_f, A_t, j, then one wind a flight.
   std::vector<FittedParameter> parameters;
   /// Covariance of the parameters (SI units, order of `parameters`), one matrix a flight, row after
   /// row: the part of the total that this flight's residuals cause. Zero for parameters at a bound.
   std::vector<std::vector<double>> covariance_by_flight;
+  /// Of each of these matrices: the cosines its long-run covariance averages over.
   std::vector<double> degrees_of_freedom_by_flight;
   /// What would have to be added to each parameter to undo, to first order, the error of
   /// differentiating speeds at the log's rate, which quick reversals make felt. The values are left
@@ -94,15 +97,19 @@ struct DragFit {
   std::vector<double> differentiation_correction;
   /// The covariance if all residuals were independent.
   std::vector<double> covariance_independent;
-  FitQuality quality;
+  FitQuality quality;       ///< of the residuals of all flights
   double max_airspeed = 0;  ///< m/s, the largest |v − w| flown
-  int iterations = 0;
-  bool converged = false;  ///< the last step was below 1e-4 of every standard error
+  int iterations = 0;       ///< steps tried
+  bool converged = false;   ///< the last step was below 1e-4 of every standard error
 
   [[nodiscard]] AirframeDrag drag() const;  ///< the three shared parameters, without wind
+  /// A_f, m².
   [[nodiscard]] const FittedParameter& front_area() const { return parameters[0]; }
+  /// A_t, m².
   [[nodiscard]] const FittedParameter& top_area() const { return parameters[1]; }
+  /// j, m/s.
   [[nodiscard]] const FittedParameter& linear_speed() const { return parameters[2]; }
+  /// w, m/s, one a flight.
   [[nodiscard]] std::span<const FittedParameter> wind() const {
     return std::span(parameters).subspan(3);
   }
@@ -155,9 +162,9 @@ struct SteadyDrag {
 
 /// Two parameters that the data hardly tells apart.
 struct EntangledPair {
-  std::size_t first = 0;  ///< indices into `DragFit::parameters`
-  std::size_t second = 0;
-  double correlation = 0;
+  std::size_t first = 0;   ///< indices into `DragFit::parameters`
+  std::size_t second = 0;  ///< the larger one
+  double correlation = 0;  ///< in [−1, 1]
 };
 
 /// Pairs correlated beyond ±0.9: each alone is then more than twice as uncertain as it would be if

@@ -30,7 +30,7 @@ struct FlightPart {
 struct DragIdentification {
   DragIdentificationOptions options;  ///< as given
   std::vector<FlightPart> parts;      ///< one a log
-  DragFit fit;
+  DragFit fit;                        ///< of all logs together
 };
 
 /// Fits the drag shared by `logs` and the wind of each, see `fit_drag`, to the samples chosen by

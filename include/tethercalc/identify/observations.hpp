@@ -20,10 +20,12 @@ class UnsuitableFlight : public std::invalid_argument {
 
 /// Samples first ≤ i < last of a log.
 struct SampleRange {
-  std::size_t first = 0;
-  std::size_t last = 0;
+  std::size_t first = 0;  ///< index of the first sample
+  std::size_t last = 0;   ///< index after the last one
 
+  /// Number of samples.
   [[nodiscard]] std::size_t size() const { return last - first; }
+  /// Same bounds.
   bool operator==(const SampleRange&) const = default;
 };
 
@@ -41,6 +43,7 @@ struct Observations {
   std::vector<double> down_acceleration;      ///< m/s²
   std::vector<double> expected_acceleration;  ///< m/s² forward if there were no drag
 
+  /// Number of samples.
   [[nodiscard]] std::size_t size() const { return time.size(); }
 };
 
@@ -58,8 +61,8 @@ void validate(const FlightLog& log);
 
 /// A place in a log: seconds of its own clock, or percent of its samples.
 struct LogPosition {
-  double value = 0;
-  bool percent = false;
+  double value = 0;      ///< s, or percent in [0, 100]
+  bool percent = false;  ///< what `value` counts
 };
 
 /// The samples from `from` to `to`, each in its own unit and either absent for the log's own end.
