@@ -69,8 +69,6 @@ void validate(const DragFitConditions& conditions, const DragFitOptions& options
   demand(positive(conditions.air_density), "the air density in kg/m³", conditions.air_density,
          "positive");
   demand(positive(conditions.gravity), "gravity in m/s²", conditions.gravity, "positive");
-  demand(positive(options.bounds.max_area), "the largest area in m²", options.bounds.max_area,
-         "positive");
   demand(positive(options.bounds.max_linear_speed), "the largest linear speed in m/s",
          options.bounds.max_linear_speed, "positive");
   demand(positive(options.bounds.max_wind), "the largest wind in m/s", options.bounds.max_wind,
@@ -258,6 +256,38 @@ VectorXd grid_start(const std::vector<Samples>& flights, double k, const DragBou
 
 // ---- damped Gauss–Newton within bounds ----
 
+// The sum of squares has a long bent valley along A·j = const: at one speed, only the drag there is
+// known. It is followed in coordinates in which it is straight, for a reference speed V:
+// y = (A_f·(V + j)/V, A_t·(V + j)/V, q, w…) with q = j/(V + j), the share of the linear part in the
+// drag at V. Drag is linear in q and in the first two.
+constexpr double reference_speed = 10;  // m/s, amid the speeds that are flown
+
+VectorXd straightened(VectorXd x) {
+  const double growth = 1 + x(linear) / reference_speed;
+  x.head<2>() *= growth;
+  x(linear) = x(linear) / (reference_speed * growth);
+  return x;
+}
+
+VectorXd unstraightened(VectorXd y) {
+  const double rest = 1 - y(linear);
+  y.head<2>() *= rest;
+  y(linear) = reference_speed * y(linear) / rest;
+  return y;
+}
+
+/// dx/dy, the identity but for the shared parameters.
+MatrixXd straightening_jacobian(const VectorXd& y) {
+  const double rest = 1 - y(linear);
+  MatrixXd t = MatrixXd::Identity(y.size(), y.size());
+  t(front, front) = t(top, top) = rest;
+  t(front, linear) = -y(front);
+  t(top, linear) = -y(top);
+  t(linear, linear) = reference_speed / (rest * rest);
+  return t;
+}
+
+/// Bounds of y.
 struct Box {
   VectorXd lower;
   VectorXd upper;
@@ -267,7 +297,8 @@ Box box(const DragBounds& bounds, Index flights) {
   Box out{VectorXd::Constant(shared + flights, -bounds.max_wind),
           VectorXd::Constant(shared + flights, bounds.max_wind)};
   out.lower.head<shared>().setZero();
-  out.upper.head<shared>() << bounds.max_area, bounds.max_area, bounds.max_linear_speed;
+  out.upper.head<2>().setConstant(std::numeric_limits<double>::infinity());
+  out.upper(linear) = bounds.max_linear_speed / (reference_speed + bounds.max_linear_speed);
   return out;
 }
 
@@ -337,20 +368,37 @@ NormalEquations normal_equations(const std::vector<Samples>& flights, double k, 
 }
 
 /// Parameters that may move: all but those at a bound that the data pushes outward.
-std::vector<Index> free_parameters(const VectorXd& x, const VectorXd& g, const Box& within) {
+std::vector<Index> free_parameters(const VectorXd& y, const VectorXd& g, const Box& within) {
   std::vector<Index> free;
-  for (Index i = 0; i < x.size(); ++i) {
+  for (Index i = 0; i < y.size(); ++i) {
     const bool held =
-        (x(i) <= within.lower(i) && g(i) < 0) || (x(i) >= within.upper(i) && g(i) > 0);
+        (y(i) <= within.lower(i) && g(i) < 0) || (y(i) >= within.upper(i) && g(i) > 0);
     if (!held) free.push_back(i);
   }
   return free;
 }
 
+/// A point with its normal equations in both coordinates.
+struct Point {
+  VectorXd y;
+  VectorXd x;
+  NormalEquations in_y;
+  NormalEquations in_x;
+};
+
+Point point_at(const std::vector<Samples>& flights, double k, const VectorXd& y) {
+  Point p{y, unstraightened(y), {}, {}};
+  p.in_x = normal_equations(flights, k, p.x);
+  const MatrixXd t = straightening_jacobian(y);
+  p.in_y = {t.transpose() * p.in_x.h * t, t.transpose() * p.in_x.g, p.in_x.sse};
+  return p;
+}
+
 struct Minimum {
   VectorXd x;
-  NormalEquations at;
+  NormalEquations at;  // in x
   std::vector<Index> free;
+  std::vector<Bound> bounds;  // one a parameter
   int iterations = 0;
   bool converged = false;
 };
@@ -358,7 +406,8 @@ struct Minimum {
 /// Levenberg and Marquardt's damping on the free parameters, each step projected onto the box. Own
 /// code because Eigen's unsupported module knows no bounds and wants the whole Jacobian, whose
 /// decomposition costs more than this problem: three shared parameters and a diagonal block.
-Minimum minimise(const std::vector<Samples>& flights, double k, VectorXd start, const Box& within) {
+Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& start,
+                 const Box& within) {
   constexpr int most_iterations = 200;  // 5 to 10 are used; the rest is for a start from afar
   // A step this small against every standard error is far below anything printed, and still lowers
   // the sum of squares by more than its rounding error (1e-8/N against 1e-16).
@@ -375,43 +424,48 @@ Minimum minimise(const std::vector<Samples>& flights, double k, VectorXd start, 
   }
   const double freedom = count - static_cast<double>(start.size());
 
-  Minimum best;
-  best.x = start.cwiseMax(within.lower).cwiseMin(within.upper);
-  best.at = normal_equations(flights, k, best.x);
+  Minimum out;
+  Point best =
+      point_at(flights, k, straightened(start).cwiseMax(within.lower).cwiseMin(within.upper));
   double damping = 1e-4;
-  while (best.iterations < most_iterations && damping < most_damping) {
-    ++best.iterations;
-    best.free = free_parameters(best.x, best.at.g, within);
-    const MatrixXd h = best.at.h(best.free, best.free);
-    const VectorXd g = best.at.g(best.free);
+  while (out.iterations < most_iterations && damping < most_damping) {
+    ++out.iterations;
+    const auto free = free_parameters(best.y, best.in_y.g, within);
+    const MatrixXd h = best.in_y.h(free, free);
+    const VectorXd g = best.in_y.g(free);
     // An area at 0 leaves columns of zeros; any positive number keeps such a parameter in place.
     const VectorXd scale = h.diagonal().cwiseMax(std::numeric_limits<double>::min());
     const VectorXd step = (h + MatrixXd(damping * scale.asDiagonal())).ldlt().solve(g);
 
-    VectorXd x = best.x;
-    x(best.free) += step;
-    x = x.cwiseMax(within.lower).cwiseMin(within.upper);
-    const VectorXd moved = x - best.x;
-    NormalEquations at = normal_equations(flights, k, x);
-    const bool improved = at.sse < best.at.sse;
+    VectorXd y = best.y;
+    y(free) += step;
+    y = y.cwiseMax(within.lower).cwiseMin(within.upper);
+    const VectorXd moved = y - best.y;
     // movedᵀ·H·moved ≤ ε²·s² bounds every |moved_i| by ε standard errors.
     const bool small =
-        moved.dot(best.at.h * moved) <=
-        std::max(negligible * negligible * best.at.sse / freedom, rounding * rounding * power);
-    if (improved) {
-      best.x = std::move(x);
-      best.at = std::move(at);
+        moved.dot(best.in_y.h * moved) <=
+        std::max(negligible * negligible * best.in_y.sse / freedom, rounding * rounding * power);
+    Point next = point_at(flights, k, y);
+    if (next.in_y.sse < best.in_y.sse) {
+      best = std::move(next);
       damping = std::max(damping / 10, least_damping);
     } else {
       damping *= 10;
     }
     if (small && damping < 1) {
-      best.converged = true;
+      out.converged = true;
       break;
     }
   }
-  best.free = free_parameters(best.x, best.at.g, within);
-  return best;
+  out.free = free_parameters(best.y, best.in_y.g, within);
+  out.bounds.assign(static_cast<std::size_t>(best.y.size()), Bound::lower);
+  for (Index i = 0; i < best.y.size(); ++i) {
+    if (best.y(i) >= within.upper(i)) out.bounds[static_cast<std::size_t>(i)] = Bound::upper;
+  }
+  for (Index i : out.free) out.bounds[static_cast<std::size_t>(i)] = Bound::none;
+  out.x = std::move(best.x);
+  out.at = std::move(best.in_x);
+  return out;
 }
 
 // ---- errors and quality ----
@@ -601,7 +655,7 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   } else {
     start = grid_start(samples, k, options.bounds);
   }
-  const Minimum minimum = minimise(samples, k, std::move(start), within);
+  const Minimum minimum = minimise(samples, k, start, within);
   const auto names = parameter_names(flights.size());
   demand_drag(minimum.x);
   demand_separate_effects(minimum, names);
@@ -654,8 +708,8 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
 
   for (Index i = 0; i < size; ++i) {
     FittedParameter parameter{names[static_cast<std::size_t>(i)], {}, Bound::none};
-    if (std::find(minimum.free.begin(), minimum.free.end(), i) == minimum.free.end()) {
-      parameter.at_bound = minimum.x(i) <= within.lower(i) ? Bound::lower : Bound::upper;
+    parameter.at_bound = minimum.bounds[static_cast<std::size_t>(i)];
+    if (parameter.at_bound != Bound::none) {
       constexpr double none = std::numeric_limits<double>::quiet_NaN();
       parameter.estimate = {minimum.x(i), none, none, none, none, none};
     } else {

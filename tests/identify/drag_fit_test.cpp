@@ -126,7 +126,9 @@ TEST_CASE("no random start finds a better minimum than the built-in one") {
                                      dice.between(0.001, 0.1),
                                      dice.between(0.5, 100),
                                      {dice.between(-20, 20)}};
-      CHECK(fit.quality.rmse <= rmse_of(flight, options) * (1 + 1e-9));
+      // In the flattest of these valleys iterations end within a twentieth of a standard error:
+      // 0.05²/N in the sum of squares.
+      CHECK(fit.quality.rmse <= rmse_of(flight, options) * (1 + 2e-6));
     }
   }
 }
@@ -261,7 +263,7 @@ TEST_CASE("purely linear drag sends j to its bound, and the drag force is still 
   Truth truth{3e-7, 3e-7, 1e6, -1};
   const DragFit fit = fit_one(exact_observations(truth, 5, 0.02));
   CHECK(fit.linear_speed().at_bound == Bound::upper);
-  CHECK(fit.linear_speed().estimate.value == DragBounds{}.max_linear_speed);
+  CHECK(fit.linear_speed().estimate.value == Approx(DragBounds{}.max_linear_speed));
   const double force = 0.5 * 1.225 * 0.3 * 6;  // cosθ + sinθ is 1.2 at the tilt of about 0.07
   CHECK(steady_drag(fit, 6)->force.value == Approx(force).epsilon(0.1));
 }

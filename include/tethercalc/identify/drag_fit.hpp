@@ -24,7 +24,6 @@ struct DragFitConditions {
 /// The box the parameters are kept in; areas and j are never negative. Wide enough that no
 /// multirotor reaches it; a parameter found at its bound says that the data lacks something.
 struct DragBounds {
-  double max_area = 10;           ///< m², front and top
   double max_linear_speed = 500;  ///< m/s: at 25 m/s the quadratic part is then 5 % of the drag
   double max_wind = 30;           ///< m/s either way
 };
