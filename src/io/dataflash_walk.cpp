@@ -229,15 +229,21 @@ Framing::Framing(std::span<const std::byte> log) : log_(log), filler_(log.size()
   if (log.size() - start >= shortest_run) filler_ = start;
 }
 
-bool Framing::ends_or_continues(std::size_t at, const Definitions& known) const {
+bool Framing::is_followed(std::size_t message, std::size_t at, const Definitions& known) const {
   // Filler must begin right here: if the message seems to end inside it, its own end may be filler.
   if (at == filler_ || at == log_.size()) return true;
+  // One damaged byte in the next message's mark must not cost this message, if the one after the
+  // next is where it should be and nothing before it looks like a mark: had bytes been lost or
+  // gained, the next one's mark would be whole, and elsewhere.
   const std::size_t left = log_.size() - at;
-  // One damaged byte in the next message's mark must not cost this message, provided that the next
-  // one's length shows where the one after it begins.
   if (left < header_size || (log_[at] != mark_first && log_[at + 1] != mark_second)) return false;
   const std::size_t length = known.length(log_[at + 2]);
-  return length != 0 && (length == left || (length + 2 <= left && mark_at(at + length)));
+  if (length == 0 || length > left || left - length == 1) return false;
+  if (length < left && !mark_at(at + length)) return false;
+  const auto begin = log_.begin() + static_cast<std::ptrdiff_t>(message + header_size);
+  const auto end = log_.begin() + static_cast<std::ptrdiff_t>(at + length);
+  constexpr std::array mark = {mark_first, mark_second};
+  return std::search(begin, end, mark.begin(), mark.end()) == end;
 }
 
 bool Framing::hides_messages(std::size_t at, std::size_t length, const Definitions& known,

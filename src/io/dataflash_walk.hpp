@@ -114,7 +114,7 @@ class Framing {
     if (length == 0 || length > log_.size() - at) return 0;
     const std::size_t next = at + length;
     const bool followed = next + 1 < log_.size() && mark_at(next);
-    return followed || ends_or_continues(next, known) ? length : 0;
+    return followed || is_followed(at, next, known) ? length : 0;
   }
 
   /// Whether what seems to be one message of `length` bytes is rather a damaged header in front of
@@ -133,7 +133,9 @@ class Framing {
   [[nodiscard]] bool mark_at(std::size_t at) const {
     return log_[at] == mark_first && log_[at + 1] == mark_second;
   }
-  [[nodiscard]] bool ends_or_continues(std::size_t at, const Definitions& known) const;
+  /// Whether the message that begins at `message` may end before `at`, though no mark is there.
+  [[nodiscard]] bool is_followed(std::size_t message, std::size_t at,
+                                 const Definitions& known) const;
 
   std::span<const std::byte> log_;
   std::size_t filler_;  // from here to the end, all bytes are the same filler
