@@ -218,13 +218,16 @@ class Extractor {
     if (wanted->instance && field_value(message, *wanted->instance) != instance_->value) return;
     act_(*wanted, message);
   }
-  void on_skipped(const SkippedBytes&) {}
+  void on_skipped(const SkippedBytes& lost) { skipped_.push_back(lost); }
+
+  std::vector<SkippedBytes> take_skipped() { return std::move(skipped_); }
 
  private:
   std::string_view name_;
   std::span<const std::string> fields_;
   const std::optional<DataFlashInstance>& instance_;
   Act act_;
+  std::vector<SkippedBytes> skipped_;
   std::array<const Wanted*, 256> wanted_{};
   std::deque<Wanted> kept_;  // also those no longer in force, which `act_` may still hold on to
 };
@@ -363,12 +366,13 @@ std::vector<std::vector<double>> extract_columns(std::span<const std::byte> log,
   std::size_t count = 0;
   Extractor counter(name, fields, instance, [&count](const Wanted&, const std::byte*) { ++count; });
   dataflash::walk(log, counter);
+  const std::vector<SkippedBytes> skipped = counter.take_skipped();
 
   ColumnFiller columns(fields.size(), count);
   Extractor extractor(
       name, fields, instance,
       [&columns](const Wanted& wanted, const std::byte* message) { columns.add(wanted, message); });
-  dataflash::walk(log, extractor);
+  dataflash::walk_again(log, skipped, extractor);
   return columns.finish();
 }
 

@@ -26,6 +26,14 @@ std::string_view name_in(const std::byte* fmt) { return text_at(fmt + name_at, n
 std::string_view format_in(const std::byte* fmt) { return text_at(fmt + format_at, format_size); }
 std::string_view labels_in(const std::byte* fmt) { return text_at(fmt + labels_at, labels_size); }
 
+/// The name as one number, to compare it with many.
+std::uint32_t name_number(const std::byte* fmt) {
+  const std::string_view name = name_in(fmt);
+  std::uint32_t number = 0;
+  std::memcpy(&number, name.data(), name.size());
+  return number;
+}
+
 bool same_definition(const std::byte* a, const std::byte* b) {
   return a[length_at] == b[length_at] && name_in(a) == name_in(b) && format_in(a) == format_in(b) &&
          labels_in(a) == labels_in(b);
@@ -144,26 +152,7 @@ Definitions::Definitions() {
   length_[fmt_type] = fmt_length;
   definition_[fmt_type] = built_in_fmt.data();
   settled_[fmt_type] = true;
-}
-
-std::optional<std::int64_t> Definitions::time_us(const std::byte* message) const {
-  switch (time_[std::to_integer<std::size_t>(message[2])]) {
-    case TimeKind::microseconds: {
-      std::uint64_t count = 0;
-      std::memcpy(&count, message + header_size, sizeof count);
-      // Sums and differences of times must not overflow; above this, none is plausible.
-      constexpr std::uint64_t greatest = std::uint64_t{1} << 62;
-      return static_cast<std::int64_t>(std::min(count, greatest));
-    }
-    case TimeKind::milliseconds: {
-      std::uint32_t count = 0;
-      std::memcpy(&count, message + header_size, sizeof count);
-      return std::int64_t{count} * 1000;
-    }
-    case TimeKind::none:
-      break;
-  }
-  return std::nullopt;
+  name_[fmt_type] = name_number(built_in_fmt.data());
 }
 
 Definitions::Change Definitions::take(const std::byte* message) {
@@ -182,7 +171,7 @@ Definitions::Change Definitions::take(const std::byte* message) {
   if (const std::string_view fault = fault_in(message); !fault.empty()) {
     return {Outcome::rejected, type, fault};
   }
-  if (const auto other = settled_type_called(name_in(message)); other && *other != type) {
+  if (const auto other = settled_type_called(name_number(message)); other && *other != type) {
     forget(*other);
     settled_[type] = true;
     forget(type);
@@ -192,6 +181,7 @@ Definitions::Change Definitions::take(const std::byte* message) {
     settled_[type] = true;
     const std::byte* const before = definition_[type];
     definition_[type] = message;
+    name_[type] = name_number(message);
     length_[type] = std::to_integer<std::uint8_t>(message[length_at]);
     time_[type] = begins_with(message, 'Q', "TimeUS")   ? TimeKind::microseconds
                   : begins_with(message, 'I', "TimeMS") ? TimeKind::milliseconds
@@ -205,11 +195,9 @@ Definitions::Change Definitions::take(const std::byte* message) {
   return {Outcome::rejected, type, "it contradicts an earlier definition of the same number"};
 }
 
-std::optional<std::uint8_t> Definitions::settled_type_called(std::string_view name) const {
-  for (std::size_t type = 0; type < definition_.size(); ++type) {
-    if (settled_[type] && definition_[type] != nullptr && name_in(definition_[type]) == name) {
-      return static_cast<std::uint8_t>(type);
-    }
+std::optional<std::uint8_t> Definitions::settled_type_called(std::uint32_t name) const {
+  for (std::size_t type = 0; type < name_.size(); ++type) {
+    if (name_[type] == name && settled_[type]) return static_cast<std::uint8_t>(type);
   }
   return std::nullopt;
 }
@@ -217,6 +205,7 @@ std::optional<std::uint8_t> Definitions::settled_type_called(std::string_view na
 void Definitions::forget(std::uint8_t type) {
   definition_[type] = nullptr;
   length_[type] = 0;
+  name_[type] = 0;
 }
 
 Framing::Framing(std::span<const std::byte> log) : log_(log), filler_(log.size()) {
@@ -229,19 +218,25 @@ Framing::Framing(std::span<const std::byte> log) : log_(log), filler_(log.size()
   if (log.size() - start >= shortest_run) filler_ = start;
 }
 
-bool Framing::ends_or_continues(std::size_t at, const Definitions& known) const {
+bool Framing::is_followed(std::size_t message, std::size_t at, const Definitions& known) const {
   // Filler must begin right here: if the message seems to end inside it, its own end may be filler.
   if (at == filler_ || at == log_.size()) return true;
+  // One damaged byte in the next message's mark must not cost this message, if the one after the
+  // next is where it should be and nothing before it looks like a mark: had bytes been lost or
+  // gained, the next one's mark would be whole, and elsewhere.
   const std::size_t left = log_.size() - at;
-  // One damaged byte in the next message's mark must not cost this message, provided that the next
-  // one's length shows where the one after it begins.
   if (left < header_size || (log_[at] != mark_first && log_[at + 1] != mark_second)) return false;
   const std::size_t length = known.length(log_[at + 2]);
-  return length != 0 && (length == left || (length + 2 <= left && mark_at(at + length)));
+  if (length == 0 || length > left || left - length == 1) return false;
+  if (length < left && !mark_at(at + length)) return false;
+  const auto begin = log_.begin() + static_cast<std::ptrdiff_t>(message + header_size);
+  const auto end = log_.begin() + static_cast<std::ptrdiff_t>(at + length);
+  constexpr std::array mark = {mark_first, mark_second};
+  return std::search(begin, end, mark.begin(), mark.end()) == end;
 }
 
-bool Framing::hides_messages(std::size_t at, std::size_t length, const Definitions& known,
-                             const TimeGuard& guard) const {
+bool Framing::has_messages_within(std::size_t at, std::size_t length, const Definitions& known,
+                                  const TimeGuard& guard) const {
   const std::size_t end = at + length;
   const auto leads_to_end = [&](std::size_t from) {
     while (from + header_size <= end && mark_at(from)) {

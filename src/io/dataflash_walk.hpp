@@ -35,7 +35,25 @@ class Definitions {
 
   /// The time that the message starting at `message` carries in its first field, in µs; nothing for
   /// a type without one. The type must be known.
-  [[nodiscard]] std::optional<std::int64_t> time_us(const std::byte* message) const;
+  [[nodiscard]] std::optional<std::int64_t> time_us(const std::byte* message) const {
+    switch (time_[std::to_integer<std::size_t>(message[2])]) {
+      case TimeKind::microseconds: {
+        std::uint64_t count = 0;
+        std::memcpy(&count, message + header_size, sizeof count);
+        // Differences of times must not overflow; above this, none is plausible anyway.
+        constexpr std::uint64_t greatest = std::uint64_t{1} << 62;
+        return static_cast<std::int64_t>(count < greatest ? count : greatest);
+      }
+      case TimeKind::milliseconds: {
+        std::uint32_t count = 0;
+        std::memcpy(&count, message + header_size, sizeof count);
+        return std::int64_t{count} * 1000;
+      }
+      case TimeKind::none:
+        break;
+    }
+    return std::nullopt;
+  }
 
   enum class Outcome { unchanged, defined, rejected };
   struct Change {
@@ -49,12 +67,13 @@ class Definitions {
   [[nodiscard]] std::size_t beginnings() const { return beginnings_; }
 
  private:
-  [[nodiscard]] std::optional<std::uint8_t> settled_type_called(std::string_view name) const;
+  [[nodiscard]] std::optional<std::uint8_t> settled_type_called(std::uint32_t name) const;
   void forget(std::uint8_t type);
 
   std::array<std::uint8_t, 256> length_{};
   enum class TimeKind : std::uint8_t { none, microseconds, milliseconds };
   std::array<TimeKind, 256> time_{};
+  std::array<std::uint32_t, 256> name_{};  // its four characters, 0 where none is in force
   std::size_t beginnings_ = 0;
   std::array<const std::byte*, 256> definition_{};  // the FMT message in force, nullptr if none
   std::array<bool, 256> settled_{};                 // defined since the log began anew
@@ -68,21 +87,18 @@ class TimeGuard {
   /// Near the log's latest time, or near the latest of the same type (which may have a clock of its
   /// own); anything is plausible before the first time.
   [[nodiscard]] bool is_plausible(std::uint8_t type, std::int64_t time) const {
-    return !clock_ || follows(*clock_, time) || (own_[type] && follows(*own_[type], time));
+    return clock_ == none || follows(clock_, time) || follows(own_[type], time);
   }
 
   /// Takes the next time. Says whether the message is to be believed: if its time is plausible, or
   /// follows one that was not (so that only the first message after a jump is lost).
   bool accept(std::uint8_t type, std::int64_t time) {
-    const bool with_clock = !clock_ || follows(*clock_, time);
-    if (!with_clock && !(own_[type] && follows(*own_[type], time)) &&
-        !(rejected_ && follows(*rejected_, time))) {
+    if (clock_ == none || follows(clock_, time) || follows(rejected_, time)) {
+      clock_ = time;
+      rejected_ = none;
+    } else if (!follows(own_[type], time)) {
       rejected_ = time;
       return false;
-    }
-    if (with_clock || !own_[type] || !follows(*own_[type], time)) {
-      clock_ = time;
-      rejected_.reset();
     }
     own_[type] = time;
     return true;
@@ -90,16 +106,49 @@ class TimeGuard {
 
  private:
   // Messages are written a little out of order, by milliseconds; pauses can be long.
-  static constexpr std::int64_t furthest_back = 10'000'000;      // µs
-  static constexpr std::int64_t furthest_ahead = 3'600'000'000;  // µs
+  static constexpr std::int64_t furthest_back = 10'000'000;       // µs
+  static constexpr std::int64_t furthest_ahead = 3'600'000'000;   // µs
+  static constexpr std::int64_t none = -(std::int64_t{1} << 62);  // no time follows it
   static bool follows(std::int64_t before, std::int64_t time) {
     return time >= before - furthest_back && time <= before + furthest_ahead;
   }
 
-  std::optional<std::int64_t> clock_;
-  std::optional<std::int64_t> rejected_;
-  std::array<std::optional<std::int64_t>, 256> own_;
+  static constexpr std::array<std::int64_t, 256> all_none() {
+    std::array<std::int64_t, 256> times{};
+    times.fill(none);
+    return times;
+  }
+
+  std::int64_t clock_ = none;
+  std::int64_t rejected_ = none;
+  std::array<std::int64_t, 256> own_ = all_none();
 };
+
+/// Whether a mark may begin and end among the `size` bytes at `first`: false only if there is none.
+/// Asked of every message, so it looks at eight places at a time. A byte of `differs` is zero where
+/// both bytes of a mark match, and a zero byte is what the subtraction borrows from (Mycroft's
+/// test; Warren, Hacker's Delight, section 6-1).
+inline bool may_have_mark_within(const std::byte* first, std::size_t size) {
+  constexpr std::uint64_t ones = 0x0101'0101'0101'0101;
+  constexpr std::uint64_t tops = 0x8080'8080'8080'8080;
+  constexpr std::size_t places = sizeof(std::uint64_t);
+  const auto eight_at = [](const std::byte* at) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, at, sizeof eight);
+    return eight;
+  };
+  const auto mark_among = [&](const std::byte* at) {
+    const std::uint64_t differs =
+        (eight_at(at) ^ (ones * std::to_integer<std::uint64_t>(mark_first))) |
+        (eight_at(at + 1) ^ (ones * std::to_integer<std::uint64_t>(mark_second)));
+    return (differs - ones) & ~differs & tops;
+  };
+  if (size < places + 1) return true;  // too short for this: the caller looks closer
+  const std::size_t last = size - places - 1;
+  std::uint64_t found = mark_among(first + last);
+  for (std::size_t from = 0; from < last; from += places) found |= mark_among(first + from);
+  return found != 0;
+}
 
 /// Where in the log messages can be, and where they end.
 class Framing {
@@ -114,14 +163,17 @@ class Framing {
     if (length == 0 || length > log_.size() - at) return 0;
     const std::size_t next = at + length;
     const bool followed = next + 1 < log_.size() && mark_at(next);
-    return followed || ends_or_continues(next, known) ? length : 0;
+    return followed || is_followed(at, next, known) ? length : 0;
   }
 
   /// Whether what seems to be one message of `length` bytes is rather a damaged header in front of
   /// whole messages that end where it ends: with marks all over a log, a wrong length easily leads
   /// to one.
   [[nodiscard]] bool hides_messages(std::size_t at, std::size_t length, const Definitions& known,
-                                    const TimeGuard& guard) const;
+                                    const TimeGuard& guard) const {
+    return may_have_mark_within(log_.data() + at + header_size, length - header_size) &&
+           has_messages_within(at, length, known, guard);
+  }
 
   /// First position from `at` on where message_at() finds a message, or the log's end.
   [[nodiscard]] std::size_t next_message(std::size_t at, const Definitions& known) const;
@@ -133,7 +185,11 @@ class Framing {
   [[nodiscard]] bool mark_at(std::size_t at) const {
     return log_[at] == mark_first && log_[at + 1] == mark_second;
   }
-  [[nodiscard]] bool ends_or_continues(std::size_t at, const Definitions& known) const;
+  [[nodiscard]] bool has_messages_within(std::size_t at, std::size_t length,
+                                         const Definitions& known, const TimeGuard& guard) const;
+  /// Whether the message that begins at `message` may end before `at`, though no mark is there.
+  [[nodiscard]] bool is_followed(std::size_t message, std::size_t at,
+                                 const Definitions& known) const;
 
   std::span<const std::byte> log_;
   std::size_t filler_;  // from here to the end, all bytes are the same filler
@@ -174,6 +230,31 @@ void walk(std::span<const std::byte> log, Visitor& visitor) {
       if (change.outcome == Definitions::Outcome::rejected) {
         visitor.on_rejected(change.type, message, change.reason);
       }
+    }
+    visitor.on_message(type, message);
+    at += length;
+  }
+}
+
+/// Walks through a log whose damage a first walk has told, without looking for it again. The
+/// visitor is told on_format and on_message as in walk().
+template <class Visitor>
+void walk_again(std::span<const std::byte> log, std::span<const SkippedBytes> skipped,
+                Visitor& visitor) {
+  Definitions known;
+  std::size_t at = 0;
+  while (at < log.size()) {
+    if (!skipped.empty() && at == skipped.front().offset) {
+      at += skipped.front().bytes;
+      skipped = skipped.subspan(1);
+      continue;
+    }
+    const std::byte* const message = log.data() + at;
+    const auto type = std::to_integer<std::uint8_t>(message[2]);
+    const std::size_t length = known.length(message[2]);
+    if (type == fmt_type) {
+      const Definitions::Change change = known.take(message);
+      if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
     }
     visitor.on_message(type, message);
     at += length;

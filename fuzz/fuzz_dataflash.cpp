@@ -1,0 +1,51 @@
+// Any bytes as a DataFlash log: read every way there is, every byte accounted for.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tethercalc/io/dataflash.hpp"
+#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/log_summary.hpp"
+#include "tethercalc/report/log_report.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace tethercalc;
+  const auto log = std::as_bytes(std::span(data, size));
+  const DataFlashContents contents = scan_dataflash(log);
+  std::size_t bytes = contents.skipped_bytes;
+  std::size_t messages = 0;
+  for_each_message(log, [&](const DataFlashFormat& format, const std::byte* message) {
+    bytes += format.length;
+    ++messages;
+    for (const DataFlashField& field : format.fields) (void)field_text(message, field);
+  });
+  if (bytes != size || messages != contents.messages) std::abort();
+
+  const LogSummary summary = summarize_log(log);
+  (void)log_text(summary, "log");
+  (void)log_csv(summary);
+  (void)log_json(summary, "log");
+  for (const auto& type : contents.types) {
+    if (type.count == 0) continue;
+    std::ostringstream csv;
+    write_messages_csv(log, type.format.name, "log", csv);
+  }
+  for (const int core : {0, 1}) {
+    try {
+      const FlightLog flight = parse_flight_log(log, "log", {.core = core}).log;
+      for (std::size_t i = 1; i < flight.time.size(); ++i) {
+        if (!(flight.time[i] > flight.time[i - 1])) std::abort();
+      }
+    } catch (const InputError& error) {
+      if (error.problems().empty()) std::abort();
+    }
+  }
+  return 0;
+}
