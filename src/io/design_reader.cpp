@@ -176,7 +176,7 @@ DesignFile design_of(JsonDocument document, const fs::path& folder,
   problems.add(document.problems);
   apply_overrides(document, overrides, problems);
   DesignFile result;
-  result.name = fs::path(document.name).stem().string();
+  result.name = as_utf8(fs::path(document.name).stem().string());
   result.file = document.name;
   result.folder = folder;
   SpecReader(document, result, problems).read();

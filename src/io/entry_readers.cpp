@@ -326,8 +326,8 @@ std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const st
     return std::nullopt;
   }
   MotorEntry entry;
-  entry.name = fs::path(name).stem().string();
-  entry.source = name;
+  entry.name = as_utf8(fs::path(name).stem().string());
+  entry.source = as_utf8(name);
   std::vector<BenchPoint> points;
   for (std::size_t row = 0; row < values[0].size(); ++row) {
     const MotorPoint point{values[0][row] * unit::gram_force, values[1][row]};

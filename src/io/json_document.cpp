@@ -384,6 +384,13 @@ std::string shown(const nlohmann::ordered_json& value) {
   return text;
 }
 
+bool is_utf8(const std::string& text) { return as_utf8(text) == text; }
+
+std::string as_utf8(const std::string& text) {
+  const Json value(text);
+  return Json::parse(value.dump(-1, ' ', true, Json::error_handler_t::replace)).get<std::string>();
+}
+
 std::string type_name(const nlohmann::ordered_json& value) {
   if (value.is_null()) return "null";
   if (value.is_boolean()) return value.get<bool>() ? "true" : "false";

@@ -41,7 +41,13 @@ std::string child_pointer(std::string_view pointer, std::string_view key);
 /// to print whatever bytes it holds.
 std::string shown(const nlohmann::ordered_json& value);
 
-/// "a number", "text", "an object" …
+/// Whether `text` is valid UTF-8, without which no JSON can hold it.
+bool is_utf8(const std::string& text);
+
+/// `text` with what is not UTF-8 replaced by U+FFFD: names of files may hold any bytes.
+std::string as_utf8(const std::string& text);
+
+/// "the number 7", "the text "a"", "an object" …
 std::string type_name(const nlohmann::ordered_json& value);
 
 }  // namespace tethercalc

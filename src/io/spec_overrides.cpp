@@ -85,10 +85,16 @@ Json* member_of(Json& parent, const std::string& key) {
   return usable && index < parent.size() ? &parent[index] : nullptr;
 }
 
-/// JSON, or else a text as it stands.
-Json value_of(std::string_view text) {
-  Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  return value.is_discarded() ? Json(std::string(text)) : value;
+/// JSON, or else a text as it stands. What opens a bracket is meant as JSON: its faults are thrown.
+Json value_of(const std::string& text, const std::string& option) {
+  try {
+    JsonDocument value = parse_json(text, option);
+    if (!value.problems.empty()) throw InputError(value.problems);
+    return std::move(value.root);
+  } catch (const InputError&) {
+    if (text.starts_with('{') || text.starts_with('[')) throw;
+    return text;
+  }
 }
 
 void forget_lines(JsonDocument& document, std::string_view pointer) {
@@ -105,12 +111,23 @@ void apply_override(JsonDocument& document, const std::string& override_text, Pr
     problems.add(option, "expected path=value, such as supply.voltage_V=60");
     return;
   }
+  if (!is_utf8(override_text)) {
+    problems.add("--set " + shown(override_text), "is not valid UTF-8");
+    return;
+  }
   const std::string path = override_text.substr(0, equals);
   const std::string pointer = pointer_of(path);
   if (!may_exist(pointer, spec_fields())) {
     const auto closest = closest_field_path(path);
     problems.add(option, fmt::format("no field {} in a spec{}", shown(path),
                                      closest ? "; did you mean \"" + *closest + "\"?" : ""));
+    return;
+  }
+  Json new_value;
+  try {
+    new_value = value_of(override_text.substr(equals + 1), option);
+  } catch (const InputError& error) {
+    problems.add(error.problems());
     return;
   }
   Json* value = &document.root;
@@ -127,7 +144,7 @@ void apply_override(JsonDocument& document, const std::string& override_text, Pr
     value = member;
     walked = child_pointer(walked, key);
   }
-  *value = value_of(std::string_view(override_text).substr(equals + 1));
+  *value = std::move(new_value);
   forget_lines(document, pointer);
   document.options[pointer] = option;
 }

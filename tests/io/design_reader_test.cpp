@@ -216,3 +216,15 @@ TEST_CASE("every numeric field takes its value by name as it does from a file") 
     CHECK_THROWS_AS(set_field(design, field, 2 * field.range.max + 1), std::invalid_argument);
   }
 }
+
+TEST_CASE("an override that is no UTF-8 is refused") {
+  const std::vector<std::string> overrides{"name=\xff"};
+  CHECK_THROWS_WITH(read_design(published, overrides), Catch::Contains("is not valid UTF-8"));
+}
+
+TEST_CASE("a design without a name is called after its file, whatever bytes that holds") {
+  Json document = Json::parse(starting_spec());
+  document.erase("name");
+  CHECK(parse_design(document.dump(), "a/my drone.json").name == "my drone");
+  CHECK(parse_design(document.dump(), "\xff.json").name == "\xEF\xBF\xBD");
+}
