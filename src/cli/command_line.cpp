@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "cli/design_commands.hpp"
+#include "cli/log_commands.hpp"
 #include "cli/output.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -21,7 +22,7 @@ namespace {
 using Action = std::function<int()>;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& message) {
-  throw InputError({{where, message}});
+  throw InputError(where, message);
 }
 
 Format parse_format(const std::string& text) {
@@ -48,6 +49,21 @@ void add_spec(CLI::App& command, SpecOptions& spec) {
       .add_option("--set", spec.overrides,
                   "Change a field of the spec: path=value, such as supply.voltage_V=60; repeatable")
       ->allow_extra_args(false);
+}
+
+/// The options that say which part of a flight counts and what is known about it.
+void add_flight(CLI::App& command, FlightOptions& flight) {
+  command.add_option("--mass-g", flight.mass_g, "Mass of the drone as flown, in g");
+  command.add_option("--from", flight.from, "First sample: seconds (120) or percent (25%)");
+  command.add_option("--to", flight.to, "Last sample; with neither, the moving part is used");
+  command.add_option("--pitch-offset-deg", flight.pitch_offset_deg,
+                     "Pitch that the log shows in level flight, nose-up");
+  command.add_option("--trim-log", flight.trim_log, "Hover flight whose mean pitch is that offset");
+  command.add_option("--air-density", flight.air_density_kg_m3, "In kg/m³ (default 1.293)");
+  command.add_option("--pressure-hPa", flight.pressure_hPa, "For the air density, with");
+  command.add_option("--temperature-C", flight.temperature_C, "the air temperature");
+  command.add_option("--core", flight.core, "EKF core to read (default 0)")
+      ->check(CLI::Range(0, 255));
 }
 
 std::vector<double> parse_areas(const std::vector<std::string>& texts) {
@@ -77,6 +93,8 @@ class CommandLine {
     add_schema();
     add_init();
     add_list();
+    add_drag();
+    add_log();
     app_.footer("Exit codes: 0 done; 1 the honest answer is no; 2 bad input; 3 internal error.");
   }
 
@@ -165,6 +183,24 @@ class CommandLine {
     add_output(command, output_);
   }
 
+  void add_drag() {
+    CLI::App& command = add("drag", "The drone's drag, learned from its own flight logs",
+                            [this] { return run_drag(drag_, output_); });
+    command.add_option("LOG", drag_.logs, "Flight logs: DataFlash (.bin) or CSV")->required();
+    add_flight(command, drag_.flight);
+    command.add_option("--into", drag_.into,
+                       "Print this spec with its drag replaced, instead of the fit");
+    add_output(command, output_);
+  }
+
+  void add_log() {
+    CLI::App& command = add("log", "What a DataFlash log holds",
+                            [this] { return run_log(what_, message_, output_); });
+    command.add_option("LOG", what_, "DataFlash log (.bin)")->required();
+    command.add_option("--csv", message_, "Export all messages of this name, such as XKF1");
+    add_output(command, output_);
+  }
+
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
   void check_command(int argc, const char* const* argv) const {
     if (argc < 2 || argv[1][0] == '-') return;
@@ -207,6 +243,8 @@ class CommandLine {
   std::vector<std::string> motors_{"all"};
   std::vector<std::string> files_;
   std::string what_;
+  DragOptions drag_;
+  std::string message_;
 };
 
 }  // namespace

@@ -1,0 +1,107 @@
+#include "cli/log_commands.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tethercalc/identify/drag_identification.hpp"
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/log_summary.hpp"
+#include "tethercalc/io/mapped_file.hpp"
+#include "tethercalc/report/drag_report.hpp"
+#include "tethercalc/report/log_report.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+double checked_mass(const std::optional<double>& mass_g) {
+  if (!mass_g) {
+    throw InputError("--mass-g", "is needed: drag is force, the log knows only accelerations");
+  }
+  if (!(*mass_g >= 1 && *mass_g <= 1e6)) {
+    throw InputError("--mass-g",
+                     std::to_string(*mass_g) + " is out of range; allowed is 1 to 1000000 g");
+  }
+  return *mass_g * unit::gram;
+}
+
+/// The spec with its drag replaced, checked as if a person had edited it.
+std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
+  const DesignFile file = read_design(spec);
+  nlohmann::ordered_json document = file.document;
+  document["drone"]["drag"].update(spec_drag_block(fit));
+  return json_text(read_design_document(document, file.file, file.folder).document);
+}
+
+}  // namespace
+
+int run_log(const std::string& file, const std::string& message, const Output& output) {
+  const MappedFile log(file);
+  if (!looks_like_dataflash(log.bytes())) {
+    throw InputError(file, "is no DataFlash log (.bin): it begins like a text");
+  }
+  if (!message.empty()) {
+    std::ostringstream csv;
+    write_messages_csv(log.bytes(), message, file, csv);
+    emit(output, csv.str());
+    return done;
+  }
+  const LogSummary summary = summarize_log(log.bytes());
+  switch (output.format) {
+    case Format::table:
+      emit(output, log_text(summary, file, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(log_json(summary, file)));
+      break;
+    case Format::csv:
+      emit(output, log_csv(summary));
+      break;
+  }
+  return done;
+}
+
+int run_drag(const DragOptions& options, const Output& output) {
+  DragIdentificationOptions identification;
+  identification.conditions.mass = checked_mass(options.flight.mass_g);
+  if (const auto density = air_density(options.flight)) {
+    identification.conditions.air_density = *density;
+  }
+  identification.from = log_position("--from", options.flight.from);
+  identification.to = log_position("--to", options.flight.to);
+  identification.pitch_offset = pitch_offset(options.flight);
+
+  std::vector<FlightLog> logs;
+  for (const std::string& name : options.logs) {
+    FlightLogReading reading = read_flight_log(name, {options.flight.core});
+    for (const std::string& note : reading.notes) {
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
+    }
+    logs.push_back(std::move(reading.log));
+  }
+  DragIdentification result;
+  try {
+    result = identify_drag(logs, identification);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(options.logs.size() == 1 ? options.logs.front() : "drag", error.what());
+  }
+  if (!options.into.empty()) {
+    emit(output, spec_with_drag(options.into, result.fit));
+    return done;
+  }
+  switch (output.format) {
+    case Format::table:
+      emit(output, drag_text(result, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(drag_json(result)));
+      break;
+    case Format::csv:
+      emit(output, drag_csv(result));
+      break;
+  }
+  return done;
+}
+
+}  // namespace tethercalc::cli

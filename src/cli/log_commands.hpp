@@ -1,0 +1,22 @@
+// The commands that read logs of real flights.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/flight_options.hpp"
+#include "cli/output.hpp"
+
+namespace tethercalc::cli {
+
+/// What a DataFlash log holds, or all messages of one name as CSV.
+int run_log(const std::string& file, const std::string& message, const Output& output);
+
+struct DragOptions {
+  std::vector<std::string> logs;
+  FlightOptions flight;
+  std::string into;  ///< a spec whose drag block is replaced; empty: report the fit instead
+};
+int run_drag(const DragOptions& options, const Output& output);
+
+}  // namespace tethercalc::cli
