@@ -23,8 +23,8 @@ struct Finding {
   std::string mechanism;  ///< one sentence
   std::string stage;      ///< supply, tether, converter, motors or airframe
   std::vector<ParameterEstimate> parameters;  ///< of the final, joint fit
-  double holdout_rmse_before = 0;  ///< all other findings in place, this one at its neutral value
-  double holdout_rmse_after = 0;   ///< with it
+  double holdout_rmse_before = 0;  ///< with the findings before it in place
+  double holdout_rmse_after = 0;   ///< with it as well, everything free refitted together
   double gain_percent = 0;         ///< 100·(1 − after/before)
   double gain_se_percent = 0;      ///< standard error over blocks
   std::vector<std::string> indistinguishable_from;  ///< ids that explain this log as well

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct ParameterGroup {
   std::string id;
   Role role = Role::candidate;
   std::vector<ModelParameter> parameters;
+  /// Index of a group that goes back to neutral when this one is freed, since this one describes the
+  /// same thing in more detail; none by default.
+  std::optional<std::size_t> replaces;
 };
 
 /// A shape that a record may follow without any effect of the catalogue: a column over the rows of
@@ -79,8 +83,8 @@ struct SelectionOptions {
 /// A group that was freed, after the joint fit.
 struct SelectedGroup {
   std::size_t group = 0;          ///< index into SelectionProblem::groups
-  double rmse_before = 0;         ///< held out, this group neutral, the rest refitted
-  double rmse_after = 0;
+  double rmse_before = 0;         ///< held out, with the groups selected before it
+  double rmse_after = 0;          ///< held out, with it as well; everything free refitted together
   double gain_percent = 0;
   double gain_se_percent = 0;
   double p_value = 1;             ///< of no gain, two-sided, before correction
@@ -107,7 +111,6 @@ struct UnnamedStructure {
 struct Selection {
   std::size_t rows = 0;            ///< used
   std::size_t blocks = 0;
-  double effective_rows = 0;       ///< rows over the inflation of variance by correlation
   double student_factor = 0;       ///< half width of a 95 % interval over its standard error
   ModelFit base;                   ///< only the fitted groups free
   ModelFit extended;               ///< with the selected groups
