@@ -1,6 +1,7 @@
 // What a diagnosis says: findings with their gain, what could not be tested, what stays unexplained.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ struct Unexplained {
 
 /// A model fitted to the log, judged on data it was not fitted to.
 struct ModelQuality {
-  double holdout_rmse = 0;  ///< in `Diagnosis::unit`
+  double holdout_rmse = 0;  ///< in `Diagnosis::unit`; NaN where the log is too short to hold out
   std::vector<ParameterEstimate> parameters;
 };
 
@@ -84,6 +85,12 @@ struct DesignImpact {
   BeforeAfter total_power_W;
 };
 
+/// A field of the design spec that the extended model fills.
+struct SpecChange {
+  std::string field;  ///< path in the spec, such as "drone.drag.linear_m_s"
+  double value = 0;   ///< in the unit of the field's name
+};
+
 struct Diagnosis {
   std::string kind;               ///< "flight" or "power"
   std::size_t samples = 0;        ///< used
@@ -96,6 +103,7 @@ struct Diagnosis {
   std::vector<NotIdentifiable> not_identifiable;
   Unexplained unexplained;
   ModelQuality extended;
+  std::vector<SpecChange> spec_changes;  ///< turn the spec into the extended one
   ErrorBudget budget;
   std::vector<HoldoutComparison> further;
   std::vector<std::string> notes;  ///< what was done to the log: samples left out and why

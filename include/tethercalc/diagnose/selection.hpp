@@ -19,6 +19,8 @@ struct ModelParameter {
   double upper = 0;
   double scale = 1;     ///< > 0, a change of it that matters: start of the search and step for slopes
   double start = 0;     ///< first value tried once freed; any value within the bounds
+  bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
+                            ///< constant): takes no part in the test against chance
 };
 
 /// Parameters that are freed together.
@@ -27,40 +29,40 @@ struct ParameterGroup {
     fitted,     ///< always free and never reported: drag areas, instrument gains, base effects
     candidate,  ///< at its neutral values until the record demands otherwise
   };
-  std::string id;
+  std::string id{};
   Role role = Role::candidate;
-  std::vector<ModelParameter> parameters;
+  std::vector<ModelParameter> parameters{};
   /// Index of a group that goes back to neutral when this one is freed, since this one describes the
   /// same thing in more detail; none by default.
-  std::optional<std::size_t> replaces;
+  std::optional<std::size_t> replaces{};
 };
 
 /// A shape that a record may follow without any effect of the catalogue: a column over the rows of
 /// the record, made of one channel.
 struct UnnamedRegressor {
-  std::string channel;         ///< such as "roll"
-  std::string shape;           ///< plain words, such as "roll squared, times airspeed"
-  std::vector<double> column;  ///< one element a row; its scale does not matter
+  std::string channel{};         ///< such as "roll"
+  std::string shape{};           ///< plain words, such as "roll squared, times airspeed"
+  std::vector<double> column{};  ///< one element a row; its scale does not matter
 };
 
 /// A record and the model that should explain it. Readings of several instruments are stacked: one
 /// row a reading.
 struct SelectionProblem {
-  std::vector<ParameterGroup> groups;
+  std::vector<ParameterGroup> groups{};
 
   /// Writes the predicted reading of every row. The first argument holds the parameters of all
   /// groups in their order. Must be deterministic, and finite within the bounds. It may be called
   /// thousands of times and must not see `measured`: no candidate may be built from what it explains.
   std::function<void(std::span<const double>, std::span<double>)> predict;
 
-  std::vector<double> measured;  ///< one a row
-  std::vector<double> noise;     ///< one a row, > 0, in the unit of `measured`: weighs instruments
+  std::vector<double> measured{};  ///< one a row
+  std::vector<double> noise{};     ///< one a row, > 0, in the unit of `measured`: weighs instruments
                                  ///< against each other; a common factor changes nothing
   /// Block of each row: 0 … block count − 1, contiguous stretches of time, the same stretch for every
   /// instrument, each several correlation times long. −1 leaves a row out of everything.
-  std::vector<int> block;
+  std::vector<int> block{};
 
-  std::vector<UnnamedRegressor> unnamed;
+  std::vector<UnnamedRegressor> unnamed{};
 };
 
 /// Every default is a choice; the comment says what it trades.
@@ -71,10 +73,10 @@ struct SelectionOptions {
 
   /// Smallest drop of held-out rmse worth a name, in percent. Below it a statistically certain
   /// gain may as well come from the imperfection of the log (time stamps, filters, sampling).
-  double least_gain_percent = 1.0;
+  double least_gain_percent = 2.0;
 
   /// The same for unnamed structure, in percent of the held-out rmse left.
-  double least_unexplained_percent = 1.5;
+  double least_unexplained_percent = 2.0;
 
   /// At most this many effects are named.
   std::size_t most_findings = 6;
@@ -88,23 +90,22 @@ struct SelectedGroup {
   double gain_percent = 0;
   double gain_se_percent = 0;
   double p_value = 1;             ///< of no gain, two-sided, before correction
-  std::vector<std::size_t> indistinguishable;  ///< groups that explain as well in its place
+  std::vector<std::size_t> indistinguishable{};  ///< groups that explain as well in its place
 };
 
 /// Values of all parameters and their covariance over blocks.
 struct ModelFit {
-  std::vector<double> values;          ///< all groups in their order; not freed ones are neutral
-  std::vector<double> standard_error;  ///< 0 where not freed
+  std::vector<double> values{};          ///< all groups in their order; not freed ones are neutral
+  std::vector<double> standard_error{};  ///< 0 where not freed
   /// Values with block b left out: `without_block[b]`.
-  std::vector<std::vector<double>> without_block;
+  std::vector<std::vector<double>> without_block{};
   double holdout_rmse = 0;  ///< in units of `noise`, every block predicted by the fit without it
-  std::vector<double> block_squared_error;  ///< sum of squares held out, one a block
-  std::vector<double> holdout_residual;  ///< measured − predicted, one a row, 0 in rows left out
+  std::vector<double> holdout_residual{};  ///< measured − predicted, one a row, 0 in rows left out
 };
 
 struct UnnamedStructure {
-  std::vector<std::size_t> regressors;  ///< into SelectionProblem::unnamed, strongest first
-  std::vector<std::string> channels;    ///< theirs, without repetition
+  std::vector<std::size_t> regressors{};  ///< into SelectionProblem::unnamed, strongest first
+  std::vector<std::string> channels{};    ///< theirs, without repetition
   double share_percent = 0;  ///< of the held-out squared error of the extended model
 };
 
@@ -114,13 +115,15 @@ struct Selection {
   double student_factor = 0;       ///< half width of a 95 % interval over its standard error
   ModelFit base;                   ///< only the fitted groups free
   ModelFit extended;               ///< with the selected groups
-  std::vector<SelectedGroup> selected;  ///< in the order they were found
+  ModelFit complete;               ///< with the selected groups and the unnamed structure: the best
+                                   ///< estimate of every parameter, least disturbed by the unknown
+  std::vector<SelectedGroup> selected{};  ///< in the order they were found
   /// Candidates whose change of the prediction is a combination of what is already free.
   struct Aliased {
     std::size_t group = 0;
-    std::vector<std::size_t> with;  ///< groups that mimic it, the nearest first
+    std::vector<std::size_t> with{};  ///< groups that mimic it, the nearest first
   };
-  std::vector<Aliased> aliased;
+  std::vector<Aliased> aliased{};
   UnnamedStructure unnamed;
 };
 
@@ -135,8 +138,8 @@ using SelectionProgress = std::function<void(const std::string&)>;
 /// same fits, each with one block left out (delete-a-block jackknife, Künsch 1989), so that
 /// correlation within a block needs no model. Outlying rows are down-weighted (Huber 1964).
 ///
-/// Structure left over is sought among `unnamed`; a named effect that a group of unnamed regressors
-/// makes superfluous is taken back: a name is never forced on it.
+/// Structure left over is sought among `unnamed`; an effect that an unnamed regressor explains
+/// significantly better, or makes superfluous, is taken back: a name is never forced on it.
 ///
 /// Throws std::invalid_argument where sizes disagree, a noise is not positive, a bound is reversed,
 /// or fewer than `fewest_blocks` blocks hold rows.
