@@ -9,8 +9,10 @@
 namespace tethercalc {
 namespace {
 
-constexpr std::size_t half_window = 3;
 constexpr double spike_bound = 10;
+/// A spike stands out from the line between its neighbours; on a flank or at a corner of honest
+/// motion the neighbours differ by as much.
+constexpr double spike_over_slope = 2;
 /// Seconds of one and the same value. An estimator at 10 Hz with two decimals repeats itself two or
 /// three times in calm flight.
 constexpr double stuck_after = 1.0;
@@ -21,38 +23,21 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-double neighbourhood_median(const std::vector<double>& series, std::size_t i,
-                            const SampleRange& range) {
-  const std::size_t first = i < range.first + half_window ? range.first : i - half_window;
-  const std::size_t last = std::min(i + half_window + 1, range.last);
-  std::array<double, 2 * half_window + 1> window{};
-  const auto end = std::copy(series.begin() + static_cast<std::ptrdiff_t>(first),
-                             series.begin() + static_cast<std::ptrdiff_t>(last), window.begin());
-  const auto middle = window.begin() + (end - window.begin()) / 2;
-  std::nth_element(window.begin(), middle, end);
-  return *middle;
-}
-
 std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
                           std::vector<bool>& bad) {
-  std::vector<double> smooth(range.size());
-  std::vector<double> deviation(range.size());
-  for (std::size_t k = 0; k < range.size(); ++k) {
-    smooth[k] = neighbourhood_median(series, range.first + k, range);
-    deviation[k] = std::abs(series[range.first + k] - smooth[k]);
+  if (range.size() < 3) return 0;
+  const auto between = [&series](std::size_t i) { return (series[i - 1] + series[i + 1]) / 2; };
+  std::vector<double> deviation;
+  for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
+    deviation.push_back(std::abs(series[i] - between(i)));
   }
-  // In smooth motion most samples are the median of their neighbours; what the others miss it by is
-  // the usual reach.
-  std::vector<double> reach;
-  std::copy_if(deviation.begin(), deviation.end(), std::back_inserter(reach),
-               [](double d) { return d > 0; });
-  if (reach.size() < 2) return 0;
-  const double bound = spike_bound * median_of(std::move(reach));
+  const double bound = spike_bound * median_of(deviation);
   std::size_t count = 0;
-  for (std::size_t k = 0; k < range.size(); ++k) {
-    if (deviation[k] <= bound) continue;
-    series[range.first + k] = smooth[k];
-    bad[range.first + k] = true;
+  for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
+    const double slope = std::abs(series[i + 1] - series[i - 1]);
+    if (deviation[i - range.first - 1] <= std::max(bound, spike_over_slope * slope)) continue;
+    series[i] = between(i);
+    bad[i] = true;
     ++count;
   }
   return count;

@@ -28,7 +28,10 @@ constexpr double aliased_below = 0.01;
 constexpr double rival_gain = 0.5;
 /// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
 /// within what the idealised shape of any named effect misses of nature.
-constexpr double outdone_gain = 0.05;
+constexpr double outdone_gain = 0.1;
+/// Percent of the held-out rmse that an effect must remove to be named beside unnamed structure: what
+/// the unnamed shape misses of the unknown must not be given a name.
+constexpr double least_gain_beside_unnamed = 5;
 constexpr std::size_t most_rivals = 2;
 
 double students_t_p_value(double t, double degrees) {
@@ -49,8 +52,8 @@ struct BlockDifference {
   double se = 0;
 };
 
-BlockDifference difference(const BlockFit& a, const BlockFit& b) {
-  const VectorXd d = a.block_error - b.block_error;
+BlockDifference difference(const VectorXd& a, const VectorXd& b) {
+  const VectorXd d = a - b;
   const auto blocks = static_cast<double>(d.size());
   const double spread = (d.array() - d.mean()).square().sum();
   return {d.sum(), std::sqrt(blocks / (blocks - 1) * spread)};
@@ -69,6 +72,17 @@ double gain_se_percent(const BlockFit& before, const BlockFit& after) {
                            after.squared_error() - after.block_error[b]);
   }
   return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
+}
+
+/// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every fit
+/// frees.
+double precision(const BlockFit& fit) {
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    const auto column = static_cast<Index>(k);
+    sum -= std::log(jackknife_covariance(fit, {column})(0, 0) + 1e-300) / 2;
+  }
+  return sum;
 }
 
 class Search {
@@ -109,7 +123,7 @@ class Search {
 
   void find_aliased(const BlockFit& base, Selection& result) const;
   void step_forward();
-  bool drop_superfluous();
+  void drop_superfluous();
   bool drop_outdone();
   void find_unnamed();
   void sum_up(const BlockFit& base, Selection& result) const;
@@ -176,7 +190,7 @@ double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& w
     distance.push_back((with.values[index] - p.neutral) / p.scale);
   }
   if (columns.empty() || group(g).replaces) {
-    const BlockDifference gain = difference(without, with);
+    const BlockDifference gain = difference(without.block_error, with.block_error);
     return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
   }
   const VectorXd offset = VectorXd::Map(distance.data(), static_cast<Index>(distance.size()));
@@ -193,8 +207,11 @@ Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit wit
   trial.group = g;
   trial.p_value = p_value(g, without, with);
   const double gain = gain_percent(without.squared_error(), with.squared_error());
+  const double least_gain =
+      unnamed_.empty() ? options_.least_gain_percent
+                       : std::max(options_.least_gain_percent, least_gain_beside_unnamed);
   trial.worth_a_name =
-      gain >= options_.least_gain_percent && gain > 2 * gain_se_percent(without, with) &&
+      gain >= least_gain && gain > 2 * gain_se_percent(without, with) &&
       trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
   trial.fit = std::move(with);
   return trial;
@@ -234,7 +251,7 @@ std::optional<Search::Trial> Search::best_step() const {
   });
   const Trial* chosen = &*best;
   for (const Trial& trial : worthy) {
-    const BlockDifference excess = difference(trial.fit, best->fit);
+    const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
     if (group(trial.group).parameters.size() < group(chosen->group).parameters.size() &&
         excess.sum <= excess.se) {
       chosen = &trial;
@@ -256,14 +273,13 @@ void Search::step_forward() {
     selected_.push_back(step->group);
     current_ = std::move(step->fit);
     tell("found " + group(step->group).id);
-    drop_superfluous();
+    if (unnamed_.empty()) drop_superfluous();
   }
 }
 
-/// Takes back what the rest of the model makes superfluous, the weakest first.
-bool Search::drop_superfluous() {
-  bool dropped = false;
-  while (selected_.size() + unnamed_.size() > 1 && !selected_.empty()) {
+/// Takes back what the other names make superfluous, the weakest first.
+void Search::drop_superfluous() {
+  while (selected_.size() > 1) {
     std::optional<std::size_t> weakest;
     double weakest_error = std::numeric_limits<double>::infinity();
     BlockFit rest_fit;
@@ -277,35 +293,40 @@ bool Search::drop_superfluous() {
         rest_fit = std::move(without);
       }
     }
-    if (!weakest) break;
+    if (!weakest) return;
     tell("taking back " + group(*weakest).id);
     selected_ = selected_without(*weakest);
     rejected_.insert(*weakest);
     current_ = std::move(rest_fit);
-    dropped = true;
   }
-  return dropped;
 }
 
-/// Takes back names in whose place an unnamed regressor explains significantly more.
+/// Takes back a name if an unnamed regressor in its place explains significantly more and, once that
+/// is in, the name has nothing left to explain. Both are needed: an unnamed shape may outweigh a
+/// weak effect that is there beside it, and a flexible shape may mimic a name without doing better.
 bool Search::drop_outdone() {
   for (const std::size_t g : selected_) {
     const BlockFit without = fit(selected_without(g), &current_);
     const std::optional<UnnamedTrial> best =
         best_unnamed(record_, without, unnamed_, options_.false_alarm_probability);
     if (!best) continue;
-    const VectorXd d = current_.block_error - best->block_error;
-    const auto blocks = static_cast<double>(d.size());
-    const double se = std::sqrt(blocks / (blocks - 1) * (d.array() - d.mean()).square().sum());
+    const BlockDifference better = difference(current_.block_error, best->block_error);
     const double earned = without.squared_error() - current_.squared_error();
-    if (d.sum() > student_factor_ * se && d.sum() > outdone_gain * earned) {
-      tell("taking back " + group(g).id + ": " +
-           record_.problem().unnamed[best->regressor].shape + " explains more");
-      selected_ = selected_without(g);
-      rejected_.insert(g);
-      current_ = fit(selected_, &current_);
-      return true;
+    if (better.sum <= student_factor_ * better.se || better.sum <= outdone_gain * earned) continue;
+
+    Search beside = *this;
+    beside.unnamed_.push_back(best->regressor);
+    BlockFit name_and_shape = beside.fit(selected_, &current_);
+    const BlockFit shape = beside.fit(selected_without(g), &name_and_shape);
+    if (beside.judge(g, shape, std::move(name_and_shape), candidates().size() + 1).worth_a_name) {
+      continue;
     }
+    tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
+         " explains more");
+    selected_ = selected_without(g);
+    rejected_.insert(g);
+    current_ = fit(selected_, &current_);
+    return true;
   }
   return false;
 }
@@ -388,7 +409,7 @@ std::vector<std::size_t> Search::rivals(std::size_t g, const BlockFit& all) cons
     std::vector<std::size_t> instead = selected_without(g);
     instead.push_back(c);
     const BlockFit rival = fit(instead, &all);
-    const BlockDifference excess = difference(rival, all);
+    const BlockDifference excess = difference(rival.block_error, all.block_error);
     if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
         excess.sum <= student_factor_ * excess.se) {
       found.emplace_back(rival.squared_error(), c);
@@ -439,8 +460,6 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
     entry.indistinguishable = rivals(g, current_);
     result.selected.push_back(std::move(entry));
   }
-  result.complete = model_fit(current_);
-
   // The named part alone, one finding after the other.
   Search named = *this;
   named.unnamed_.clear();
@@ -456,6 +475,7 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
     before = std::move(after);
   }
   result.extended = model_fit(before);
+  result.complete = precision(current_) < precision(before) ? model_fit(before) : model_fit(current_);
 
   if (unnamed_.empty()) return;
   result.unnamed.regressors = unnamed_;
@@ -484,21 +504,11 @@ Selection Search::run() {
   for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
 
   // Every round either ends or puts an effect on the list of those never tried again.
-  for (bool changed = true; changed;) {
+  do {
     step_forward();
-    changed = drop_outdone();
-    if (changed) continue;
-    unnamed_.clear();
-    current_ = fit(selected_, &current_);
-    find_unnamed();
-    if (unnamed_.empty()) break;
-    changed = drop_superfluous();
-    if (changed) continue;
-    const std::size_t named = selected_.size();
-    step_forward();  // what the unknown had hidden
-    if (selected_.size() == named) break;
-    changed = drop_outdone();
-  }
+  } while (drop_outdone());
+  find_unnamed();
+  if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
   sum_up(base, result);
   return result;
 }

@@ -115,8 +115,10 @@ struct Selection {
   double student_factor = 0;       ///< half width of a 95 % interval over its standard error
   ModelFit base;                   ///< only the fitted groups free
   ModelFit extended;               ///< with the selected groups
-  ModelFit complete;               ///< with the selected groups and the unnamed structure: the best
-                                   ///< estimate of every parameter, least disturbed by the unknown
+  /// With the selected groups and the unnamed structure: the estimates least disturbed by the
+  /// unknown. The same as `extended` where the structure is so parallel to the model that it costs
+  /// more precision than it gives.
+  ModelFit complete;
   std::vector<SelectedGroup> selected{};  ///< in the order they were found
   /// Candidates whose change of the prediction is a combination of what is already free.
   struct Aliased {
