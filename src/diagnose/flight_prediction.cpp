@@ -29,6 +29,8 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.down_speed = observations.down_speed;
   record.down_acceleration = observations.down_acceleration;
   record.inverse_cos_roll.reserve(observations.size());
+  record.tan_tilt.reserve(observations.size());
+  for (const double tilt : observations.tilt) record.tan_tilt.push_back(std::tan(tilt));
   for (const double roll : observations.roll) {
     record.inverse_cos_roll.push_back(1 / std::cos(roll));
   }
@@ -45,9 +47,9 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
   for (auto series :
-       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::yaw, &FlightRecord::forward_speed,
-        &FlightRecord::down_speed, &FlightRecord::down_acceleration,
-        &FlightRecord::inverse_cos_roll}) {
+       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
+        &FlightRecord::forward_speed, &FlightRecord::down_speed,
+        &FlightRecord::down_acceleration, &FlightRecord::inverse_cos_roll}) {
     const auto begin = (record.*series).begin();
     (part.*series).assign(begin + static_cast<std::ptrdiff_t>(first),
                           begin + static_cast<std::ptrdiff_t>(last));
@@ -75,8 +77,11 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
 
   // tan θ is kept where the acceleration will stand; cos and sin of |θ| follow without trigonometry.
   std::vector<double>& tan_tilt = p.acceleration;
+  tan_tilt = record.tan_tilt;
+  if (p.tilt != record.tilt) {
+    for (std::size_t i = 0; i < size; ++i) tan_tilt[i] = std::tan(p.tilt[i]);
+  }
   for (std::size_t i = 0; i < size; ++i) {
-    tan_tilt[i] = std::tan(p.tilt[i]);
     const double cos_tilt = 1 / std::sqrt(1 + tan_tilt[i] * tan_tilt[i]);
     const double area =
         cos_tilt * (base.front_area + base.top_area * std::abs(tan_tilt[i]));

@@ -16,6 +16,7 @@ namespace tethercalc {
 struct FlightRecord {
   std::vector<double> time;
   std::vector<double> tilt;   ///< θ, positive leaning forward
+  std::vector<double> tan_tilt;
   std::vector<double> yaw;
   std::vector<double> forward_speed;
   std::vector<double> down_speed;
