@@ -26,9 +26,9 @@ constexpr double shortest_block = 12.0;  // s
 constexpr std::size_t most_blocks = 30;
 /// A step longer than this times the median one separates neighbours.
 constexpr double gap_factor = 1.5;
-/// Part of a sampling interval within which the log does not say when a reading was taken: the
-/// motion between samples is taken to be straight. Standard error added to delays.
-constexpr double time_stamp_uncertainty = 0.03;
+/// Part of a sampling interval within which the log does not say when a reading was taken, and by
+/// which an estimator's own integration step shifts it. Standard error added to delays.
+constexpr double time_stamp_uncertainty = 0.05;
 
 constexpr const char* areas_group = "drag areas";
 constexpr const char* vertical_group = "vertical acceleration";

@@ -29,9 +29,12 @@ constexpr double rival_gain = 0.5;
 /// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
 /// within what the idealised shape of any named effect misses of nature.
 constexpr double outdone_gain = 0.1;
-/// Percent of the held-out rmse that an effect must remove to be named beside unnamed structure: what
-/// the unnamed shape misses of the unknown must not be given a name.
-constexpr double least_gain_beside_unnamed = 5;
+/// An effect must remove so many times the usual gain to be named beside unnamed structure: what the
+/// unnamed shape misses of the unknown must not be given a name.
+constexpr double gain_beside_unnamed = 2.5;
+/// Unnamed structure enters the estimates of the parameters only where it is at least this part of
+/// the squared error. A small one disturbs them less without it than its chosen shape does with it.
+constexpr double structure_that_disturbs = 0.25;
 constexpr std::size_t most_rivals = 2;
 
 double students_t_p_value(double t, double degrees) {
@@ -207,9 +210,7 @@ Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit wit
   trial.group = g;
   trial.p_value = p_value(g, without, with);
   const double gain = gain_percent(without.squared_error(), with.squared_error());
-  const double least_gain =
-      unnamed_.empty() ? options_.least_gain_percent
-                       : std::max(options_.least_gain_percent, least_gain_beside_unnamed);
+  const double least_gain = options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
   trial.worth_a_name =
       gain >= least_gain && gain > 2 * gain_se_percent(without, with) &&
       trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
@@ -475,7 +476,10 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
     before = std::move(after);
   }
   result.extended = model_fit(before);
-  result.complete = precision(current_) < precision(before) ? model_fit(before) : model_fit(current_);
+  const double share = 1 - current_.squared_error() / before.squared_error();
+  const bool disturbed =
+      share >= structure_that_disturbs && precision(current_) > precision(before);
+  result.complete = model_fit(disturbed ? current_ : before);
 
   if (unnamed_.empty()) return;
   result.unnamed.regressors = unnamed_;
@@ -486,8 +490,7 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
       channels.push_back(channel);
     }
   }
-  result.unnamed.share_percent =
-      100 * std::max(0.0, 1 - current_.squared_error() / before.squared_error());
+  result.unnamed.share_percent = 100 * std::max(0.0, share);
 }
 
 Selection Search::run() {

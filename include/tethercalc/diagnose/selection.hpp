@@ -115,9 +115,9 @@ struct Selection {
   double student_factor = 0;       ///< half width of a 95 % interval over its standard error
   ModelFit base;                   ///< only the fitted groups free
   ModelFit extended;               ///< with the selected groups
-  /// With the selected groups and the unnamed structure: the estimates least disturbed by the
-  /// unknown. The same as `extended` where the structure is so parallel to the model that it costs
-  /// more precision than it gives.
+  /// The best estimates: with the selected groups and, where it is large (a quarter of the squared
+  /// error) and makes the estimates more precise, with the unnamed structure; else the same as
+  /// `extended`.
   ModelFit complete;
   std::vector<SelectedGroup> selected{};  ///< in the order they were found
   /// Candidates whose change of the prediction is a combination of what is already free.
