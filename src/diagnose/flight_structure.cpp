@@ -53,7 +53,8 @@ void add_powers(std::vector<Shape>& shapes, const std::string& channel, const st
   shapes.push_back({channel, "the square of the " + name, map(x, [](double v) { return v * v; })});
 }
 
-/// Every thirty-second of the flight: a step elsewhere is at most a sixty-fourth away.
+/// Every thirty-second of the flight: a step elsewhere is at most a sixty-fourth away. It is zero
+/// before it happens: half of it on either side would need a constant effect to cancel the first.
 constexpr int step_places = 32;
 
 void add_time(std::vector<Shape>& shapes, const Series& time) {
@@ -66,7 +67,7 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
   for (int k = 1; k < step_places; ++k) {
     const double at = begin + duration * k / step_places;
     shapes.push_back({"time", fmt::format("a step at about {:.0f} s", at),
-                      map(time, [at](double t) { return t < at ? -0.5 : 0.5; })});
+                      map(time, [at](double t) { return t < at ? 0.0 : 1.0; })});
   }
 }
 

@@ -70,7 +70,7 @@ double drag(const HiddenFlight& h, double u, double tilt, double down, double ro
   force *= u > 0 ? 1 + h.fore_aft_asymmetry : 1 - h.fore_aft_asymmetry;
   if (u * tilt < 0) force -= h.propwash * u * std::abs(tilt);
   force += h.vertical_coupling * u * down;
-  force *= 1 + h.height_drag * height + (late ? h.step_drag : 0);
+  force *= std::max(0.2, 1 + h.height_drag * height) + (late ? h.step_drag : 0);
   force += h.roll_drag * u * (1 - std::cos(roll));
   return force - (late ? h.step_force : 0);
 }
