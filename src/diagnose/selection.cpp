@@ -338,8 +338,11 @@ void Search::find_unnamed() {
     tell("looking for structure without a name");
     const std::optional<UnnamedTrial> best =
         best_unnamed(record_, current_, unnamed_, options_.false_alarm_probability);
-    if (!best || gain_percent(current_.squared_error(), best->block_error.sum()) <
-                     options_.least_unexplained_percent) {
+    if (!best) return;
+    const BlockDifference drop = difference(current_.block_error, best->block_error);
+    if (drop.sum <= student_factor_ * drop.se ||
+        gain_percent(current_.squared_error(), best->block_error.sum()) <
+            options_.least_unexplained_percent) {
       return;
     }
     unnamed_.push_back(best->regressor);
