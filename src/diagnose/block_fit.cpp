@@ -14,8 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Huber's bound in robust standard deviations. At 3 it costs 0.5 % of efficiency where the noise is
-/// normal, and hardly touches the honest residuals of a model that still lacks an effect.
+/// Huber's bound in robust standard deviations. At 3 it costs 0.5 % of efficiency where the noise
+/// is normal, and hardly touches the honest residuals of a model that still lacks an effect.
 constexpr double huber_bound = 3.0;
 /// Median absolute deviation of a normal distribution over its standard deviation, inverted.
 constexpr double mad_to_sigma = 1.4826;

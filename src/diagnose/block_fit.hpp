@@ -1,4 +1,5 @@
-// Robust nonlinear least squares whose errors and held-out predictions come from leaving out blocks.
+// Robust nonlinear least squares whose errors and held-out predictions come from leaving out
+// blocks.
 #pragma once
 
 #include <Eigen/Core>
@@ -56,13 +57,13 @@ struct Freed {
 /// that are free and not held at a bound, each over its scale, then the unnamed coefficients.
 struct BlockFit {
   Freed freed;
-  std::vector<double> values;   ///< all parameters
-  Eigen::VectorXd coefficients;  ///< of the unnamed regressors
+  std::vector<double> values;       ///< all parameters
+  Eigen::VectorXd coefficients;     ///< of the unnamed regressors
   std::vector<std::size_t> active;  ///< parameter of each leading column of the jacobian
-  Eigen::MatrixXd jacobian;     ///< of the prediction
-  Eigen::VectorXd residual;     ///< in sample
-  Eigen::VectorXd weight;       ///< robustness weights in (0, 1]
-  Eigen::MatrixXd left_out;     ///< change of the jacobian's parameters without block b: column b
+  Eigen::MatrixXd jacobian;         ///< of the prediction
+  Eigen::VectorXd residual;         ///< in sample
+  Eigen::VectorXd weight;           ///< robustness weights in (0, 1]
+  Eigen::MatrixXd left_out;  ///< change of the jacobian's parameters without block b: column b
   Eigen::VectorXd holdout_residual;
   Eigen::VectorXd block_error;  ///< held-out sum of squares, one a block
 

@@ -12,8 +12,8 @@ namespace {
 
 using Values = std::span<const double>;
 
-/// The tilt `delay` s later than each sample, by Lagrange's cubic through the four nearest samples: a
-/// straight line between two would average their noise and so seem to explain something.
+/// The tilt `delay` s later than each sample, by Lagrange's cubic through the four nearest samples:
+/// a straight line between two would average their noise and so seem to explain something.
 void shift_tilt(FlightPrediction& p, double delay) {
   const std::vector<double>& time = p.record.time;
   const std::size_t size = time.size();
@@ -44,11 +44,8 @@ std::vector<Effect> flight_effects() {
        .title = "Attitude logged late",
        .mechanism = "The logged attitude lags behind the logged velocity (estimator filter, clock "
                     "offset between channels), so thrust seems to act before the drone tilts.",
-       .parameters = {{.name = "attitude_delay_s",
-                       .unit = "s",
-                       .lower = -0.5,
-                       .upper = 0.5,
-                       .scale = 0.05}},
+       .parameters =
+           {{.name = "attitude_delay_s", .unit = "s", .lower = -0.5, .upper = 0.5, .scale = 0.05}},
        .to_separate = "fly quick reversals of pitch at low speed, where drag is small and only the "
                       "timing of the thrust matters",
        .change = "θ(t) → θ(t + τ)",
@@ -68,8 +65,9 @@ std::vector<Effect> flight_effects() {
                        .lower = -20,
                        .upper = 20,
                        .scale = 0.5}},
-       .to_separate = "hover through all headings in still air: the mean pitch is the offset, a wind "
-                      "averages out",
+       .to_separate =
+           "hover through all headings in still air: the mean pitch is the offset, a wind "
+           "averages out",
        .change = "θ → θ + trim (pitch positive nose-up, θ positive leaning forward)",
        .flight_phase = FlightPhase::attitude,
        .on_flight = [](FlightPrediction& p, Values x) {
@@ -79,8 +77,9 @@ std::vector<Effect> flight_effects() {
   effects.push_back(
       {.id = "linear_drag",
        .title = "Drag in proportion to speed",
-       .mechanism = "Propellers in a cross-flow lose momentum in proportion to the airspeed (induced "
-                    "drag), beside the quadratic drag of the body.",
+       .mechanism =
+           "Propellers in a cross-flow lose momentum in proportion to the airspeed (induced "
+           "drag), beside the quadratic drag of the body.",
        .parameters = {{.name = "linear_m_s",
                        .unit = "m/s",
                        .lower = 0,
@@ -96,8 +95,9 @@ std::vector<Effect> flight_effects() {
   effects.push_back(
       {.id = "wind",
        .title = "Steady wind along the flight axis",
-       .mechanism = "The air moves along the forward axis, so airspeed differs from the logged speed "
-                    "over ground.",
+       .mechanism =
+           "The air moves along the forward axis, so airspeed differs from the logged speed "
+           "over ground.",
        .parameters = {{.name = "wind_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "fly the same passes at the opposite heading: a wind changes its sign, what "
                       "belongs to the drone does not",
@@ -112,16 +112,9 @@ std::vector<Effect> flight_effects() {
        .title = "Wind fixed in the world while the drone turns",
        .mechanism = "The wind keeps its direction over ground, so its part along the forward axis "
                     "changes whenever the yaw does.",
-       .parameters = {{.name = "wind_north_m_s",
-                       .unit = "m/s",
-                       .lower = -40,
-                       .upper = 40,
-                       .scale = 0.5},
-                      {.name = "wind_east_m_s",
-                       .unit = "m/s",
-                       .lower = -40,
-                       .upper = 40,
-                       .scale = 0.5}},
+       .parameters =
+           {{.name = "wind_north_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
+            {.name = "wind_east_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "fly passes at four headings, a quarter turn apart",
        .change = "u = v − (w_N cos ψ + w_E sin ψ), ψ the yaw",
        .replaces = "wind",
@@ -137,8 +130,9 @@ std::vector<Effect> flight_effects() {
   effects.push_back(
       {.id = "wind_drift",
        .title = "Wind that changes steadily during the flight",
-       .mechanism = "The wind along the forward axis rises or falls from the beginning of the flight "
-                    "to its end.",
+       .mechanism =
+           "The wind along the forward axis rises or falls from the beginning of the flight "
+           "to its end.",
        .parameters =
            {{.name = "wind_drift_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "repeat the first passes at the end of the flight",
@@ -162,8 +156,9 @@ std::vector<Effect> flight_effects() {
                        .upper = 0.95,
                        .scale = 0.05,
                        .spec_field = "drone.drag.fore_aft_asymmetry"}},
-       .to_separate = "fly the same passes at the opposite heading, and slow ones as well as fast "
-                      "ones: a wind changes its sign, an offset of the pitch does not grow with speed",
+       .to_separate =
+           "fly the same passes at the opposite heading, and slow ones as well as fast "
+           "ones: a wind changes its sign, an offset of the pitch does not grow with speed",
        .change = "F_D → F_D·(1 + a·sign u)",
        .flight_phase = FlightPhase::force,
        .on_flight = [](FlightPrediction& p, Values x) {
@@ -177,11 +172,8 @@ std::vector<Effect> flight_effects() {
        .title = "Propwash while braking",
        .mechanism = "Leaning against the motion, the drone flies into the turbulent air of its own "
                     "propellers, which changes the drag with speed and tilt.",
-       .parameters = {{.name = "propwash",
-                       .unit = "N·s/(m·rad)",
-                       .lower = -5,
-                       .upper = 5,
-                       .scale = 0.1}},
+       .parameters =
+           {{.name = "propwash", .unit = "N·s/(m·rad)", .lower = -5, .upper = 5, .scale = 0.1}},
        .to_separate = "brake at the same speed with different tilts",
        .change = "F_D → F_D − k·u·|θ| while u·θ < 0",
        .flight_phase = FlightPhase::force,

@@ -21,8 +21,8 @@ namespace {
 /// Shortest block: ten correlation times of about a second, and about one pass there or back, so
 /// that blocks hardly know of each other.
 constexpr double shortest_block = 12.0;  // s
-/// More blocks sharpen the spread between them only a little: with 30, Student's factor is 4 % above
-/// the normal one.
+/// More blocks sharpen the spread between them only a little: with 30, Student's factor is 4 %
+/// above the normal one.
 constexpr std::size_t most_blocks = 30;
 /// A step longer than this times the median one separates neighbours.
 constexpr double gap_factor = 1.5;
@@ -45,7 +45,7 @@ struct FlightData {
   FlightRecord record;
   std::vector<int> block;
   LogFaults faults;
-  double step = 0;  ///< s, median
+  double step = 0;    ///< s, median
   double usable = 0;  ///< s
   std::size_t blocks = 0;
 };
@@ -91,8 +91,7 @@ FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosi
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }
   data.step = median_step(data.observations.time);
-  const std::vector<bool> usable =
-      usable_samples(log, data.faults, data.observations, data.step);
+  const std::vector<bool> usable = usable_samples(log, data.faults, data.observations, data.step);
   const auto count = static_cast<std::size_t>(std::count(usable.begin(), usable.end(), true));
   data.usable = static_cast<double>(count) * data.step;
   data.blocks = std::min(most_blocks, static_cast<std::size_t>(data.usable / shortest_block));
@@ -106,8 +105,8 @@ FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosi
 
 ParameterGroup areas() {
   constexpr double largest = 10;  // m², beyond any drone
-  const ModelParameter area{.neutral = 0, .lower = 0, .upper = largest, .scale = 5e-3,
-                            .start = 0.015};
+  const ModelParameter area{
+      .neutral = 0, .lower = 0, .upper = largest, .scale = 5e-3, .start = 0.015};
   return {areas_group, ParameterGroup::Role::fitted, {area, area}, std::nullopt};
 }
 
@@ -160,7 +159,8 @@ FlightBase flight_base(std::span<const double> values) {
   return {.front_area = values[0], .top_area = values[1], .vertical_acceleration_gain = values[2]};
 }
 
-std::vector<EffectValues> effect_values(const FlightGroups& groups, std::span<const double> values) {
+std::vector<EffectValues> effect_values(const FlightGroups& groups,
+                                        std::span<const double> values) {
   std::vector<EffectValues> result;
   std::size_t first = 0;
   for (std::size_t g = 0; g < groups.groups.size(); ++g) {
@@ -168,9 +168,9 @@ std::vector<EffectValues> effect_values(const FlightGroups& groups, std::span<co
     const auto own = values.subspan(first, count);
     first += count;
     if (groups.effects[g] == nullptr) continue;
-    const bool neutral = std::equal(
-        own.begin(), own.end(), groups.groups[g].parameters.begin(),
-        [](double value, const ModelParameter& p) { return value == p.neutral; });
+    const bool neutral =
+        std::equal(own.begin(), own.end(), groups.groups[g].parameters.begin(),
+                   [](double value, const ModelParameter& p) { return value == p.neutral; });
     if (!neutral) result.push_back({groups.effects[g], own});
   }
   return result;
@@ -306,8 +306,8 @@ Finding Report::finding(const SelectedGroup& selected) const {
   for (const std::size_t g : selected.indistinguishable) {
     const Effect& rival = *groups_.effects[g];
     f.indistinguishable_from.push_back(rival.id);
-    f.to_separate += fmt::format("{}{}: {}", f.to_separate.empty() ? "" : "; ", rival.id,
-                                 rival.to_separate);
+    f.to_separate +=
+        fmt::format("{}{}: {}", f.to_separate.empty() ? "" : "; ", rival.id, rival.to_separate);
   }
   return f;
 }
@@ -320,12 +320,13 @@ std::vector<NotIdentifiable> Report::not_identifiable() const {
     const Effect& effect = *groups_.effects[aliased.group];
     std::string because;
     if (effect.id == "turning_wind") {
-      because = "the yaw hardly turns in this flight, where a wind over ground is a steady headwind";
+      because =
+          "the yaw hardly turns in this flight, where a wind over ground is a steady headwind";
     } else if (aliased.with.empty()) {
       because = "it changes nothing in this flight";
     } else {
-      because = fmt::format("in this flight it acts like {}",
-                            groups_.groups[aliased.with.front()].id);
+      because =
+          fmt::format("in this flight it acts like {}", groups_.groups[aliased.with.front()].id);
     }
     out.push_back({effect.id, std::move(because)});
   }
@@ -367,8 +368,7 @@ ErrorBudget Report::budget() const {
   const double all = selection_.base.holdout_rmse * selection_.base.holdout_rmse;
   double left = 100;
   for (const SelectedGroup& s : selection_.selected) {
-    const double share = 100 *
-                         (s.rmse_before * s.rmse_before - s.rmse_after * s.rmse_after) / all;
+    const double share = 100 * (s.rmse_before * s.rmse_before - s.rmse_after * s.rmse_after) / all;
     out.findings.push_back(share);
     left -= share;
   }
@@ -421,10 +421,10 @@ Diagnosis Report::write(const FlightDiagnosisOptions& options) const {
   d.extended = {selection_.extended.holdout_rmse, parameters(selection_.complete)};
   d.spec_changes = spec_changes();
   d.budget = budget();
-  d.further.push_back({fmt::format("forward speed simulated open-loop over {:g} s windows",
-                                   options.speed_window),
-                       "m/s", speed_rmse(selection_.base, options.speed_window),
-                       speed_rmse(selection_.extended, options.speed_window)});
+  d.further.push_back(
+      {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
+       "m/s", speed_rmse(selection_.base, options.speed_window),
+       speed_rmse(selection_.extended, options.speed_window)});
   return d;
 }
 
@@ -459,8 +459,9 @@ Diagnosis too_short(const FlightData& data) {
   for (const Effect& effect : effect_catalogue()) {
     if (effect.log == LogKind::flight) {
       d.not_testable.push_back(
-          {effect.id, fmt::format("a longer flight: {:.0f} s, this one has {:.1f} s that can be used",
-                                  needed, data.usable)});
+          {effect.id,
+           fmt::format("a longer flight: {:.0f} s, this one has {:.1f} s that can be used", needed,
+                       data.usable)});
     }
   }
   d.notes.push_back(fmt::format(

@@ -1,5 +1,5 @@
-// Notation: θ tilt, φ roll, u airspeed, w headwind along the forward axis, j linear speed of the drag
-// law, κ gain of the vertical acceleration a_D.
+// Notation: θ tilt, φ roll, u airspeed, w headwind along the forward axis, j linear speed of the
+// drag law, κ gain of the vertical acceleration a_D.
 #include "tethercalc/diagnose/flight_prediction.hpp"
 
 #include <cmath>
@@ -46,13 +46,13 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
-  for (auto series :
-       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
-        &FlightRecord::forward_speed, &FlightRecord::down_speed,
-        &FlightRecord::down_acceleration, &FlightRecord::inverse_cos_roll}) {
+  for (auto series : {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt,
+                      &FlightRecord::yaw, &FlightRecord::forward_speed, &FlightRecord::down_speed,
+                      &FlightRecord::down_acceleration, &FlightRecord::inverse_cos_roll}) {
     const auto begin = (record.*series).begin();
-    (part.*series).assign(begin + static_cast<std::ptrdiff_t>(first),
-                          begin + static_cast<std::ptrdiff_t>(last));
+    (part.*series)
+        .assign(begin + static_cast<std::ptrdiff_t>(first),
+                begin + static_cast<std::ptrdiff_t>(last));
   }
   return part;
 }
@@ -75,7 +75,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
 
-  // tan θ is kept where the acceleration will stand; cos and sin of |θ| follow without trigonometry.
+  // tan θ is kept where the acceleration will stand; cos and sin of |θ| follow without
+  // trigonometry.
   std::vector<double>& tan_tilt = p.acceleration;
   tan_tilt = record.tan_tilt;
   if (p.tilt != record.tilt) {
@@ -83,8 +84,7 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   }
   for (std::size_t i = 0; i < size; ++i) {
     const double cos_tilt = 1 / std::sqrt(1 + tan_tilt[i] * tan_tilt[i]);
-    const double area =
-        cos_tilt * (base.front_area + base.top_area * std::abs(tan_tilt[i]));
+    const double area = cos_tilt * (base.front_area + base.top_area * std::abs(tan_tilt[i]));
     const double u = record.forward_speed[i] - p.headwind[i];
     p.airspeed[i] = u;
     p.drag[i] = 0.5 * record.air_density * area * u * (std::abs(u) + p.linear_speed);
@@ -94,8 +94,7 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   for (std::size_t i = 0; i < size; ++i) {
     const double lift =
         record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
-    p.acceleration[i] =
-        lift * tan_tilt[i] * record.inverse_cos_roll[i] - p.drag[i] / record.mass;
+    p.acceleration[i] = lift * tan_tilt[i] * record.inverse_cos_roll[i] - p.drag[i] / record.mass;
   }
 }
 

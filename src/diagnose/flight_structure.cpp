@@ -37,8 +37,8 @@ bool varies(const Series& x) {
 Series height_gained(const Observations& o) {
   Series height(o.size(), 0.0);
   for (std::size_t i = 1; i < o.size(); ++i) {
-    height[i] = height[i - 1] - (o.down_speed[i - 1] + o.down_speed[i]) / 2 *
-                                    (o.time[i] - o.time[i - 1]);
+    height[i] =
+        height[i - 1] - (o.down_speed[i - 1] + o.down_speed[i]) / 2 * (o.time[i] - o.time[i - 1]);
   }
   return height;
 }
@@ -47,9 +47,8 @@ void add_powers(std::vector<Shape>& shapes, const std::string& channel, const st
                 const Series& x) {
   if (!varies(x)) return;
   shapes.push_back({channel, name, x});
-  shapes.push_back({channel, "the magnitude of the " + name, map(x, [](double v) {
-                      return std::abs(v);
-                    })});
+  shapes.push_back(
+      {channel, "the magnitude of the " + name, map(x, [](double v) { return std::abs(v); })});
   shapes.push_back({channel, "the square of the " + name, map(x, [](double v) { return v * v; })});
 }
 
@@ -86,9 +85,8 @@ std::vector<UnnamedRegressor> flight_structure(const Observations& o, double win
                       map(height, [](double h) { return h * h; })});
   }
   if (varies(o.yaw)) {
-    shapes.push_back({"yaw", "the cosine of the yaw", map(o.yaw, [](double y) {
-                        return std::cos(y);
-                      })});
+    shapes.push_back(
+        {"yaw", "the cosine of the yaw", map(o.yaw, [](double y) { return std::cos(y); })});
     shapes.push_back(
         {"yaw", "the sine of the yaw", map(o.yaw, [](double y) { return std::sin(y); })});
   }

@@ -29,8 +29,8 @@ constexpr double rival_gain = 0.5;
 /// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
 /// within what the idealised shape of any named effect misses of nature.
 constexpr double outdone_gain = 0.1;
-/// An effect must remove so many times the usual gain to be named beside unnamed structure: what the
-/// unnamed shape misses of the unknown must not be given a name.
+/// An effect must remove so many times the usual gain to be named beside unnamed structure: what
+/// the unnamed shape misses of the unknown must not be given a name.
 constexpr double gain_beside_unnamed = 2.5;
 /// Unnamed structure enters the estimates of the parameters only where it is at least this part of
 /// the squared error. A small one disturbs them less without it than its chosen shape does with it.
@@ -77,8 +77,8 @@ double gain_se_percent(const BlockFit& before, const BlockFit& after) {
   return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
 }
 
-/// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every fit
-/// frees.
+/// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every
+/// fit frees.
 double precision(const BlockFit& fit) {
   double sum = 0;
   for (std::size_t k = 0; k < fit.active.size(); ++k) {
@@ -166,9 +166,9 @@ BlockFit Search::fit(const std::vector<std::size_t>& selected, const BlockFit* n
   std::vector<double> start;
   for (const ModelParameter& p : record_.parameters()) start.push_back(p.neutral);
   for (const std::size_t g : free.groups) {
-    const bool known = near != nullptr && std::find(near->freed.groups.begin(),
-                                                    near->freed.groups.end(),
-                                                    g) != near->freed.groups.end();
+    const bool known =
+        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
+                               near->freed.groups.end();
     for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
       const std::size_t index = record_.first_parameter(g) + k;
       start[index] = known ? near->values[index] : record_.parameters()[index].start;
@@ -210,7 +210,8 @@ Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit wit
   trial.group = g;
   trial.p_value = p_value(g, without, with);
   const double gain = gain_percent(without.squared_error(), with.squared_error());
-  const double least_gain = options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
+  const double least_gain =
+      options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
   trial.worth_a_name =
       gain >= least_gain && gain > 2 * gain_se_percent(without, with) &&
       trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
@@ -247,9 +248,9 @@ std::optional<Search::Trial> Search::best_step() const {
     if (trial.worth_a_name) worthy.push_back(std::move(trial));
   }
   if (worthy.empty()) return std::nullopt;
-  const auto best = std::min_element(worthy.begin(), worthy.end(), [](const auto& a, const auto& b) {
-    return a.fit.squared_error() < b.fit.squared_error();
-  });
+  const auto best = std::min_element(
+      worthy.begin(), worthy.end(),
+      [](const auto& a, const auto& b) { return a.fit.squared_error() < b.fit.squared_error(); });
   const Trial* chosen = &*best;
   for (const Trial& trial : worthy) {
     const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
@@ -302,9 +303,10 @@ void Search::drop_superfluous() {
   }
 }
 
-/// Takes back a name if an unnamed regressor in its place explains significantly more and, once that
-/// is in, the name has nothing left to explain. Both are needed: an unnamed shape may outweigh a
-/// weak effect that is there beside it, and a flexible shape may mimic a name without doing better.
+/// Takes back a name if an unnamed regressor in its place explains significantly more and, once
+/// that is in, the name has nothing left to explain. Both are needed: an unnamed shape may outweigh
+/// a weak effect that is there beside it, and a flexible shape may mimic a name without doing
+/// better.
 bool Search::drop_outdone() {
   for (const std::size_t g : selected_) {
     const BlockFit without = fit(selected_without(g), &current_);
@@ -436,8 +438,7 @@ ModelFit Search::model_fit(const BlockFit& fit) const {
     const std::size_t index = fit.active[k];
     const auto column = static_cast<Index>(k);
     const ModelParameter& p = record_.parameters()[index];
-    result.standard_error[index] =
-        p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0));
+    result.standard_error[index] = p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0));
     for (std::size_t b = 0; b < record_.blocks(); ++b) {
       double& value = result.without_block[b][index];
       value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,

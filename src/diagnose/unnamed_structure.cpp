@@ -19,11 +19,11 @@ constexpr double least_own_part = 1e-3;
 
 /// Sums over one block; all that a linear extension of the fit needs.
 struct BlockSums {
-  MatrixXd normal;         ///< JᵀJ
-  VectorXd gradient;       ///< Jᵀr
-  MatrixXd cross;          ///< JᵀZ
-  VectorXd own;            ///< Σz² of each regressor
-  VectorXd slope;          ///< Σz·r
+  MatrixXd normal;    ///< JᵀJ
+  VectorXd gradient;  ///< Jᵀr
+  MatrixXd cross;     ///< JᵀZ
+  VectorXd own;       ///< Σz² of each regressor
+  VectorXd slope;     ///< Σz·r
   double squared_residual = 0;
 };
 
@@ -104,8 +104,8 @@ std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& f
       const double beta = (rest.slope[k] - rest.cross.col(k).dot(step)) / own;
       const VectorXd delta = step - along.col(k) * beta;
       coefficient(b, k) = beta;
-      error(b, k) = out.squared_residual + delta.dot(out.normal * delta) + beta * beta * out.own[k] -
-                    2 * (delta.dot(out.gradient) + beta * out.slope[k]) +
+      error(b, k) = out.squared_residual + delta.dot(out.normal * delta) +
+                    beta * beta * out.own[k] - 2 * (delta.dot(out.gradient) + beta * out.slope[k]) +
                     2 * beta * delta.dot(out.cross.col(k));
     }
   }
@@ -121,8 +121,8 @@ std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& f
     if (passed_over) continue;
     const VectorXd values = coefficient.col(k);
     const double mean = values.mean();
-    const double se = std::sqrt(degrees / static_cast<double>(blocks) *
-                                (values.array() - mean).square().sum());
+    const double se =
+        std::sqrt(degrees / static_cast<double>(blocks) * (values.array() - mean).square().sum());
     if (!(std::abs(mean) > threshold * se)) continue;
     if (!best || error.col(k).sum() < error.col(*best).sum()) best = k;
   }

@@ -84,17 +84,19 @@ class Story {
     const double gain =
         100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
     if (d_.findings.empty()) {
-      paragraph(fmt::format("Nothing of the catalogue explains the {} of this log better than the "
-                            "base model: it is predicted to {} {} (rms, held out).",
-                            d_.quantity, significant(d_.base.holdout_rmse, 3), d_.unit));
+      paragraph(
+          fmt::format("Nothing of the catalogue explains the {} of this log better than the "
+                      "base model: it is predicted to {} {} (rms, held out).",
+                      d_.quantity, significant(d_.base.holdout_rmse, 3), d_.unit));
     } else {
       std::vector<std::string> names;
       for (const Finding& f : d_.findings) names.push_back(f.effect);
-      paragraph(fmt::format("{} explain{} {:.0f} % of the error: predicted and measured {} differ by "
-                            "{} {} instead of {} {} (rms, on parts of the log that were not fitted).",
-                            style_.good(joined(names, ", ")), names.size() == 1 ? "s" : "", gain,
-                            d_.quantity, significant(d_.extended.holdout_rmse, 3), d_.unit,
-                            significant(d_.base.holdout_rmse, 3), d_.unit));
+      paragraph(
+          fmt::format("{} explain{} {:.0f} % of the error: predicted and measured {} differ by "
+                      "{} {} instead of {} {} (rms, on parts of the log that were not fitted).",
+                      style_.good(joined(names, ", ")), names.size() == 1 ? "s" : "", gain,
+                      d_.quantity, significant(d_.extended.holdout_rmse, 3), d_.unit,
+                      significant(d_.base.holdout_rmse, 3), d_.unit));
     }
     paragraph(fmt::format("{} samples, worth {:.0f} independent ones.", d_.samples,
                           d_.effective_samples));
@@ -108,8 +110,8 @@ class Story {
   void budget() {
     if (d_.budget.findings.size() != d_.findings.size() || d_.budget.noise <= 0) return;
     heading("Where the squared error comes from");
-    TextTable table({{"source", TextTable::Align::left}, {"stage", TextTable::Align::left},
-                     {"share"}});
+    TextTable table(
+        {{"source", TextTable::Align::left}, {"stage", TextTable::Align::left}, {"share"}});
     for (std::size_t k = 0; k < d_.findings.size(); ++k) {
       table.add({d_.findings[k].effect, d_.findings[k].stage,
                  fmt::format("{:.1f} %", d_.budget.findings[k])});
@@ -239,9 +241,8 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   }
   out["notes"] = d.notes;
   if (d.design_impact) {
-    out["design_impact"] = {
-        {"cross_section_mm2", before_after(d.design_impact->cross_section_mm2)},
-        {"total_power_W", before_after(d.design_impact->total_power_W)}};
+    out["design_impact"] = {{"cross_section_mm2", before_after(d.design_impact->cross_section_mm2)},
+                            {"total_power_W", before_after(d.design_impact->total_power_W)}};
   } else {
     out["design_impact"] = nullptr;
   }
@@ -258,9 +259,9 @@ std::string diagnosis_csv(const Diagnosis& diagnosis) {
   for (const Finding& f : diagnosis.findings) {
     for (const ParameterEstimate& p : f.parameters) {
       const std::vector<std::string> cells{
-          csv_text(f.effect),          csv_text(f.stage),           csv_text(p.name),
-          csv_number(p.value),         csv_text(p.unit),            csv_number(p.ci95_lower),
-          csv_number(p.ci95_upper),    csv_number(f.gain_percent),  csv_number(f.gain_se_percent)};
+          csv_text(f.effect),       csv_text(f.stage),          csv_text(p.name),
+          csv_number(p.value),      csv_text(p.unit),           csv_number(p.ci95_lower),
+          csv_number(p.ci95_upper), csv_number(f.gain_percent), csv_number(f.gain_se_percent)};
       out += fmt::format("{}\n", fmt::join(cells, ","));
     }
   }

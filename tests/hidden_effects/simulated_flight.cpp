@@ -11,9 +11,9 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double gravity = 9.80665;
-constexpr double step = 0.01;       // s, integration
+constexpr double step = 0.01;  // s, integration
 constexpr int steps_per_sample = 10;
-constexpr double pitch_rate = 0.6;  // rad/s, as fast as the pilot tilts the drone
+constexpr double pitch_rate = 0.6;      // rad/s, as fast as the pilot tilts the drone
 constexpr double response_time = 0.12;  // s, attitude controller
 
 using Random = std::mt19937_64;
@@ -86,7 +86,8 @@ FlightLog fly(const HiddenFlight& h) {
   Wander sideways(0.35, 2.0);
   Wander sinking(0.4, 1.5);
   std::deque<double> pitch_on_its_way;
-  const auto delay_steps = static_cast<std::size_t>(std::max(0.0, std::round(h.attitude_delay / step)));
+  const auto delay_steps =
+      static_cast<std::size_t>(std::max(0.0, std::round(h.attitude_delay / step)));
 
   double speed = 0;
   double down = 0;
@@ -111,8 +112,8 @@ FlightLog fly(const HiddenFlight& h) {
     height -= down * step;
     const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
                          h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw);
-    const double push = (gravity - down_acceleration) * std::tan(tilt) / std::cos(roll) +
-                        gust.next(random);
+    const double push =
+        (gravity - down_acceleration) * std::tan(tilt) / std::cos(roll) + gust.next(random);
     const auto acceleration = [&](double v) {
       return push - drag(h, v - along, tilt, down, roll, height - 10, late) / h.mass;
     };

@@ -1,5 +1,6 @@
 // A drone flown through the air by its own equations of motion, and the log it would leave behind:
-// the truth that diagnoses are judged by. Shares no code with the library beyond the log's container.
+// the truth that diagnoses are judged by. Shares no code with the library beyond the log's
+// container.
 #pragma once
 
 #include <cstdint>
@@ -21,22 +22,22 @@ struct HiddenFlight {
 
   /// Gusts: acceleration of a first-order process. These values leave residuals with a standard
   /// deviation of 0.17 m/s² and a lag-1 correlation of 0.86 at 10 Hz, as the real flight does.
-  double gust_std = 0.17;   ///< m/s²
-  double gust_time = 0.55;  ///< s
+  double gust_std = 0.17;      ///< m/s²
+  double gust_time = 0.55;     ///< s
   double speed_noise = 0.004;  ///< m/s, white
   double angle_noise = 0.15;   ///< deg, white
   double roll_std = 2.0;       ///< deg
   bool yaw_turns = false;      ///< a new heading every 40 s
   double steepest_pitch = 30;  ///< deg
 
-  double attitude_delay = 0;      ///< s, attitude is logged this late
-  double pitch_trim = 0;          ///< deg, logged minus true pitch
-  double wind_north = 0;          ///< m/s, constant over ground
+  double attitude_delay = 0;  ///< s, attitude is logged this late
+  double pitch_trim = 0;      ///< deg, logged minus true pitch
+  double wind_north = 0;      ///< m/s, constant over ground
   double wind_east = 0;
-  double wind_drift = 0;          ///< m/s from begin to end
+  double wind_drift = 0;  ///< m/s from begin to end
   double fore_aft_asymmetry = 0;
-  double propwash = 0;            ///< N·s/(m·rad)
-  double vertical_coupling = 0;   ///< N·s²/m²
+  double propwash = 0;           ///< N·s/(m·rad)
+  double vertical_coupling = 0;  ///< N·s²/m²
 
   // Effects that no catalogue has.
   double roll_drag = 0;    ///< N·s/m: drag of u·(1 − cos φ)

@@ -27,14 +27,15 @@ enum class LogKind { flight, power };
 
 /// A parameter of an effect as the catalogue lists it.
 struct EffectParameter {
-  std::string name{};       ///< with its unit, as in the result: "pitch_trim_deg"
-  std::string unit{};       ///< as printed: "deg"; "1" for a plain number
-  double unit_SI = 1;     ///< one such unit in SI
-  double neutral = 0;     ///< in `unit`, as are the next three
+  std::string name{};  ///< with its unit, as in the result: "pitch_trim_deg"
+  std::string unit{};  ///< as printed: "deg"; "1" for a plain number
+  double unit_SI = 1;  ///< one such unit in SI
+  double neutral = 0;  ///< in `unit`, as are the next three
   double lower = 0;
   double upper = 0;
-  double scale = 1;       ///< a change that matters
-  std::string spec_field{};  ///< JSON path in the design spec that takes it; empty: ends with the flight
+  double scale = 1;  ///< a change that matters
+  std::string
+      spec_field{};  ///< JSON path in the design spec that takes it; empty: ends with the flight
 };
 
 /// One entry.
@@ -45,16 +46,16 @@ struct Effect {
   LogKind log = LogKind::flight;
   Stage stage = Stage::airframe;
   std::vector<EffectParameter> parameters{};
-  std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as in
-                                   ///< the log
+  std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as
+                                     ///< in the log
   std::string to_separate{};  ///< what flight or channel tells it from its like
   std::string change{};       ///< the change of the prediction as a formula
 
-  std::string replaces{};     ///< id of a coarser effect that this one describes in more detail
+  std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 
   FlightPhase flight_phase = FlightPhase::force;
-  /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null for
-  /// effects of power logs.
+  /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
+  /// for effects of power logs.
   void (*on_flight)(FlightPrediction&, std::span<const double>) = nullptr;
 };
 

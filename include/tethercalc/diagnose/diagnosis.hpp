@@ -1,4 +1,5 @@
-// What a diagnosis says: findings with their gain, what could not be tested, what stays unexplained.
+// What a diagnosis says: findings with their gain, what could not be tested, what stays
+// unexplained.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +20,15 @@ struct ParameterEstimate {
 
 /// One named cause.
 struct Finding {
-  std::string effect;     ///< id in the catalogue
+  std::string effect;  ///< id in the catalogue
   std::string title;
-  std::string mechanism;  ///< one sentence
-  std::string stage;      ///< supply, tether, converter, motors or airframe
+  std::string mechanism;                      ///< one sentence
+  std::string stage;                          ///< supply, tether, converter, motors or airframe
   std::vector<ParameterEstimate> parameters;  ///< of the final, joint fit
-  double holdout_rmse_before = 0;  ///< with the findings before it in place
-  double holdout_rmse_after = 0;   ///< with it as well, everything free refitted together
-  double gain_percent = 0;         ///< 100·(1 − after/before)
-  double gain_se_percent = 0;      ///< standard error over blocks
+  double holdout_rmse_before = 0;             ///< with the findings before it in place
+  double holdout_rmse_after = 0;  ///< with it as well, everything free refitted together
+  double gain_percent = 0;        ///< 100·(1 − after/before)
+  double gain_se_percent = 0;     ///< standard error over blocks
   std::vector<std::string> indistinguishable_from;  ///< ids that explain this log as well
   std::string to_separate;  ///< the flight or channel that would tell them apart; may be empty
 };
@@ -46,9 +47,9 @@ struct NotIdentifiable {
 struct Unexplained {
   bool detected = false;
   std::vector<std::string> channels;  ///< the one it follows most closely first
-  double share_percent = 0;  ///< part of the remaining held-out squared error it makes up
-  std::string shape;         ///< plain words; empty where nothing was detected
-  std::string regressor;     ///< the one that captures it best
+  double share_percent = 0;           ///< part of the remaining held-out squared error it makes up
+  std::string shape;                  ///< plain words; empty where nothing was detected
+  std::string regressor;              ///< the one that captures it best
 };
 
 /// A model fitted to the log, judged on data it was not fitted to.
@@ -92,11 +93,11 @@ struct SpecChange {
 };
 
 struct Diagnosis {
-  std::string kind;               ///< "flight" or "power"
-  std::size_t samples = 0;        ///< used
-  double effective_samples = 0;   ///< as many independent ones would weigh as much
-  std::string unit;               ///< of every held-out error
-  std::string quantity;           ///< in words: what is predicted and compared
+  std::string kind;              ///< "flight" or "power"
+  std::size_t samples = 0;       ///< used
+  double effective_samples = 0;  ///< as many independent ones would weigh as much
+  std::string unit;              ///< of every held-out error
+  std::string quantity;          ///< in words: what is predicted and compared
   ModelQuality base;
   std::vector<Finding> findings;  ///< in the order they were found
   std::vector<NotTestable> not_testable;

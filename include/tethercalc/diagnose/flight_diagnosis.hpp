@@ -38,8 +38,9 @@ struct FlightDiagnosisOptions {
 /// `design_impact` is left empty: it needs a cross-section to be optimised, see
 /// `diagnose/design_impact.hpp`.
 ///
-/// Throws std::invalid_argument where `options.base` names an effect that is not one of a flight, or
-/// where mass or air density is not positive; UnsuitableFlight where the log has no usable flight.
+/// Throws std::invalid_argument where `options.base` names an effect that is not one of a flight,
+/// or where mass or air density is not positive; UnsuitableFlight where the log has no usable
+/// flight.
 [[nodiscard]] Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
                                         const FlightDiagnosisOptions& options = {},
                                         const SelectionProgress& progress = {});

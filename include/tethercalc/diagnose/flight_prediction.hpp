@@ -15,7 +15,7 @@ namespace tethercalc {
 /// sample, in the stabilised frame of `Observations`, SI units.
 struct FlightRecord {
   std::vector<double> time;
-  std::vector<double> tilt;   ///< θ, positive leaning forward
+  std::vector<double> tilt;  ///< θ, positive leaning forward
   std::vector<double> tan_tilt;
   std::vector<double> yaw;
   std::vector<double> forward_speed;
@@ -46,8 +46,8 @@ struct FlightBase {
   double vertical_acceleration_gain = 1;
 };
 
-/// A prediction in the making. The catalogue's effects work on it in three phases: attitude, air and
-/// force; each vector holds one element a sample.
+/// A prediction in the making. The catalogue's effects work on it in three phases: attitude, air
+/// and force; each vector holds one element a sample.
 struct FlightPrediction {
   const FlightRecord& record;
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
@@ -77,8 +77,9 @@ void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
 
 /// The forward speed simulated in open loop: at the start of every window the logged one, from
 /// there on integrated from the predicted acceleration (trapezoids), with drag following the
-/// simulated speed and attitude the logged one. Windows of `window` s, one after the other; a window
-/// also ends where the log has a step of more than `longest_step` s. m/s, one element a sample.
+/// simulated speed and attitude the logged one. Windows of `window` s, one after the other; a
+/// window also ends where the log has a step of more than `longest_step` s. m/s, one element a
+/// sample.
 [[nodiscard]] std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase& base,
                                                  std::span<const EffectValues> effects,
                                                  double window, double longest_step);

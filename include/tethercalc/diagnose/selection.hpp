@@ -14,11 +14,11 @@ namespace tethercalc {
 
 /// A parameter of the model, in the unit the model takes it in.
 struct ModelParameter {
-  double neutral = 0;   ///< the value that leaves the effect out
-  double lower = 0;     ///< bounds of the search; the neutral value lies within
+  double neutral = 0;  ///< the value that leaves the effect out
+  double lower = 0;    ///< bounds of the search; the neutral value lies within
   double upper = 0;
-  double scale = 1;     ///< > 0, a change of it that matters: start of the search and step for slopes
-  double start = 0;     ///< first value tried once freed; any value within the bounds
+  double scale = 1;  ///< > 0, a change of it that matters: start of the search and step for slopes
+  double start = 0;  ///< first value tried once freed; any value within the bounds
   bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
                             ///< constant): takes no part in the test against chance
 };
@@ -32,8 +32,8 @@ struct ParameterGroup {
   std::string id{};
   Role role = Role::candidate;
   std::vector<ModelParameter> parameters{};
-  /// Index of a group that goes back to neutral when this one is freed, since this one describes the
-  /// same thing in more detail; none by default.
+  /// Index of a group that goes back to neutral when this one is freed, since this one describes
+  /// the same thing in more detail; none by default.
   std::optional<std::size_t> replaces{};
 };
 
@@ -52,14 +52,15 @@ struct SelectionProblem {
 
   /// Writes the predicted reading of every row. The first argument holds the parameters of all
   /// groups in their order. Must be deterministic, and finite within the bounds. It may be called
-  /// thousands of times and must not see `measured`: no candidate may be built from what it explains.
+  /// thousands of times and must not see `measured`: no candidate may be built from what it
+  /// explains.
   std::function<void(std::span<const double>, std::span<double>)> predict;
 
   std::vector<double> measured{};  ///< one a row
-  std::vector<double> noise{};     ///< one a row, > 0, in the unit of `measured`: weighs instruments
-                                 ///< against each other; a common factor changes nothing
-  /// Block of each row: 0 … block count − 1, contiguous stretches of time, the same stretch for every
-  /// instrument, each several correlation times long. −1 leaves a row out of everything.
+  std::vector<double> noise{};  ///< one a row, > 0, in the unit of `measured`: weighs instruments
+                                ///< against each other; a common factor changes nothing
+  /// Block of each row: 0 … block count − 1, contiguous stretches of time, the same stretch for
+  /// every instrument, each several correlation times long. −1 leaves a row out of everything.
   std::vector<int> block{};
 
   std::vector<UnnamedRegressor> unnamed{};
@@ -84,12 +85,12 @@ struct SelectionOptions {
 
 /// A group that was freed, after the joint fit.
 struct SelectedGroup {
-  std::size_t group = 0;          ///< index into SelectionProblem::groups
-  double rmse_before = 0;         ///< held out, with the groups selected before it
-  double rmse_after = 0;          ///< held out, with it as well; everything free refitted together
+  std::size_t group = 0;   ///< index into SelectionProblem::groups
+  double rmse_before = 0;  ///< held out, with the groups selected before it
+  double rmse_after = 0;   ///< held out, with it as well; everything free refitted together
   double gain_percent = 0;
   double gain_se_percent = 0;
-  double p_value = 1;             ///< of no gain, two-sided, before correction
+  double p_value = 1;                            ///< of no gain, two-sided, before correction
   std::vector<std::size_t> indistinguishable{};  ///< groups that explain as well in its place
 };
 
@@ -106,15 +107,15 @@ struct ModelFit {
 struct UnnamedStructure {
   std::vector<std::size_t> regressors{};  ///< into SelectionProblem::unnamed, strongest first
   std::vector<std::string> channels{};    ///< theirs, without repetition
-  double share_percent = 0;  ///< of the held-out squared error of the extended model
+  double share_percent = 0;               ///< of the held-out squared error of the extended model
 };
 
 struct Selection {
-  std::size_t rows = 0;            ///< used
+  std::size_t rows = 0;  ///< used
   std::size_t blocks = 0;
-  double student_factor = 0;       ///< half width of a 95 % interval over its standard error
-  ModelFit base;                   ///< only the fitted groups free
-  ModelFit extended;               ///< with the selected groups
+  double student_factor = 0;  ///< half width of a 95 % interval over its standard error
+  ModelFit base;              ///< only the fitted groups free
+  ModelFit extended;          ///< with the selected groups
   /// The best estimates: with the selected groups and, where it is large (a quarter of the squared
   /// error) and makes the estimates more precise, with the unnamed structure; else the same as
   /// `extended`.
@@ -135,9 +136,9 @@ using SelectionProgress = std::function<void(const std::string&)>;
 /// Forward steps with backward checks.
 ///
 /// Each step frees the candidate with the largest drop of held-out error, provided the drop beats
-/// chance over blocks and is worth a name; all free parameters are then refitted together and what no
-/// longer earns its place goes back to neutral. Standard errors and held-out errors come from the
-/// same fits, each with one block left out (delete-a-block jackknife, Künsch 1989), so that
+/// chance over blocks and is worth a name; all free parameters are then refitted together and what
+/// no longer earns its place goes back to neutral. Standard errors and held-out errors come from
+/// the same fits, each with one block left out (delete-a-block jackknife, Künsch 1989), so that
 /// correlation within a block needs no model. Outlying rows are down-weighted (Huber 1964).
 ///
 /// Structure left over is sought among `unnamed`; an effect that an unnamed regressor explains

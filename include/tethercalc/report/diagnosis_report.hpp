@@ -14,8 +14,8 @@ namespace tethercalc {
 [[nodiscard]] nlohmann::ordered_json extended_spec(nlohmann::ordered_json spec,
                                                    const Diagnosis& diagnosis);
 
-/// The result keys of `diagnose`; `extended` is the extended spec and may be null. Numbers that do not
-/// exist are null.
+/// The result keys of `diagnose`; `extended` is the extended spec and may be null. Numbers that do
+/// not exist are null.
 [[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis,
                                                     const nlohmann::ordered_json& extended);
 
