@@ -247,6 +247,11 @@ Record::Record(const SelectionProblem& problem)
                                   "\" must have one element a row");
     }
   }
+  for (const std::vector<double>& column : problem.systematic) {
+    if (column.size() != size) {
+      throw std::invalid_argument("a systematic error must have one element a row");
+    }
+  }
   for (const ParameterGroup& group : problem.groups) {
     first_.push_back(parameters_.size());
     for (const ModelParameter& p : group.parameters) {

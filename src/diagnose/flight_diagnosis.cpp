@@ -27,7 +27,8 @@ constexpr std::size_t most_blocks = 30;
 /// A step longer than this times the median one separates neighbours.
 constexpr double gap_factor = 1.5;
 /// Part of a sampling interval within which the log does not say when a reading was taken, and by
-/// which an estimator's own integration step shifts it. Standard error added to delays.
+/// which an estimator's own integration step shifts it: a standard deviation, the same for the
+/// whole log.
 constexpr double time_stamp_uncertainty = 0.05;
 
 constexpr const char* areas_group = "drag areas";
@@ -204,19 +205,40 @@ SelectionProblem selection_problem(const FlightData& data, const FlightGroups& g
   return problem;
 }
 
-/// The wind that a fit with linear drag and wind finds: good enough for the airspeed in regressors.
-double preliminary_wind(const FlightData& data) {
-  FlightGroups groups = flight_groups({"linear_drag", "wind"}, data.faults);
+/// What a fit with linear drag and wind tells before the search: good enough for the airspeed in
+/// regressors and for what an error of the time stamps does.
+struct Preliminary {
+  double wind = 0;
+  std::vector<double> time_stamp_error;  ///< change of the prediction by one standard deviation
+};
+
+Preliminary preliminary_fit(const FlightData& data) {
+  const FlightGroups groups = flight_groups({"linear_drag", "wind"}, data.faults);
   std::size_t first = 0;
   std::size_t wind = 0;
-  for (std::size_t g = 0; g < groups.groups.size(); ++g) {
-    if (groups.groups[g].id == "wind") wind = first;
-    first += groups.groups[g].parameters.size();
+  std::size_t delay = 0;
+  for (const ParameterGroup& group : groups.groups) {
+    if (group.id == "wind") wind = first;
+    if (group.id == "attitude_delay") delay = first;
+    first += group.parameters.size();
   }
-  SelectionProblem problem = selection_problem(data, groups);
+  const SelectionProblem problem = selection_problem(data, groups);
   SelectionOptions nothing;
   nothing.most_findings = 0;
-  return select_effects(problem, nothing).base.values[wind];
+  std::vector<double> values = select_effects(problem, nothing).base.values;
+
+  Preliminary result;
+  result.wind = values[wind];
+  result.time_stamp_error.resize(problem.measured.size());
+  std::vector<double> early(problem.measured.size());
+  values[delay] = time_stamp_uncertainty * data.step;
+  problem.predict(values, result.time_stamp_error);
+  values[delay] = -values[delay];
+  problem.predict(values, early);
+  for (std::size_t i = 0; i < early.size(); ++i) {
+    result.time_stamp_error[i] = (result.time_stamp_error[i] - early[i]) / 2;
+  }
+  return result;
 }
 
 class Report {
@@ -256,9 +278,7 @@ std::size_t Report::first_parameter(std::size_t group) const {
 
 ParameterEstimate Report::estimate(const ModelFit& fit, std::size_t index, const std::string& name,
                                    const std::string& unit, double unit_SI) const {
-  double error = fit.standard_error[index];
-  if (unit == "s") error = std::hypot(error, time_stamp_uncertainty * data_.step);
-  const double half_width = selection_.student_factor * error / unit_SI;
+  const double half_width = selection_.student_factor * fit.standard_error[index] / unit_SI;
   const double value = fit.values[index] / unit_SI;
   return {name, value, unit, value - half_width, value + half_width};
 }
@@ -484,7 +504,9 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
   } else {
     const FlightGroups groups = flight_groups(options.base, data.faults);
     SelectionProblem problem = selection_problem(data, groups);
-    problem.unnamed = flight_structure(data.observations, preliminary_wind(data));
+    Preliminary preliminary = preliminary_fit(data);
+    problem.unnamed = flight_structure(data.observations, preliminary.wind);
+    problem.systematic.push_back(std::move(preliminary.time_stamp_error));
     const Selection selection = select_effects(problem, options.selection, progress);
     d = Report(data, groups, problem, selection).write(options);
     for (const Effect& effect : effect_catalogue()) {

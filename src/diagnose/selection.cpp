@@ -77,6 +77,20 @@ double gain_se_percent(const BlockFit& before, const BlockFit& after) {
   return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
 }
 
+/// What the systematic errors add to the variance of each parameter of the fit: the squares of how
+/// far least squares would follow them.
+VectorXd systematic_variance(const Record& record, const BlockFit& fit) {
+  VectorXd variance = VectorXd::Zero(fit.jacobian.cols());
+  if (fit.jacobian.cols() == 0) return variance;
+  const MatrixXd weighted = fit.weight.cwiseSqrt().asDiagonal() * fit.jacobian;
+  const auto factor = weighted.colPivHouseholderQr();
+  for (const std::vector<double>& column : record.problem().systematic) {
+    const VectorXd change = fit.weight.cwiseSqrt().cwiseProduct(record.scaled_column(column));
+    variance += factor.solve(change).cwiseAbs2();
+  }
+  return variance;
+}
+
 /// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every
 /// fit frees.
 double precision(const BlockFit& fit) {
@@ -434,11 +448,13 @@ ModelFit Search::model_fit(const BlockFit& fit) const {
   result.values = fit.values;
   result.standard_error.assign(fit.values.size(), 0);
   result.without_block.assign(record_.blocks(), fit.values);
+  const VectorXd systematic = systematic_variance(record_, fit);
   for (std::size_t k = 0; k < fit.active.size(); ++k) {
     const std::size_t index = fit.active[k];
     const auto column = static_cast<Index>(k);
     const ModelParameter& p = record_.parameters()[index];
-    result.standard_error[index] = p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0));
+    result.standard_error[index] =
+        p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0) + systematic[column]);
     for (std::size_t b = 0; b < record_.blocks(); ++b) {
       double& value = result.without_block[b][index];
       value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,

@@ -56,7 +56,7 @@ FlightDiagnosisOptions published_choice(const FlightLog& log) {
 }  // namespace
 
 TEST_CASE("the published flight shows linear drag and wind, and propwash beside them") {
-  const auto file = test::reference_file("x500-flight.csv");
+  const auto file = test::reference_file("data/x500-flight.csv");
   if (!file) return;
   const FlightLog log = read_log(*file);
   FlightDiagnosisOptions options = published_choice(log);
@@ -75,7 +75,7 @@ TEST_CASE("the published flight shows linear drag and wind, and propwash beside 
 }
 
 TEST_CASE("the practice flights are answered correctly") {
-  const auto answers_file = test::reference_file("practice/answers.json");
+  const auto answers_file = test::reference_file("data/practice/answers.json");
   if (!answers_file) return;
   std::ifstream in(*answers_file);
   const auto answers = nlohmann::json::parse(in)["answers"];

@@ -74,14 +74,14 @@ TEST_CASE("wind and trim at low speed and constant yaw are reported together") {
 TEST_CASE("without a down velocity vertical coupling is not testable, the rest is") {
   HiddenFlight hidden;
   hidden.seed = 24;
-  hidden.pitch_trim = 2;
+  hidden.propwash = 0.6;
   FlightLog log = truth::fly(hidden);
   log.down_velocity.clear();
   log.roll.clear();
   const Diagnosis d = diagnosed(hidden, log);
   CHECK(lists(d.not_testable, "vertical_coupling"));
   REQUIRE_FALSE(d.findings.empty());
-  CHECK(d.findings.front().effect == "pitch_trim");
+  CHECK(d.findings.front().effect == "propwash");
 }
 
 TEST_CASE("a log too short names nothing and says what it needs") {

@@ -48,8 +48,8 @@ struct Effect {
   std::vector<EffectParameter> parameters{};
   std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as
                                      ///< in the log
-  std::string to_separate{};  ///< what flight or channel tells it from its like
-  std::string change{};       ///< the change of the prediction as a formula
+  std::string to_separate{};         ///< what flight or channel tells it from its like
+  std::string change{};              ///< the change of the prediction as a formula
 
   std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 

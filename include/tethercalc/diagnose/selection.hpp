@@ -64,6 +64,11 @@ struct SelectionProblem {
   std::vector<int> block{};
 
   std::vector<UnnamedRegressor> unnamed{};
+
+  /// Errors that are the same in all blocks, so that the spread between blocks cannot show them:
+  /// each the change of the prediction, one a row, by one standard deviation of the error. They
+  /// widen the standard errors of the parameters and decide nothing.
+  std::vector<std::vector<double>> systematic{};
 };
 
 /// Every default is a choice; the comment says what it trades.
