@@ -31,21 +31,21 @@ struct EffectParameter {
   std::string unit{};  ///< as printed: "deg"; "1" for a plain number
   double unit_SI = 1;  ///< one such unit in SI
   double neutral = 0;  ///< in `unit`, as are the next three
-  double lower = 0;
-  double upper = 0;
-  double scale = 1;  ///< a change that matters
+  double lower = 0;    ///< physical bound
+  double upper = 0;    ///< physical bound
+  double scale = 1;    ///< a change that matters
   std::string
       spec_field{};  ///< JSON path in the design spec that takes it; empty: ends with the flight
 };
 
 /// One entry.
 struct Effect {
-  std::string id{};
-  std::string title{};
-  std::string mechanism{};  ///< one sentence
-  LogKind log = LogKind::flight;
-  Stage stage = Stage::airframe;
-  std::vector<EffectParameter> parameters{};
+  std::string id{};                           ///< as in results and in --base
+  std::string title{};                        ///< what a person calls it
+  std::string mechanism{};                    ///< one sentence
+  LogKind log = LogKind::flight;              ///< which log can show it
+  Stage stage = Stage::airframe;              ///< where it acts
+  std::vector<EffectParameter> parameters{};  ///< its size first
   std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as
                                      ///< in the log
   std::string to_separate{};         ///< what flight or channel tells it from its like
@@ -53,7 +53,7 @@ struct Effect {
 
   std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 
-  FlightPhase flight_phase = FlightPhase::force;
+  FlightPhase flight_phase = FlightPhase::force;  ///< for effects of a flight
   /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
   /// for effects of power logs.
   void (*on_flight)(FlightPrediction&, std::span<const double>) = nullptr;
@@ -65,6 +65,7 @@ struct Effect {
 /// The entry of `id`, or null.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 
+/// "supply", "tether", "converter", "motors" or "airframe".
 [[nodiscard]] std::string_view to_string(Stage stage);
 
 }  // namespace tethercalc

@@ -13,12 +13,13 @@
 
 namespace tethercalc {
 
+/// What to take of the log and what to take for granted.
 struct FlightDiagnosisOptions {
   std::optional<SampleRange> range;  ///< samples to use; `moving_part` of the log where absent
   double pitch_offset = 0;           ///< rad, taken off the logged pitch before anything else
   std::vector<std::string> base;     ///< ids of effects that are refitted but not reported
   double speed_window = 5;           ///< s, of the open-loop simulation of the speed
-  SelectionOptions selection;
+  SelectionOptions selection;        ///< thresholds of the search
 };
 
 /// Compares the forward acceleration of `log` with what its attitude and speed make us expect of a

@@ -14,20 +14,21 @@ namespace tethercalc {
 /// acceleration is not here, so no effect can be built from what it should explain. One element a
 /// sample, in the stabilised frame of `Observations`, SI units.
 struct FlightRecord {
-  std::vector<double> time;
-  std::vector<double> tilt;  ///< θ, positive leaning forward
-  std::vector<double> tan_tilt;
-  std::vector<double> yaw;
-  std::vector<double> forward_speed;
-  std::vector<double> down_speed;
-  std::vector<double> down_acceleration;
-  std::vector<double> inverse_cos_roll;
-  double mass = 0;
-  double air_density = 0;
-  double gravity = 0;
+  std::vector<double> time;               ///< s
+  std::vector<double> tilt;               ///< θ, positive leaning forward
+  std::vector<double> tan_tilt;           ///< tan θ
+  std::vector<double> yaw;                ///< rad
+  std::vector<double> forward_speed;      ///< m/s over ground
+  std::vector<double> down_speed;         ///< m/s
+  std::vector<double> down_acceleration;  ///< m/s²
+  std::vector<double> inverse_cos_roll;   ///< 1/cos φ
+  double mass = 0;                        ///< kg
+  double air_density = 0;                 ///< kg/m³
+  double gravity = 0;                     ///< m/s²
   double middle_time = 0;  ///< s, halfway through the whole flight, of which this may be a part
   double duration = 0;     ///< s, of the whole flight
 
+  /// Number of samples.
   [[nodiscard]] std::size_t size() const { return time.size(); }
 };
 
@@ -49,7 +50,7 @@ struct FlightBase {
 /// A prediction in the making. The catalogue's effects work on it in three phases: attitude, air
 /// and force; each vector holds one element a sample.
 struct FlightPrediction {
-  const FlightRecord& record;
+  const FlightRecord& record;    ///< what is predicted from
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
   double linear_speed = 0;       ///< j of the drag law, m/s
@@ -57,13 +58,14 @@ struct FlightPrediction {
   std::vector<double> drag;      ///< N against the motion; known in the force phase
   std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
 
+  /// Sized for `flight`, which must outlive it.
   explicit FlightPrediction(const FlightRecord& flight);
 };
 
 /// An effect with values for its parameters, in SI.
 struct EffectValues {
-  const Effect* effect = nullptr;
-  std::span<const double> values;
+  const Effect* effect = nullptr;  ///< never null
+  std::span<const double> values;  ///< one a parameter
 };
 
 /// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ/cosφ − F_D/m with

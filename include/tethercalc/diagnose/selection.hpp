@@ -16,7 +16,7 @@ namespace tethercalc {
 struct ModelParameter {
   double neutral = 0;  ///< the value that leaves the effect out
   double lower = 0;    ///< bounds of the search; the neutral value lies within
-  double upper = 0;
+  double upper = 0;    ///< not below `lower`
   double scale = 1;  ///< > 0, a change of it that matters: start of the search and step for slopes
   double start = 0;  ///< first value tried once freed; any value within the bounds
   bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
@@ -25,13 +25,14 @@ struct ModelParameter {
 
 /// Parameters that are freed together.
 struct ParameterGroup {
+  /// Whether the search decides about the group.
   enum class Role {
     fitted,     ///< always free and never reported: drag areas, instrument gains, base effects
     candidate,  ///< at its neutral values until the record demands otherwise
   };
-  std::string id{};
-  Role role = Role::candidate;
-  std::vector<ModelParameter> parameters{};
+  std::string id{};                          ///< for messages
+  Role role = Role::candidate;               ///< see above
+  std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
   /// Index of a group that goes back to neutral when this one is freed, since this one describes
   /// the same thing in more detail; none by default.
   std::optional<std::size_t> replaces{};
@@ -48,7 +49,7 @@ struct UnnamedRegressor {
 /// A record and the model that should explain it. Readings of several instruments are stacked: one
 /// row a reading.
 struct SelectionProblem {
-  std::vector<ParameterGroup> groups{};
+  std::vector<ParameterGroup> groups{};  ///< base and candidates
 
   /// Writes the predicted reading of every row. The first argument holds the parameters of all
   /// groups in their order. Must be deterministic, and finite within the bounds. It may be called
@@ -63,7 +64,7 @@ struct SelectionProblem {
   /// every instrument, each several correlation times long. −1 leaves a row out of everything.
   std::vector<int> block{};
 
-  std::vector<UnnamedRegressor> unnamed{};
+  std::vector<UnnamedRegressor> unnamed{};  ///< shapes to look for in what is left
 
   /// Errors that are the same in all blocks, so that the spread between blocks cannot show them:
   /// each the change of the prediction, one a row, by one standard deviation of the error. They
@@ -90,12 +91,12 @@ struct SelectionOptions {
 
 /// A group that was freed, after the joint fit.
 struct SelectedGroup {
-  std::size_t group = 0;   ///< index into SelectionProblem::groups
-  double rmse_before = 0;  ///< held out, with the groups selected before it
-  double rmse_after = 0;   ///< held out, with it as well; everything free refitted together
-  double gain_percent = 0;
-  double gain_se_percent = 0;
-  double p_value = 1;                            ///< of no gain, two-sided, before correction
+  std::size_t group = 0;       ///< index into SelectionProblem::groups
+  double rmse_before = 0;      ///< held out, with the groups selected before it
+  double rmse_after = 0;       ///< held out, with it as well; everything free refitted together
+  double gain_percent = 0;     ///< 100·(1 − after/before)
+  double gain_se_percent = 0;  ///< standard error over blocks
+  double p_value = 1;          ///< of no gain, two-sided, before correction
   std::vector<std::size_t> indistinguishable{};  ///< groups that explain as well in its place
 };
 
@@ -109,15 +110,17 @@ struct ModelFit {
   std::vector<double> holdout_residual{};  ///< measured − predicted, one a row, 0 in rows left out
 };
 
+/// What is left and no candidate explains.
 struct UnnamedStructure {
   std::vector<std::size_t> regressors{};  ///< into SelectionProblem::unnamed, strongest first
   std::vector<std::string> channels{};    ///< theirs, without repetition
   double share_percent = 0;               ///< of the held-out squared error of the extended model
 };
 
+/// The outcome of a search.
 struct Selection {
-  std::size_t rows = 0;  ///< used
-  std::size_t blocks = 0;
+  std::size_t rows = 0;       ///< used
+  std::size_t blocks = 0;     ///< with rows in them
   double student_factor = 0;  ///< half width of a 95 % interval over its standard error
   ModelFit base;              ///< only the fitted groups free
   ModelFit extended;          ///< with the selected groups
@@ -128,11 +131,11 @@ struct Selection {
   std::vector<SelectedGroup> selected{};  ///< in the order they were found
   /// Candidates whose change of the prediction is a combination of what is already free.
   struct Aliased {
-    std::size_t group = 0;
+    std::size_t group = 0;            ///< the candidate
     std::vector<std::size_t> with{};  ///< groups that mimic it, the nearest first
   };
-  std::vector<Aliased> aliased{};
-  UnnamedStructure unnamed;
+  std::vector<Aliased> aliased{};  ///< never tried
+  UnnamedStructure unnamed;        ///< beside the selected groups
 };
 
 /// Told after each fit what is being done, in words; for a progress display.
