@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/power_effects.hpp"
 #include "tethercalc/diagnose/flight_prediction.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -206,7 +207,11 @@ std::vector<Effect> flight_effects() {
   return effects;
 }
 
-std::vector<Effect> all_effects() { return flight_effects(); }
+std::vector<Effect> all_effects() {
+  std::vector<Effect> effects = flight_effects();
+  for (Effect& effect : power_effects()) effects.push_back(std::move(effect));
+  return effects;
+}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 namespace tethercalc {
 
 struct FlightPrediction;  // diagnose/flight_prediction.hpp
+struct PowerModel;        // diagnose/power_chain.hpp
 
 /// Where in the chain from the ground to the air an effect acts.
 enum class Stage { supply, tether, converter, motors, airframe };
@@ -57,6 +58,10 @@ struct Effect {
   /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
   /// for effects of power logs.
   void (*on_flight)(FlightPrediction&, std::span<const double>) = nullptr;
+
+  /// How it changes the model of a power log, which must not contain the effect already; values in
+  /// SI, in the order of `parameters`. Null for effects of flight logs.
+  void (*on_power)(PowerModel&, std::span<const double>) = nullptr;
 };
 
 /// All effects; the order is that of the documentation.
