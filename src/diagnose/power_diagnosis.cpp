@@ -261,6 +261,20 @@ double stage_rmse(const PowerResiduals& residuals, std::size_t k, const ModelFit
   return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
+/// Parts of the base model's held-out squared error.
+ErrorBudget error_budget(const Selection& selection) {
+  const auto square = [](double x) { return x * x; };
+  const double whole = square(selection.base.holdout_rmse);
+  ErrorBudget budget;
+  for (const SelectedGroup& found : selection.selected) {
+    budget.findings.push_back(100 * (square(found.rmse_before) - square(found.rmse_after)) / whole);
+  }
+  const double complete = square(selection.complete.holdout_rmse);
+  budget.unexplained = 100 * (square(selection.extended.holdout_rmse) - complete) / whole;
+  budget.noise = 100 * complete / whole;
+  return budget;
+}
+
 FlownRange flown_range(const PowerLog& log, const Design& design) {
   FlownRange range;
   range.airspeed = airspeed(design, design.requirements.power_at);
@@ -403,6 +417,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   }
   const auto everything = [](const Effect&) { return true; };
   const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
+  diagnosis.budget = error_budget(selection);
   if (!selection.unnamed.regressors.empty()) {
     const UnnamedRegressor& strongest = problem.unnamed[selection.unnamed.regressors.front()];
     diagnosis.unexplained.detected = true;

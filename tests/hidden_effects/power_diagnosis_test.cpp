@@ -363,6 +363,20 @@ TEST_CASE("the extended design holds what outlives the flight") {
         Approx(300 / (300 + 15 + 1.55e-4 * 9e4)).epsilon(0.003));
 }
 
+TEST_CASE("the error budget of a power log sums to the whole") {
+  Scenario scenario;
+  scenario.seed = seed(400'080);
+  scenario.hidden.contact_resistance = 0.2;
+  scenario.hidden.step_in_motor_power = 0.08;
+  const Diagnosis d = diagnosis_of(scenario);
+  INFO(summary(d));
+  REQUIRE(d.budget.findings.size() == d.findings.size());
+  const double named = std::accumulate(d.budget.findings.begin(), d.budget.findings.end(), 0.0);
+  CHECK(named + d.budget.unexplained + d.budget.noise == Approx(100).margin(1e-6));
+  CHECK(any_names(d, "contact_resistance"));
+  CHECK(d.budget.unexplained > 0);
+}
+
 TEST_CASE("a spec without a cable, and a base effect of flights, are refused with the reason") {
   const PowerLog log = as_power_log(simulate({}));
   Design design = spec();
