@@ -60,6 +60,15 @@ const std::array all_spec_fields{
     SpecField{"/drone/drag/fore_aft_asymmetry", FieldKind::number, "", inside(-1, 1), "0",
               "Drag is 1 + this times as large flying forward, 1 - this flying backward.", 1,
               Number([](Design& d) -> double& { return d.drone.drag.fore_aft_asymmetry; })},
+    SpecField{
+        "/drone/translational_lift/induced_share", FieldKind::number, "", between(0, 0.95), "0",
+        "Part of the hover power that is induced and falls with airspeed.", 1,
+        Number([](Design& d) -> double& { return d.drone.translational_lift.induced_share; })},
+    SpecField{"/drone/translational_lift/hover_induced_speed_m_s", FieldKind::number, "m/s",
+              above(0, 100), "6", "Speed of the air through the rotor discs in hover.", 1,
+              Number([](Design& d) -> double& {
+                return d.drone.translational_lift.hover_induced_speed;
+              })},
     SpecField{"/tether/length_m", FieldKind::number, "m", between(0.1, 1e4), "",
               "Length of the tether in the air, which is the flight height.", 1,
               Number([](Design& d) -> double& { return d.tether.length; })},

@@ -40,6 +40,7 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
   resistance_area_ = 2 * (tether.length + tether.spooled_length) * resistivity(tether) / pi;
 
   const double speed = airspeed(design, condition);
+  power_scale_ *= translational_lift_factor(design.drone.translational_lift, speed);
   area_force_factor_ = area_force_factor(design.drone.drag, design.flight.air_density, speed);
   const double dynamic_pressure = 0.5 * design.flight.air_density * speed * speed;
   tether_drag_1_ =

@@ -99,6 +99,9 @@ inline Design random_design(Random& random) {
   d.supply.voltage = random.magnitude(15, 800);
   d.supply.converter = random_converter(random, d.supply.voltage);
   d.drone.motor_power_factor = random.chance(0.3) ? random.uniform(0.7, 1.4) : 1;
+  if (random.chance(0.3)) {
+    d.drone.translational_lift = {random.uniform(0, 0.5), random.uniform(3, 10)};
+  }
   d.flight.airspeed = random.chance(0.9) ? random.uniform(0, 20) : 0;
   if (random.chance(0.3)) d.flight.headwind = random.uniform(-8, 12);
   d.flight.air_density = random.uniform(0.9, 1.4);

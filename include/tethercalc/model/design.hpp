@@ -7,6 +7,7 @@
 #include "tethercalc/model/converter.hpp"
 #include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/tether.hpp"
+#include "tethercalc/model/translational_lift.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -23,6 +24,7 @@ struct Drone {
   double motor_power_factor = 1;  ///< motors draw this times what the curve says
   double auxiliary_power = 0;     ///< W at the converter input: flight controller and payload
   AirframeDrag drag;              ///< of the airframe, not of the tether
+  TranslationalLift translational_lift;  ///< of the rotors
 };
 
 /// What feeds the drone: the ground supply, and the converter at the tether's upper end.

@@ -1,0 +1,76 @@
+// The catalogue of effects: every cause that a diagnosis can name.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tethercalc/diagnose/selection.hpp"
+
+namespace tethercalc {
+
+struct FlightPrediction;  // diagnose/flight_prediction.hpp
+struct PowerModel;        // diagnose/power_chain.hpp
+
+/// Where in the chain from the ground to the air an effect acts.
+enum class Stage { supply, tether, converter, motors, airframe };
+
+/// What an effect of a flight acts on; the prediction is made in this order.
+enum class FlightPhase {
+  attitude,  ///< the tilt that the thrust had
+  air,       ///< the headwind and the drag law
+  force,     ///< the drag, once airspeed and drag law are known
+};
+
+/// The log that can show an effect.
+enum class LogKind { flight, power };
+
+/// A parameter of an effect as the catalogue lists it.
+struct EffectParameter {
+  std::string name{};  ///< with its unit, as in the result: "pitch_trim_deg"
+  std::string unit{};  ///< as printed: "deg"; "1" for a plain number
+  double unit_SI = 1;  ///< one such unit in SI
+  double neutral = 0;  ///< in `unit`, as are the next three
+  double lower = 0;    ///< physical bound
+  double upper = 0;    ///< physical bound
+  double scale = 1;    ///< a change that matters
+  std::string
+      spec_field{};  ///< JSON path in the design spec that takes it; empty: ends with the flight
+};
+
+/// One entry.
+struct Effect {
+  std::string id{};                           ///< as in results and in --base
+  std::string title{};                        ///< what a person calls it
+  std::string mechanism{};                    ///< one sentence
+  LogKind log = LogKind::flight;              ///< which log can show it
+  Stage stage = Stage::airframe;              ///< where it acts
+  std::vector<EffectParameter> parameters{};  ///< its size first
+  std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as
+                                     ///< in the log
+  std::string to_separate{};         ///< what flight or channel tells it from its like
+  std::string change{};              ///< the change of the prediction as a formula
+
+  std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
+
+  FlightPhase flight_phase = FlightPhase::force;  ///< for effects of a flight
+  /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
+  /// for effects of power logs.
+  void (*on_flight)(FlightPrediction&, std::span<const double>) = nullptr;
+
+  /// How it changes the model of a power log, which must not contain the effect already; values in
+  /// SI, in the order of `parameters`. Null for effects of flight logs.
+  void (*on_power)(PowerModel&, std::span<const double>) = nullptr;
+};
+
+/// All effects; the order is that of the documentation.
+[[nodiscard]] std::span<const Effect> effect_catalogue();
+
+/// The entry of `id`, or null.
+[[nodiscard]] const Effect* find_effect(std::string_view id);
+
+/// "supply", "tether", "converter", "motors" or "airframe".
+[[nodiscard]] std::string_view to_string(Stage stage);
+
+}  // namespace tethercalc

@@ -1,0 +1,118 @@
+// What a diagnosis says: findings with their gain, what could not be tested, what stays
+// unexplained.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tethercalc {
+
+/// A fitted parameter in the unit a person reads it in.
+struct ParameterEstimate {
+  std::string name;       ///< as in the catalogue, its unit included
+  double value = 0;       ///< of the best fit
+  std::string unit;       ///< "1" for a plain number
+  double ci95_lower = 0;  ///< 95 % confidence interval, same unit, from the spread over blocks
+  double ci95_upper = 0;  ///< the other end
+};
+
+/// One named cause.
+struct Finding {
+  std::string effect;                         ///< id in the catalogue
+  std::string title;                          ///< what a person calls it
+  std::string mechanism;                      ///< one sentence
+  std::string stage;                          ///< supply, tether, converter, motors or airframe
+  std::vector<ParameterEstimate> parameters;  ///< of the final, joint fit
+  double holdout_rmse_before = 0;             ///< with the findings before it in place
+  double holdout_rmse_after = 0;  ///< with it as well, everything free refitted together
+  double gain_percent = 0;        ///< 100·(1 − after/before)
+  double gain_se_percent = 0;     ///< standard error over blocks
+  std::vector<std::string> indistinguishable_from;  ///< ids that explain this log as well
+  std::string to_separate;  ///< the flight or channel that would tell them apart; may be empty
+};
+
+/// An effect that this log says nothing about.
+struct NotTestable {
+  std::string effect;  ///< id in the catalogue
+  std::string needs;   ///< the channel, or the kind of log
+};
+
+/// An effect that no log of this kind, or this one, can tell from the base model.
+struct NotIdentifiable {
+  std::string effect;   ///< id in the catalogue
+  std::string because;  ///< what takes its place
+};
+
+/// Structure that no effect of the catalogue explains.
+struct Unexplained {
+  bool detected = false;              ///< whether it beats chance and is worth a word
+  std::vector<std::string> channels;  ///< the one it follows most closely first
+  double share_percent = 0;           ///< part of the remaining held-out squared error it makes up
+  std::string shape;                  ///< plain words; empty where nothing was detected
+  std::string regressor;              ///< the one that captures it best
+};
+
+/// A model fitted to the log, judged on data it was not fitted to.
+struct ModelQuality {
+  double holdout_rmse = 0;  ///< in `Diagnosis::unit`; NaN where the log is too short to hold out
+  std::vector<ParameterEstimate> parameters;  ///< all that were fitted
+};
+
+/// The same held-out comparison for a further quantity of the log, such as the speed simulated in
+/// open loop. Reported beside the deciding one; it decides nothing.
+struct HoldoutComparison {
+  std::string quantity;      ///< in words
+  std::string unit;          ///< of both errors
+  double base_rmse = 0;      ///< of the base model
+  double extended_rmse = 0;  ///< with the findings
+};
+
+/// How much of the base model's held-out squared error has which origin, in percent. The parts of
+/// the findings, in their order, then what is unexplained and what is noise; they sum to 100.
+struct ErrorBudget {
+  std::vector<double> findings;  ///< percent each
+  double unexplained = 0;        ///< percent
+  double noise = 0;              ///< percent
+};
+
+/// A number of the design before and after the extension. Empty where the optimum does not exist.
+struct BeforeAfter {
+  std::optional<double> before;  ///< by the spec as it stands
+  std::optional<double> after;   ///< by the extended spec
+};
+
+/// How the findings move the best design.
+struct DesignImpact {
+  BeforeAfter cross_section_mm2;  ///< optimum of one conductor
+  BeforeAfter total_power_W;      ///< from the supply, at that optimum
+};
+
+/// A field of the design spec that the extended model fills.
+struct SpecChange {
+  std::string field;  ///< path in the spec, such as "drone.drag.linear_m_s"
+  double value = 0;   ///< in the unit of the field's name
+};
+
+/// All that is said of one log.
+struct Diagnosis {
+  std::string kind;                               ///< "flight" or "power"
+  std::size_t samples = 0;                        ///< used
+  double effective_samples = 0;                   ///< as many independent ones would weigh as much
+  std::string unit;                               ///< of every held-out error
+  std::string quantity;                           ///< in words: what is predicted and compared
+  ModelQuality base;                              ///< without any finding
+  std::vector<Finding> findings;                  ///< in the order they were found
+  std::vector<NotTestable> not_testable;          ///< for want of a channel or of length
+  std::vector<NotIdentifiable> not_identifiable;  ///< whatever the channels
+  Unexplained unexplained;                        ///< beside the findings
+  ModelQuality extended;                          ///< with all findings
+  std::vector<SpecChange> spec_changes;           ///< turn the spec into the extended one
+  ErrorBudget budget;                             ///< of the base model
+  std::vector<HoldoutComparison> further;         ///< quantities that decide nothing
+  std::vector<std::string> notes;  ///< what was done to the log: samples left out and why
+  std::optional<DesignImpact> design_impact;  ///< where it was asked for
+};
+
+}  // namespace tethercalc

@@ -1,0 +1,49 @@
+// From a flight log to what the simulation of the flight gets wrong, and why.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tethercalc/diagnose/diagnosis.hpp"
+#include "tethercalc/diagnose/selection.hpp"
+#include "tethercalc/identify/flight_log.hpp"
+#include "tethercalc/identify/observations.hpp"
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// What to take of the log and what to take for granted.
+struct FlightDiagnosisOptions {
+  std::optional<SampleRange> range;  ///< samples to use; `moving_part` of the log where absent
+  double pitch_offset = 0;           ///< rad, taken off the logged pitch before anything else
+  std::vector<std::string> base;     ///< ids of effects that are refitted but not reported
+  double speed_window = 5;           ///< s, of the open-loop simulation of the speed
+  SelectionOptions selection;        ///< thresholds of the search
+};
+
+/// Compares the forward acceleration of `log` with what its attitude and speed make us expect of a
+/// drone of `design.drone.mass` in air of `design.flight.air_density`, and selects from the
+/// catalogue what explains the difference. Drag areas are always refitted; the spec's own drag is
+/// only replaced, never assumed.
+///
+/// The measured acceleration is the central difference of the logged speed over two intervals; the
+/// predicted one is averaged over the same two intervals, since a prediction at the middle sample
+/// would look like a delay of the attitude.
+///
+/// `roll` and `down_velocity` of the log may be empty: the roll then counts as level, the flight as
+/// level too, and what needs the channel is listed as not testable. Spikes and stretches in which a
+/// sensor is stuck are left out and noted. A log with fewer than `fewest_blocks` blocks of 12 s
+/// yields no findings: every effect is listed as not testable for want of a longer flight.
+///
+/// `design_impact` is left empty: it needs a cross-section to be optimised, see
+/// `diagnose/design_impact.hpp`.
+///
+/// Throws std::invalid_argument where `options.base` names an effect that is not one of a flight,
+/// or where mass or air density is not positive; UnsuitableFlight where the log has no usable
+/// flight.
+[[nodiscard]] Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
+                                        const FlightDiagnosisOptions& options = {},
+                                        const SelectionProgress& progress = {});
+
+}  // namespace tethercalc

@@ -1,0 +1,89 @@
+// The forward acceleration that attitude, speed and drag make us expect, effect by effect.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/identify/observations.hpp"
+
+namespace tethercalc {
+
+/// What a prediction of a flight may use: attitude, speed over ground, and time. The forward
+/// acceleration is not here, so no effect can be built from what it should explain. One element a
+/// sample, in the stabilised frame of `Observations`, SI units.
+struct FlightRecord {
+  std::vector<double> time;               ///< s
+  std::vector<double> tilt;               ///< θ, positive leaning forward
+  std::vector<double> tan_tilt;           ///< tan θ
+  std::vector<double> yaw;                ///< rad
+  std::vector<double> forward_speed;      ///< m/s over ground
+  std::vector<double> down_speed;         ///< m/s
+  std::vector<double> down_acceleration;  ///< m/s²
+  std::vector<double> inverse_cos_roll;   ///< 1/cos φ
+  double mass = 0;                        ///< kg
+  double air_density = 0;                 ///< kg/m³
+  double gravity = 0;                     ///< m/s²
+  double middle_time = 0;  ///< s, halfway through the whole flight, of which this may be a part
+  double duration = 0;     ///< s, of the whole flight
+
+  /// Number of samples.
+  [[nodiscard]] std::size_t size() const { return time.size(); }
+};
+
+/// `mass` kg > 0, `air_density` kg/m³ > 0, `gravity` m/s² > 0.
+[[nodiscard]] FlightRecord flight_record(const Observations& observations, double mass,
+                                         double air_density, double gravity);
+
+/// Parameters that every drag flight needs and that are no effects.
+struct FlightBase {
+  double front_area = 0;  ///< A_f, m²
+  double top_area = 0;    ///< A_t, m²
+  /// Part of the logged vertical acceleration that the flight follows. The derivative of a logged
+  /// velocity is noisy; the least-squares slope of a noisy regressor is its reliability, below 1
+  /// (Fuller, Measurement Error Models, 1987, section 1.1). Left at 1, its noise times tan θ would
+  /// enter every prediction.
+  double vertical_acceleration_gain = 1;
+};
+
+/// A prediction in the making. The catalogue's effects work on it in three phases: attitude, air
+/// and force; each vector holds one element a sample.
+struct FlightPrediction {
+  const FlightRecord& record;    ///< what is predicted from
+  std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
+  std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
+  double linear_speed = 0;       ///< j of the drag law, m/s
+  std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
+  std::vector<double> drag;      ///< N against the motion; known in the force phase
+  std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
+
+  /// Sized for `flight`, which must outlive it.
+  explicit FlightPrediction(const FlightRecord& flight);
+};
+
+/// An effect with values for its parameters, in SI.
+struct EffectValues {
+  const Effect* effect = nullptr;  ///< never null
+  std::span<const double> values;  ///< one a parameter
+};
+
+/// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ/cosφ − F_D/m with
+/// F_D = ½ρ(A_f cos θ + A_t sin|θ|)(u|u| + j·u), u = v − w, as changed by `effects`. Effects act in
+/// the order given within each phase; those at their neutral values change nothing.
+void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
+                          std::span<const EffectValues> effects);
+
+/// Samples first ≤ i < last of a flight.
+[[nodiscard]] FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last);
+
+/// The forward speed simulated in open loop: at the start of every window the logged one, from
+/// there on integrated from the predicted acceleration (trapezoids), with drag following the
+/// simulated speed and attitude the logged one. Windows of `window` s, one after the other; a
+/// window also ends where the log has a step of more than `longest_step` s. m/s, one element a
+/// sample.
+[[nodiscard]] std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase& base,
+                                                 std::span<const EffectValues> effects,
+                                                 double window, double longest_step);
+
+}  // namespace tethercalc

@@ -1,0 +1,38 @@
+// What the calculation of a tethered flight's power gets wrong, and why.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "tethercalc/diagnose/diagnosis.hpp"
+#include "tethercalc/diagnose/power_log.hpp"
+#include "tethercalc/diagnose/selection.hpp"
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// A diagnosis and the design that flies as the log shows.
+struct PowerDiagnosis {
+  Diagnosis diagnosis;
+  Design extended;  ///< the design with every finding that outlives the flight in its field
+};
+
+/// A power log shorter than this, s, is not judged: it holds too few independent stretches.
+inline constexpr double shortest_power_log = 180;
+
+/// Diagnoses a power log against the design as it stands: nothing is fitted but the effects named
+/// in `base_effects` (catalogue ids), which are taken as part of the base model and not reported.
+///
+/// Readings of all stages are compared together, each over the standard deviation of its noise with
+/// the noise's memory taken out; held-out errors are in that unit, 1 being nothing but noise. The
+/// findings' errors in volts and watts stand in `Diagnosis::further`.
+///
+/// A log that is too short, or lacks channels, has the effects that it cannot show under
+/// `not_testable`; that is an answer, not an error. Throws std::invalid_argument where the design
+/// has no cable cross-section, a base effect is unknown or belongs to flights, or the channels
+/// differ in length.
+[[nodiscard]] PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
+                                            std::span<const std::string> base_effects = {},
+                                            const SelectionProgress& progress = {});
+
+}  // namespace tethercalc

@@ -1,0 +1,81 @@
+// What is left of a power log after a model's prediction, in units of the instruments' noise, and
+// with the noise's memory taken out.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/diagnose/power_chain.hpp"
+#include "tethercalc/diagnose/power_screening.hpp"
+
+namespace tethercalc {
+
+/// One comparison of the chain.
+struct PowerStage {
+  Stage stage = Stage::tether;
+  std::string quantity;      ///< in words: "voltage lost in the tether"
+  std::string unit;          ///< of `noise`
+  double noise = 1;          ///< standard deviation of one sample, all instruments together
+  std::vector<char> usable;  ///< one a sample
+
+  std::size_t samples_per_row = 1;  ///< averaged into one row
+  std::size_t first_row = 0;        ///< among the rows of all stages
+  std::size_t rows = 0;
+  std::vector<char> usable_rows;  ///< at least half of the samples are usable
+  std::vector<double>
+      memory;             ///< φ of the autoregression that the rows' noise follows; empty: white
+  double innovation = 1;  ///< standard deviation of the rows' white part over `noise`
+};
+
+/// Compares a screened log with models of it.
+///
+/// - *tether*: the voltage lost on the way, U_supply − U_drone, with I·R.
+/// - *converter*: the power at its input, U_drone·I − P_aux, with what its output needs. Both sides
+///   are measured. The difference is divided by the noise of both, the slope of the model in it:
+///   minimising its square is the maximum-likelihood estimate with errors in both variables
+///   (Deming 1943; Fuller 1987, Measurement Error Models, section 1.3), free of the attenuation
+///   that a plain regression on the noisy output suffers.
+/// - *motors*: the logarithm of the power at the bus with that of steady flight at the measured
+///   height and airspeed, averaged over some seconds; its error is relative, and lasts for seconds.
+///
+/// Noise and its memory are estimated once, from what a flexible smooth function of time, height
+/// and airspeed leaves of the base model's residuals, so that what is hidden does not pass for
+/// noise.
+class PowerResiduals {
+ public:
+  /// Stages whose channels are missing do not appear. Throws std::invalid_argument where the
+  /// design has no cable cross-section.
+  PowerResiduals(const PowerModel& base, ScreenedPowerLog screened);
+
+  [[nodiscard]] const PowerLog& log() const { return screened_.log; }
+  [[nodiscard]] std::span<const PowerStage> stages() const { return stages_; }
+  [[nodiscard]] std::size_t samples() const { return screened_.log.time.size(); }
+
+  /// Rows of all stages.
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+
+  /// Measured minus predicted over the noise of one sample, one element a sample, for stage `k` of
+  /// `stages()`.
+  void standardised(std::size_t k, const PowerModel& model, std::span<double> out) const;
+
+  /// Averages a stage's samples into its rows, takes the memory out of them and divides by the
+  /// standard deviation of what is left: rows of independent noise of size 1. Linear. Unusable rows
+  /// become 0.
+  void whitened(std::size_t k, std::span<const double> standardised, std::span<double> out) const;
+
+ private:
+  void estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k);
+
+  ScreenedPowerLog screened_;
+  std::vector<PowerStage> stages_;
+  std::size_t rows_ = 0;
+  std::vector<double> bus_power_;
+  std::vector<double> log_bus_power_;
+  double input_variance_ = 1;   ///< W², of U_drone·I
+  double output_variance_ = 0;  ///< W², of the bus power
+};
+
+}  // namespace tethercalc

@@ -1,0 +1,43 @@
+// A power log made fit for comparison: instruments that hang, spikes and clocks that disagree are
+// found and dealt with before any physics is judged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tethercalc/diagnose/power_chain.hpp"
+#include "tethercalc/diagnose/power_log.hpp"
+
+namespace tethercalc {
+
+/// A log with its bad samples marked and filled in, all channels on the clock of the supply
+/// current.
+struct ScreenedPowerLog {
+  PowerLog log;  ///< marked samples are interpolated; an optional channel that hangs for more than
+                 ///< half of the log is gone
+  /// Whether every channel that a stage compares was healthy in a sample. Empty where the log lacks
+  /// a channel of that stage.
+  std::vector<char> tether_usable;     ///< supply pair, drone voltage, height
+  std::vector<char> converter_usable;  ///< supply current, drone voltage, bus pair
+  std::vector<char> motors_usable;     ///< bus pair, height, airspeed
+  std::vector<std::string> notes;      ///< what was found, one sentence each, with channel names
+};
+
+/// Screens a log.
+///
+/// - *Stuck*: the same reading 20 times or more running, of a quantity that never rests in flight
+///   (currents, the voltage at the drone), or of an instrument that is noisy in the rest of the
+///   log.
+/// - *Spikes*: further than 8 robust standard deviations from the median of the 7 samples around
+///   (Hampel 1974; Pearson et al. 2016, EURASIP J. Adv. Signal Process. 2016:87).
+/// - *Clocks*: the delay of the drone voltage and the bus pair against the supply current, and of
+///   height and airspeed against the motor power, that makes sample-to-sample changes agree best
+///   with `model`. A wrong model has wrong magnitudes, not wrong moments, so this does not depend
+///   on what is hidden. Delays below a quarter of a second or without clear improvement count as
+///   none.
+///
+/// `model` is the base model; its design needs a cable cross-section. `log` needs at least 8
+/// samples.
+[[nodiscard]] ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log);
+
+}  // namespace tethercalc

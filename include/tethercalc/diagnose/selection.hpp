@@ -1,0 +1,169 @@
+// Which of many candidate effects a measured record needs, judged on blocks of it that were not
+// fitted. Knows neither flights nor power lines: a model is a function from one parameter vector to
+// the readings it predicts.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tethercalc {
+
+/// A parameter of the model, in the unit the model takes it in.
+struct ModelParameter {
+  double neutral = 0;  ///< the value that leaves the effect out
+  double lower = 0;    ///< bounds of the search; the neutral value lies within
+  double upper = 0;    ///< not below `lower`
+  double scale = 1;  ///< > 0, a change of it that matters: start of the search and step for slopes
+  double start = 0;  ///< first value tried once freed; any value within the bounds
+  bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
+                            ///< constant): takes no part in the test against chance
+};
+
+/// Parameters that are freed together.
+struct ParameterGroup {
+  /// Whether the search decides about the group.
+  enum class Role {
+    fitted,     ///< always free and never reported: drag areas, instrument gains, base effects
+    candidate,  ///< at its neutral values until the record demands otherwise
+  };
+  std::string id{};                          ///< for messages
+  Role role = Role::candidate;               ///< see above
+  std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
+  /// Index of a group that goes back to neutral when this one is freed, since this one describes
+  /// the same thing in more detail; none by default.
+  std::optional<std::size_t> replaces{};
+};
+
+/// A shape that a record may follow without any effect of the catalogue: a column over the rows of
+/// the record, made of one channel.
+struct UnnamedRegressor {
+  std::string channel{};         ///< such as "roll"
+  std::string shape{};           ///< plain words, such as "roll squared, times airspeed"
+  std::vector<double> column{};  ///< one element a row; its scale does not matter
+};
+
+/// A record and the model that should explain it. Readings of several instruments are stacked: one
+/// row a reading.
+struct SelectionProblem {
+  std::vector<ParameterGroup> groups{};  ///< base and candidates
+
+  /// Writes the predicted reading of every row. The first argument holds the parameters of all
+  /// groups in their order. Must be deterministic, and finite within the bounds. It may be called
+  /// thousands of times and must not see `measured`: no candidate may be built from what it
+  /// explains.
+  std::function<void(std::span<const double>, std::span<double>)> predict;
+
+  std::vector<double> measured{};  ///< one a row
+  std::vector<double> noise{};  ///< one a row, > 0, in the unit of `measured`: weighs instruments
+                                ///< against each other; a common factor changes nothing
+  /// Block of each row: 0 … block count − 1, contiguous stretches of time, the same stretch for
+  /// every instrument, each several correlation times long. −1 leaves a row out of everything.
+  std::vector<int> block{};
+
+  std::vector<UnnamedRegressor> unnamed{};  ///< shapes to look for in what is left
+
+  /// Errors that are the same in all blocks, so that the spread between blocks cannot show them:
+  /// each the change of the prediction, one a row, by one standard deviation of the error. They
+  /// widen the standard errors of the parameters and decide nothing.
+  std::vector<std::vector<double>> systematic{};
+};
+
+/// Every default is a choice; the comment says what it trades.
+struct SelectionOptions {
+  /// Chance of naming anything at all where nothing is hidden, over the whole catalogue and all
+  /// steps (Bonferroni–Holm over the candidates that are tested).
+  double false_alarm_probability = 0.01;
+
+  /// Smallest drop of held-out rmse worth a name, in percent. Below it a statistically certain
+  /// gain may as well come from the imperfection of the log (time stamps, filters, sampling).
+  double least_gain_percent = 2.0;
+
+  /// The same for unnamed structure, in percent of the held-out rmse left.
+  double least_unexplained_percent = 2.0;
+
+  /// At most this many effects are named.
+  std::size_t most_findings = 6;
+};
+
+/// A group that was freed, after the joint fit.
+struct SelectedGroup {
+  std::size_t group = 0;       ///< index into SelectionProblem::groups
+  double rmse_before = 0;      ///< held out, with the groups selected before it
+  double rmse_after = 0;       ///< held out, with it as well; everything free refitted together
+  double gain_percent = 0;     ///< 100·(1 − after/before)
+  double gain_se_percent = 0;  ///< standard error over blocks
+  double p_value = 1;          ///< of no gain, two-sided, before correction
+  std::vector<std::size_t> indistinguishable{};  ///< groups that explain as well in its place
+};
+
+/// Values of all parameters and their covariance over blocks.
+struct ModelFit {
+  std::vector<double> values{};          ///< all groups in their order; not freed ones are neutral
+  std::vector<double> standard_error{};  ///< 0 where not freed
+  /// Values with block b left out: `without_block[b]`.
+  std::vector<std::vector<double>> without_block{};
+  double holdout_rmse = 0;  ///< in units of `noise`, every block predicted by the fit without it
+  std::vector<double> holdout_residual{};  ///< measured − predicted, one a row, 0 in rows left out
+};
+
+/// What is left and no candidate explains.
+struct UnnamedStructure {
+  std::vector<std::size_t> regressors{};  ///< into SelectionProblem::unnamed, strongest first
+  std::vector<std::string> channels{};    ///< theirs, without repetition
+  double share_percent = 0;               ///< of the held-out squared error of the extended model
+};
+
+/// The outcome of a search.
+struct Selection {
+  std::size_t rows = 0;       ///< used
+  std::size_t blocks = 0;     ///< with rows in them
+  double student_factor = 0;  ///< half width of a 95 % interval over its standard error
+  ModelFit base;              ///< only the fitted groups free
+  ModelFit extended;          ///< with the selected groups
+  /// The best estimates: with the selected groups and, where it is large (a quarter of the squared
+  /// error) and makes the estimates more precise, with the unnamed structure; else the same as
+  /// `extended`.
+  ModelFit complete;
+  std::vector<SelectedGroup> selected{};  ///< in the order they were found
+  /// Candidates whose change of the prediction is a combination of what is already free.
+  struct Aliased {
+    std::size_t group = 0;            ///< the candidate
+    std::vector<std::size_t> with{};  ///< groups that mimic it, the nearest first
+  };
+  std::vector<Aliased> aliased{};  ///< never tried
+  UnnamedStructure unnamed;        ///< beside the selected groups
+};
+
+/// Told after each fit what is being done, in words; for a progress display.
+using SelectionProgress = std::function<void(const std::string&)>;
+
+/// Forward steps with backward checks.
+///
+/// Each step frees the candidate with the largest drop of held-out error, provided the drop beats
+/// chance over blocks and is worth a name; all free parameters are then refitted together and what
+/// no longer earns its place goes back to neutral. Standard errors and held-out errors come from
+/// the same fits, each with one block left out (delete-a-block jackknife, Künsch 1989), so that
+/// correlation within a block needs no model. Outlying rows are down-weighted (Huber 1964).
+///
+/// Structure left over is sought among `unnamed`; an effect that an unnamed regressor explains
+/// significantly better, or makes superfluous, is taken back: a name is never forced on it.
+///
+/// Throws std::invalid_argument where sizes disagree, a noise is not positive, a bound is reversed,
+/// or fewer than `fewest_blocks` blocks hold rows.
+[[nodiscard]] Selection select_effects(const SelectionProblem& problem,
+                                       const SelectionOptions& options = {},
+                                       const SelectionProgress& progress = {});
+
+/// Fewer blocks than this give no usable spread: a t quantile with 5 degrees of freedom is already
+/// 30 % wider than the normal one.
+inline constexpr std::size_t fewest_blocks = 6;
+
+/// Noise of a series of residuals at its highest frequency, from the median absolute difference of
+/// neighbours: what an instrument adds, whatever slow effect is hidden. ≥ 0; needs two values.
+[[nodiscard]] double noise_floor(std::span<const double> residuals);
+
+}  // namespace tethercalc

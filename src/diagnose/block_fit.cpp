@@ -1,0 +1,354 @@
+#include "diagnose/block_fit.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace tethercalc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Huber's bound in robust standard deviations. At 3 it costs 0.5 % of efficiency where the noise
+/// is normal, and hardly touches the honest residuals of a model that still lacks an effect.
+constexpr double huber_bound = 3.0;
+/// Median absolute deviation of a normal distribution over its standard deviation, inverted.
+constexpr double mad_to_sigma = 1.4826;
+/// Slopes by forward differences: this part of a parameter's scale. The scale is a change that
+/// matters, so the model is smooth over a ten-thousandth of it, and 1e-4 of an effect stands eight
+/// digits above rounding.
+constexpr double slope_step = 1e-4;
+/// A fit has converged when a step lowers the loss by less than this part: a hundred-thousandth of
+/// the loss is far below what a block more or less changes.
+constexpr double converged_decrease = 1e-7;
+constexpr int most_iterations = 40;
+/// Relative diagonal loading of the normal equations, so that parameters that happen to be parallel
+/// share their effect instead of cancelling each other with huge values.
+constexpr double loading = 1e-9;
+
+double robust_sigma(const VectorXd& residual) {
+  std::vector<double> magnitude(static_cast<std::size_t>(residual.size()));
+  for (Index i = 0; i < residual.size(); ++i) {
+    magnitude[static_cast<std::size_t>(i)] = std::abs(residual[i]);
+  }
+  const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
+  std::nth_element(magnitude.begin(), middle, magnitude.end());
+  return mad_to_sigma * *middle;
+}
+
+double huber_loss(const VectorXd& residual, double bound) {
+  double loss = 0;
+  for (const double r : residual) {
+    const double magnitude = std::abs(r);
+    loss += magnitude <= bound ? 0.5 * r * r : bound * (magnitude - 0.5 * bound);
+  }
+  return loss;
+}
+
+VectorXd huber_weights(const VectorXd& residual, double bound) {
+  VectorXd weight(residual.size());
+  for (Index i = 0; i < residual.size(); ++i) {
+    const double magnitude = std::abs(residual[i]);
+    weight[i] = magnitude <= bound ? 1.0 : bound / magnitude;
+  }
+  return weight;
+}
+
+MatrixXd normal_matrix(const MatrixXd& jacobian, const VectorXd& weight) {
+  return jacobian.transpose() * weight.asDiagonal() * jacobian;
+}
+
+VectorXd solve_loaded(MatrixXd normal, const VectorXd& gradient, double damping) {
+  normal.diagonal() *= 1 + damping;
+  normal.diagonal().array() += 1e-300;  // a column without any effect stays where it is
+  return normal.ldlt().solve(gradient);
+}
+
+/// Model and unnamed regressors as one function of one vector: the freed parameters, each over its
+/// scale, then the coefficients.
+class FreedModel {
+ public:
+  FreedModel(const Record& record, const Freed& freed, std::vector<double> start)
+      : record_(&record), values_(std::move(start)) {
+    for (const std::size_t group : freed.groups) {
+      const std::size_t count = record.problem().groups[group].parameters.size();
+      for (std::size_t k = 0; k < count; ++k) free_.push_back(record.first_parameter(group) + k);
+    }
+    columns_.resize(record.rows(), static_cast<Index>(freed.unnamed.size()));
+    for (std::size_t k = 0; k < freed.unnamed.size(); ++k) {
+      VectorXd column = record.scaled_column(record.problem().unnamed[freed.unnamed[k]].column);
+      const double rms = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
+      if (rms > 0) column /= rms;
+      columns_.col(static_cast<Index>(k)) = column;
+    }
+    coefficients_ = VectorXd::Zero(columns_.cols());
+  }
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(free_.size()) + columns_.cols(); }
+  [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+  [[nodiscard]] const VectorXd& coefficients() const { return coefficients_; }
+
+  void residuals(VectorXd& out) const {
+    record_->residuals(values_, out);
+    if (columns_.cols() > 0) out.noalias() -= columns_ * coefficients_;
+  }
+
+  /// The model after the step, bounds kept.
+  [[nodiscard]] FreedModel moved(const VectorXd& step) const {
+    FreedModel result = *this;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const ModelParameter& p = record_->parameters()[free_[k]];
+      double& value = result.values_[free_[k]];
+      value = std::clamp(value + p.scale * step[static_cast<Index>(k)], p.lower, p.upper);
+    }
+    result.coefficients_ += step.tail(columns_.cols());
+    return result;
+  }
+
+  /// Slopes of the prediction by the parameters over their scales; `residual` is the one here.
+  void jacobian(const VectorXd& residual, MatrixXd& out) const {
+    out.resize(residual.size(), size());
+    VectorXd beside(residual.size());
+    std::vector<double> values = values_;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const ModelParameter& p = record_->parameters()[free_[k]];
+      const double here = values[free_[k]];
+      const double step = slope_step * p.scale;
+      const double there = here + step <= p.upper ? here + step : here - step;
+      values[free_[k]] = there;
+      record_->residuals(values, beside);
+      if (columns_.cols() > 0) beside.noalias() -= columns_ * coefficients_;
+      out.col(static_cast<Index>(k)) = (residual - beside) / ((there - here) / p.scale);
+      values[free_[k]] = here;
+    }
+    out.rightCols(columns_.cols()) = columns_;
+  }
+
+  /// True where the parameter of column k rests on a bound and `gradient` pushes it outward.
+  [[nodiscard]] bool held(Index k, double gradient) const {
+    if (k >= static_cast<Index>(free_.size())) return false;
+    const std::size_t index = free_[static_cast<std::size_t>(k)];
+    const ModelParameter& p = record_->parameters()[index];
+    return (values_[index] <= p.lower && gradient <= 0) ||
+           (values_[index] >= p.upper && gradient >= 0);
+  }
+
+ private:
+  const Record* record_;
+  std::vector<double> values_;
+  std::vector<std::size_t> free_;
+  MatrixXd columns_;
+  VectorXd coefficients_;
+};
+
+std::vector<Index> columns_not_held(const FreedModel& model, const VectorXd& gradient) {
+  std::vector<Index> kept;
+  for (Index k = 0; k < model.size(); ++k) {
+    if (!model.held(k, gradient[k])) kept.push_back(k);
+  }
+  return kept;
+}
+
+struct Minimum {
+  FreedModel model;
+  VectorXd residual;
+  MatrixXd jacobian;
+  VectorXd weight;
+};
+
+Minimum minimise(FreedModel model, const Record& record) {
+  VectorXd residual(record.rows());
+  model.residuals(residual);
+  MatrixXd jacobian;
+  VectorXd weight;
+  VectorXd trial_residual(record.rows());
+  double damping = 1e-4;
+  for (int iteration = 0;; ++iteration) {
+    const double bound = huber_bound * std::max(robust_sigma(residual), 1e-12);
+    weight = huber_weights(residual, bound);
+    model.jacobian(residual, jacobian);
+    if (model.size() == 0 || iteration == most_iterations) break;
+
+    const VectorXd gradient = jacobian.transpose() * weight.cwiseProduct(residual);
+    const std::vector<Index> kept = columns_not_held(model, gradient);
+    const MatrixXd inner = jacobian(Eigen::all, kept);
+    const MatrixXd normal = normal_matrix(inner, weight);
+    const VectorXd inner_gradient = gradient(kept);
+    const double loss = huber_loss(residual, bound);
+    double decrease = 0;
+    for (int attempt = 0; attempt < 12; ++attempt) {
+      VectorXd step = VectorXd::Zero(model.size());
+      step(kept) = solve_loaded(normal, inner_gradient, damping + loading);
+      FreedModel trial = model.moved(step);
+      trial.residuals(trial_residual);
+      const double trial_loss = huber_loss(trial_residual, bound);
+      if (trial_loss < loss) {
+        decrease = (loss - trial_loss) / loss;
+        model = std::move(trial);
+        residual = trial_residual;
+        damping = std::max(damping / 10, 1e-12);
+        break;
+      }
+      damping = std::max(damping, 1e-8) * 10;
+    }
+    if (decrease < converged_decrease) {
+      if (decrease > 0) {
+        weight = huber_weights(residual, bound);
+        model.jacobian(residual, jacobian);
+      }
+      break;
+    }
+  }
+  return {std::move(model), std::move(residual), std::move(jacobian), std::move(weight)};
+}
+
+/// Gauss–Newton steps without one block each: (H − H_b)·δ = g − g_b.
+MatrixXd steps_without_blocks(const BlockFit& fit, const Record& record) {
+  const Index columns = fit.jacobian.cols();
+  MatrixXd steps = MatrixXd::Zero(columns, static_cast<Index>(record.blocks()));
+  if (columns == 0) return steps;
+  std::vector<MatrixXd> normals;
+  std::vector<VectorXd> gradients;
+  MatrixXd normal = MatrixXd::Zero(columns, columns);
+  VectorXd gradient = VectorXd::Zero(columns);
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    const auto rows = Eigen::seqN(record.block_begin(b), record.block_size(b));
+    const MatrixXd jacobian = fit.jacobian(rows, Eigen::all);
+    const VectorXd weight = fit.weight(rows);
+    normals.push_back(normal_matrix(jacobian, weight));
+    gradients.push_back(jacobian.transpose() * weight.cwiseProduct(fit.residual(rows)));
+    normal += normals.back();
+    gradient += gradients.back();
+  }
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    steps.col(static_cast<Index>(b)) =
+        solve_loaded(normal - normals[b], gradient - gradients[b], loading);
+  }
+  return steps;
+}
+
+}  // namespace
+
+Record::Record(const SelectionProblem& problem)
+    : problem_(problem), predicted_(problem.measured.size()) {
+  const std::size_t size = problem.measured.size();
+  if (problem.noise.size() != size || problem.block.size() != size) {
+    throw std::invalid_argument("measured, noise and block must have one element a row");
+  }
+  for (const UnnamedRegressor& regressor : problem.unnamed) {
+    if (regressor.column.size() != size) {
+      throw std::invalid_argument("the regressor \"" + regressor.shape +
+                                  "\" must have one element a row");
+    }
+  }
+  for (const std::vector<double>& column : problem.systematic) {
+    if (column.size() != size) {
+      throw std::invalid_argument("a systematic error must have one element a row");
+    }
+  }
+  for (const ParameterGroup& group : problem.groups) {
+    first_.push_back(parameters_.size());
+    for (const ModelParameter& p : group.parameters) {
+      if (!(p.lower <= p.neutral && p.neutral <= p.upper && p.lower <= p.start &&
+            p.start <= p.upper && p.scale > 0)) {
+        throw std::invalid_argument("a parameter of \"" + group.id +
+                                    "\" has its neutral or first value outside its bounds");
+      }
+      parameters_.push_back(p);
+    }
+  }
+
+  for (std::size_t i = 0; i < size; ++i) {
+    if (problem.block[i] >= 0) rows_.push_back(i);
+  }
+  std::stable_sort(rows_.begin(), rows_.end(), [&problem](std::size_t a, std::size_t b) {
+    return problem.block[a] < problem.block[b];
+  });
+  inverse_noise_.resize(rows());
+  for (Index i = 0; i < rows(); ++i) {
+    const std::size_t row = row_in_problem(i);
+    if (!(problem.noise[row] > 0)) throw std::invalid_argument("noise must be positive");
+    inverse_noise_[i] = 1 / problem.noise[row];
+    const bool first_of_block =
+        i == 0 || problem.block[row] != problem.block[row_in_problem(i - 1)];
+    if (first_of_block) block_begin_.push_back(i);
+  }
+  block_begin_.push_back(rows());
+  if (blocks() < fewest_blocks) {
+    throw std::invalid_argument("the record has too few blocks with readings in them");
+  }
+}
+
+void Record::residuals(const std::vector<double>& values, VectorXd& out) const {
+  problem_.predict(values, predicted_);
+  out.resize(rows());
+  for (Index i = 0; i < rows(); ++i) {
+    const std::size_t row = row_in_problem(i);
+    out[i] = (problem_.measured[row] - predicted_[row]) * inverse_noise_[i];
+  }
+}
+
+VectorXd Record::scaled_column(const std::vector<double>& column) const {
+  VectorXd out(rows());
+  for (Index i = 0; i < rows(); ++i) out[i] = column[row_in_problem(i)] * inverse_noise_[i];
+  return out;
+}
+
+BlockFit fit_blocks(const Record& record, const Freed& freed, std::vector<double> start) {
+  Minimum minimum = minimise(FreedModel(record, freed, std::move(start)), record);
+  const FreedModel& model = minimum.model;
+
+  BlockFit fit;
+  fit.freed = freed;
+  fit.values = model.values();
+  fit.coefficients = model.coefficients();
+  const VectorXd gradient =
+      minimum.jacobian.transpose() * minimum.weight.cwiseProduct(minimum.residual);
+  const std::vector<Index> kept = columns_not_held(model, gradient);
+  for (const Index k : kept) {
+    if (k < static_cast<Index>(model.free().size())) {
+      fit.active.push_back(model.free()[static_cast<std::size_t>(k)]);
+    }
+  }
+  fit.jacobian = minimum.jacobian(Eigen::all, kept);
+  fit.residual = std::move(minimum.residual);
+  fit.weight = std::move(minimum.weight);
+  fit.left_out = steps_without_blocks(fit, record);
+
+  fit.holdout_residual.resize(record.rows());
+  fit.block_error.resize(static_cast<Index>(record.blocks()));
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    const auto rows = Eigen::seqN(record.block_begin(b), record.block_size(b));
+    VectorXd held_out = fit.residual(rows);
+    if (fit.jacobian.cols() > 0) {
+      held_out -= fit.jacobian(rows, Eigen::all) * fit.left_out.col(static_cast<Index>(b));
+    }
+    fit.holdout_residual(rows) = held_out;
+    fit.block_error[static_cast<Index>(b)] = held_out.squaredNorm();
+  }
+  return fit;
+}
+
+MatrixXd group_slopes(const Record& record, std::size_t group, const std::vector<double>& values) {
+  const FreedModel model(record, {{group}, {}}, values);
+  VectorXd residual;
+  MatrixXd slopes;
+  model.residuals(residual);
+  model.jacobian(residual, slopes);
+  return slopes;
+}
+
+MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Index>& of) {
+  const auto blocks = static_cast<double>(fit.left_out.cols());
+  MatrixXd deviation = fit.left_out(of, Eigen::all);
+  deviation.colwise() -= deviation.rowwise().mean().eval();
+  return (blocks - 1) / blocks * deviation * deviation.transpose();
+}
+
+}  // namespace tethercalc

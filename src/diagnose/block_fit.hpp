@@ -1,0 +1,86 @@
+// Robust nonlinear least squares whose errors and held-out predictions come from leaving out
+// blocks.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+#include "tethercalc/diagnose/selection.hpp"
+
+namespace tethercalc {
+
+/// The rows of a SelectionProblem that belong to a block, divided by their noise, and ordered by
+/// block so that each block is a contiguous segment.
+class Record {
+ public:
+  /// Keeps references: `problem` must outlive it.
+  explicit Record(const SelectionProblem& problem);
+
+  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(rows_.size()); }
+  [[nodiscard]] std::size_t blocks() const { return block_begin_.size() - 1; }
+  [[nodiscard]] Eigen::Index block_begin(std::size_t b) const { return block_begin_[b]; }
+  [[nodiscard]] Eigen::Index block_size(std::size_t b) const {
+    return block_begin_[b + 1] - block_begin_[b];
+  }
+  [[nodiscard]] const std::vector<ModelParameter>& parameters() const { return parameters_; }
+  /// First parameter of a group.
+  [[nodiscard]] std::size_t first_parameter(std::size_t group) const { return first_[group]; }
+  [[nodiscard]] const SelectionProblem& problem() const { return problem_; }
+  [[nodiscard]] std::size_t row_in_problem(Eigen::Index i) const {
+    return rows_[static_cast<std::size_t>(i)];
+  }
+
+  /// (measured − predicted)/noise.
+  void residuals(const std::vector<double>& values, Eigen::VectorXd& out) const;
+  /// A column over the problem's rows, divided by the noise.
+  [[nodiscard]] Eigen::VectorXd scaled_column(const std::vector<double>& column) const;
+
+ private:
+  const SelectionProblem& problem_;
+  std::vector<ModelParameter> parameters_;
+  std::vector<std::size_t> first_;
+  std::vector<std::size_t> rows_;
+  std::vector<Eigen::Index> block_begin_;
+  Eigen::VectorXd inverse_noise_;
+  mutable std::vector<double> predicted_;
+};
+
+/// What is free in a fit.
+struct Freed {
+  std::vector<std::size_t> groups;   ///< indices into SelectionProblem::groups
+  std::vector<std::size_t> unnamed;  ///< regressors with a free coefficient each
+};
+
+/// A fit with everything that the selection asks of it. Columns of `jacobian` are the parameters
+/// that are free and not held at a bound, each over its scale, then the unnamed coefficients.
+struct BlockFit {
+  Freed freed;
+  std::vector<double> values;       ///< all parameters
+  Eigen::VectorXd coefficients;     ///< of the unnamed regressors
+  std::vector<std::size_t> active;  ///< parameter of each leading column of the jacobian
+  Eigen::MatrixXd jacobian;         ///< of the prediction
+  Eigen::VectorXd residual;         ///< in sample
+  Eigen::VectorXd weight;           ///< robustness weights in (0, 1]
+  Eigen::MatrixXd left_out;  ///< change of the jacobian's parameters without block b: column b
+  Eigen::VectorXd holdout_residual;
+  Eigen::VectorXd block_error;  ///< held-out sum of squares, one a block
+
+  [[nodiscard]] double squared_error() const { return block_error.sum(); }
+};
+
+/// Levenberg–Marquardt on Huber's loss from `start` (all parameters; those not freed must be
+/// neutral), then one Gauss–Newton step a block for the fits without it.
+[[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed,
+                                  std::vector<double> start);
+
+/// Slopes of the prediction by the parameters of `group` over their scales, at `values`.
+[[nodiscard]] Eigen::MatrixXd group_slopes(const Record& record, std::size_t group,
+                                           const std::vector<double>& values);
+
+/// Covariance of the parameters `of` (columns of the jacobian) by the delete-a-block jackknife.
+[[nodiscard]] Eigen::MatrixXd jackknife_covariance(const BlockFit& fit,
+                                                   const std::vector<Eigen::Index>& of);
+
+}  // namespace tethercalc

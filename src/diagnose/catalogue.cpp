@@ -1,0 +1,246 @@
+// The catalogue: one entry an effect. Adding an effect is adding an entry.
+#include "tethercalc/diagnose/catalogue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/power_effects.hpp"
+#include "tethercalc/diagnose/flight_prediction.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Values = std::span<const double>;
+
+/// The tilt `delay` s later than each sample, by Lagrange's cubic through the four nearest samples:
+/// a straight line between two would average their noise and so seem to explain something.
+void shift_tilt(FlightPrediction& p, double delay) {
+  const std::vector<double>& time = p.record.time;
+  const std::size_t size = time.size();
+  if (size < 4) return;
+  const std::vector<double> logged = p.tilt;
+  std::size_t k = 0;  // time[k] is the last at or before the wanted time, as far as there is one
+  for (std::size_t i = 0; i < size; ++i) {
+    const double wanted = std::clamp(time[i] + delay, time.front(), time.back());
+    while (k + 2 < size && time[k + 1] <= wanted) ++k;
+    const std::size_t first = std::min(k == 0 ? 0 : k - 1, size - 4);
+    double value = 0;
+    for (std::size_t a = first; a < first + 4; ++a) {
+      double basis = 1;
+      for (std::size_t b = first; b < first + 4; ++b) {
+        if (b != a) basis *= (wanted - time[b]) / (time[a] - time[b]);
+      }
+      value += basis * logged[a];
+    }
+    p.tilt[i] = value;
+  }
+}
+
+std::vector<Effect> flight_effects() {
+  std::vector<Effect> effects;
+
+  effects.push_back(
+      {.id = "attitude_delay",
+       .title = "Attitude logged late",
+       .mechanism = "The logged attitude lags behind the logged velocity (estimator filter, clock "
+                    "offset between channels), so thrust seems to act before the drone tilts.",
+       .parameters =
+           {{.name = "attitude_delay_s", .unit = "s", .lower = -0.5, .upper = 0.5, .scale = 0.05}},
+       .to_separate = "fly quick reversals of pitch at low speed, where drag is small and only the "
+                      "timing of the thrust matters",
+       .change = "θ(t) → θ(t + τ)",
+       .flight_phase = FlightPhase::attitude,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         if (x[0] != 0) shift_tilt(p, x[0]);
+       }});
+
+  effects.push_back(
+      {.id = "pitch_trim",
+       .title = "Pitch offset of the attitude estimate",
+       .mechanism = "The estimator reads this pitch when the thrust points straight up, so a "
+                    "constant sideways part of the thrust is missed or invented.",
+       .parameters = {{.name = "pitch_trim_deg",
+                       .unit = "deg",
+                       .unit_SI = unit::degree,
+                       .lower = -20,
+                       .upper = 20,
+                       .scale = 0.5}},
+       .to_separate =
+           "hover through all headings in still air: the mean pitch is the offset, a wind "
+           "averages out",
+       .change = "θ → θ + trim (pitch positive nose-up, θ positive leaning forward)",
+       .flight_phase = FlightPhase::attitude,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         for (double& tilt : p.tilt) tilt += x[0];
+       }});
+
+  effects.push_back(
+      {.id = "linear_drag",
+       .title = "Drag in proportion to speed",
+       .mechanism =
+           "Propellers in a cross-flow lose momentum in proportion to the airspeed (induced "
+           "drag), beside the quadratic drag of the body.",
+       .parameters = {{.name = "linear_m_s",
+                       .unit = "m/s",
+                       .lower = 0,
+                       .upper = 1000,
+                       .scale = 5,
+                       .spec_field = "drone.drag.linear_m_s"}},
+       .to_separate = "fly at speeds from a walk to the fastest, so that linear and quadratic drag "
+                      "part",
+       .change = "F_D: u|u| → u|u| + j·u",
+       .flight_phase = FlightPhase::air,
+       .on_flight = [](FlightPrediction& p, Values x) { p.linear_speed += x[0]; }});
+
+  effects.push_back(
+      {.id = "wind",
+       .title = "Steady wind along the flight axis",
+       .mechanism =
+           "The air moves along the forward axis, so airspeed differs from the logged speed "
+           "over ground.",
+       .parameters = {{.name = "wind_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .to_separate = "fly the same passes at the opposite heading: a wind changes its sign, what "
+                      "belongs to the drone does not",
+       .change = "u = v − w",
+       .flight_phase = FlightPhase::air,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         for (double& headwind : p.headwind) headwind += x[0];
+       }});
+
+  effects.push_back(
+      {.id = "turning_wind",
+       .title = "Wind fixed in the world while the drone turns",
+       .mechanism = "The wind keeps its direction over ground, so its part along the forward axis "
+                    "changes whenever the yaw does.",
+       .parameters =
+           {{.name = "wind_north_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
+            {.name = "wind_east_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .to_separate = "fly passes at four headings, a quarter turn apart",
+       .change = "u = v − (w_N cos ψ + w_E sin ψ), ψ the yaw",
+       .replaces = "wind",
+       .flight_phase = FlightPhase::air,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         if (x[0] == 0 && x[1] == 0) return;
+         for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+           const double yaw = p.record.yaw[i];
+           p.headwind[i] += x[0] * std::cos(yaw) + x[1] * std::sin(yaw);
+         }
+       }});
+
+  effects.push_back(
+      {.id = "wind_drift",
+       .title = "Wind that changes steadily during the flight",
+       .mechanism =
+           "The wind along the forward axis rises or falls from the beginning of the flight "
+           "to its end.",
+       .parameters =
+           {{.name = "wind_drift_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .to_separate = "repeat the first passes at the end of the flight",
+       .change = "w → w + d·(t − t_middle)/duration: d is the change over the whole flight",
+       .flight_phase = FlightPhase::air,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         const double rate = p.record.duration > 0 ? x[0] / p.record.duration : 0;
+         for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+           p.headwind[i] += rate * (p.record.time[i] - p.record.middle_time);
+         }
+       }});
+
+  effects.push_back(
+      {.id = "fore_aft_asymmetry",
+       .title = "Different drag forward and backward",
+       .mechanism = "The airframe is not symmetric: at the same airspeed, drag flying forward is "
+                    "(1 + a)/(1 − a) times that flying backward.",
+       .parameters = {{.name = "fore_aft_asymmetry",
+                       .unit = "1",
+                       .lower = -0.95,
+                       .upper = 0.95,
+                       .scale = 0.05,
+                       .spec_field = "drone.drag.fore_aft_asymmetry"}},
+       .to_separate =
+           "fly the same passes at the opposite heading, and slow ones as well as fast "
+           "ones: a wind changes its sign, an offset of the pitch does not grow with speed",
+       .change = "F_D → F_D·(1 + a·sign u)",
+       .flight_phase = FlightPhase::force,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         for (std::size_t i = 0; i < p.drag.size(); ++i) {
+           p.drag[i] *= 1 + (p.airspeed[i] > 0 ? x[0] : -x[0]);
+         }
+       }});
+
+  effects.push_back(
+      {.id = "propwash",
+       .title = "Propwash while braking",
+       .mechanism = "Leaning against the motion, the drone flies into the turbulent air of its own "
+                    "propellers, which changes the drag with speed and tilt.",
+       .parameters =
+           {{.name = "propwash", .unit = "N·s/(m·rad)", .lower = -5, .upper = 5, .scale = 0.1}},
+       .to_separate = "brake at the same speed with different tilts",
+       .change = "F_D → F_D − k·u·|θ| while u·θ < 0",
+       .flight_phase = FlightPhase::force,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         for (std::size_t i = 0; i < p.drag.size(); ++i) {
+           const double against = -p.airspeed[i] * p.tilt[i];
+           if (against > 0) p.drag[i] -= x[0] * p.airspeed[i] * std::abs(p.tilt[i]);
+         }
+       }});
+
+  effects.push_back(
+      {.id = "vertical_coupling",
+       .title = "Drag that depends on climbing and sinking",
+       .mechanism = "Flow through the propellers from below or above changes the force they feel "
+                    "from the side.",
+       .parameters = {{.name = "vertical_coupling",
+                       .unit = "N·s²/m²",
+                       .lower = -2,
+                       .upper = 2,
+                       .scale = 0.05}},
+       .needs = {"vd_m_s"},
+       .to_separate = "climb and sink at constant forward speed",
+       .change = "F_D → F_D + c·u·v_D",
+       .flight_phase = FlightPhase::force,
+       .on_flight = [](FlightPrediction& p, Values x) {
+         for (std::size_t i = 0; i < p.drag.size(); ++i) {
+           p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
+         }
+       }});
+  return effects;
+}
+
+std::vector<Effect> all_effects() {
+  std::vector<Effect> effects = flight_effects();
+  for (Effect& effect : power_effects()) effects.push_back(std::move(effect));
+  return effects;
+}
+
+}  // namespace
+
+std::span<const Effect> effect_catalogue() {
+  static const std::vector<Effect> effects = all_effects();
+  return effects;
+}
+
+const Effect* find_effect(std::string_view id) {
+  const auto effects = effect_catalogue();
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [id](const Effect& effect) { return effect.id == id; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
+std::string_view to_string(Stage stage) {
+  switch (stage) {
+    case Stage::supply:
+      return "supply";
+    case Stage::tether:
+      return "tether";
+    case Stage::converter:
+      return "converter";
+    case Stage::motors:
+      return "motors";
+    case Stage::airframe:
+      return "airframe";
+  }
+  return "";
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,104 @@
+#include "diagnose/flight_log_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tethercalc {
+namespace {
+
+constexpr double spike_bound = 10;
+/// A spike stands out from the line between its neighbours; on a flank or at a corner of honest
+/// motion the neighbours differ by as much.
+constexpr double spike_over_slope = 2;
+/// Seconds of one and the same value. An estimator at 10 Hz with two decimals repeats itself two or
+/// three times in calm flight.
+constexpr double stuck_after = 1.0;
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
+                          std::vector<bool>& bad) {
+  if (range.size() < 3) return 0;
+  const auto between = [&series](std::size_t i) { return (series[i - 1] + series[i + 1]) / 2; };
+  std::vector<double> deviation;
+  for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
+    deviation.push_back(std::abs(series[i] - between(i)));
+  }
+  const double bound = spike_bound * median_of(deviation);
+  std::size_t count = 0;
+  for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
+    const double slope = std::abs(series[i + 1] - series[i - 1]);
+    if (deviation[i - range.first - 1] <= std::max(bound, spike_over_slope * slope)) continue;
+    series[i] = between(i);
+    bad[i] = true;
+    ++count;
+  }
+  return count;
+}
+
+bool constant(const std::vector<double>& series, const SampleRange& range) {
+  const auto begin = series.begin() + static_cast<std::ptrdiff_t>(range.first);
+  const auto end = series.begin() + static_cast<std::ptrdiff_t>(range.last);
+  return std::all_of(begin, end, [begin](double value) { return value == *begin; });
+}
+
+/// Seconds for which the series repeats itself for `stuck_after` or longer at a time.
+double mark_stuck(const std::vector<double>& series, const std::vector<double>& time,
+                  const SampleRange& range, std::vector<bool>& bad) {
+  double total = 0;
+  for (std::size_t i = range.first; i < range.last;) {
+    std::size_t last = i;
+    while (last + 1 < range.last && series[last + 1] == series[i]) ++last;
+    const double duration = time[last] - time[i];
+    if (duration >= stuck_after) {
+      std::fill(bad.begin() + static_cast<std::ptrdiff_t>(i),
+                bad.begin() + static_cast<std::ptrdiff_t>(last) + 1, true);
+      total += duration;
+    }
+    i = last + 1;
+  }
+  return total;
+}
+
+}  // namespace
+
+LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
+  LogFaults faults;
+  faults.sample.assign(log.time.size(), false);
+  faults.level_assumed = constant(log.roll, range);
+  faults.height_unknown = constant(log.down_velocity, range);
+
+  struct Channel {
+    const char* name;
+    std::vector<double>& series;
+  };
+  const std::array<Channel, 5> channels{{{"roll", log.roll},
+                                         {"pitch", log.pitch},
+                                         {"north velocity", log.north_velocity},
+                                         {"east velocity", log.east_velocity},
+                                         {"down velocity", log.down_velocity}}};
+  for (const Channel& channel : channels) {
+    if (constant(channel.series, range)) continue;
+    if (const std::size_t spikes = repair_spikes(channel.series, range, faults.sample)) {
+      faults.notes.push_back(fmt::format("{} of {} samples left out: spikes in the {}", spikes,
+                                         range.size(), channel.name));
+    }
+    const double stuck = mark_stuck(channel.series, log.time, range, faults.sample);
+    if (stuck > 0) {
+      faults.notes.push_back(
+          fmt::format("{:.1f} s left out: the {} repeats one value there, as if its sensor were "
+                      "stuck",
+                      stuck, channel.name));
+    }
+  }
+  return faults;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,440 @@
+#include "tethercalc/diagnose/power_diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "diagnose/power_effects.hpp"
+#include "diagnose/power_shapes.hpp"
+#include "diagnose/subset_selection.hpp"
+#include "tethercalc/diagnose/power_residuals.hpp"
+
+namespace tethercalc {
+namespace {
+
+/// Stretches of the log that are left out one at a time. Long against the seconds that the motors'
+/// deviation lasts, short against the minutes at one height.
+constexpr double shortest_block = 30;  // s
+constexpr std::size_t most_blocks = 24;
+/// Of a false name in the whole catalogue, were the noise known exactly. Its memory is estimated
+/// from some 200 rows, which makes the tails heavier; measured rates stand in
+/// docs/diagnosis-power.md.
+constexpr double false_alarm_probability = 0.002;
+
+void check_lengths(const PowerLog& log) {
+  const std::size_t n = log.time.size();
+  const auto mandatory = {&log.height, &log.airspeed, &log.supply_voltage, &log.supply_current};
+  const auto optional = {&log.ambient_temperature_C, &log.drone_voltage, &log.bus_voltage,
+                         &log.bus_current};
+  const auto fits = [n](const std::vector<double>* x) { return x->size() == n; };
+  if (!std::all_of(mandatory.begin(), mandatory.end(), fits) ||
+      !std::all_of(optional.begin(), optional.end(),
+                   [&](const std::vector<double>* x) { return x->empty() || fits(x); })) {
+    throw std::invalid_argument("the channels of a power log must be equally long");
+  }
+}
+
+bool has_channel(const PowerLog& log, const std::string& name) {
+  if (name == "drone_voltage_V") return !log.drone_voltage.empty();
+  if (name == "bus_voltage_V") return !log.bus_voltage.empty();
+  if (name == "bus_current_A") return !log.bus_current.empty();
+  if (name == "ambient_temperature_C") return !log.ambient_temperature_C.empty();
+  return true;
+}
+
+/// Channels that the effect needs and the log lacks, "" where none.
+std::string lacking(const Effect& effect, const PowerLog& log) {
+  std::string names;
+  for (const std::string& need : effect.needs) {
+    if (has_channel(log, need)) continue;
+    if (!names.empty()) names += ", ";
+    names += need;
+  }
+  return names;
+}
+
+bool acts_on(const Effect& effect, Stage compared) {
+  switch (effect.stage) {
+    case Stage::supply:
+      return compared == Stage::tether || compared == Stage::converter;
+    case Stage::airframe:
+      return compared == Stage::motors;
+    default:
+      return compared == effect.stage;
+  }
+}
+
+ModelParameter in_SI(const EffectParameter& p, double start, bool shape_only) {
+  ModelParameter m;
+  m.neutral = p.neutral * p.unit_SI;
+  m.lower = p.lower * p.unit_SI;
+  m.upper = p.upper * p.unit_SI;
+  m.scale = p.scale * p.unit_SI;
+  m.start = std::clamp(start, m.lower, m.upper);
+  m.shape_only = shape_only;
+  return m;
+}
+
+ParameterGroup group_of(const Effect& effect, bool in_base) {
+  ParameterGroup group;
+  group.id = effect.id;
+  group.role = in_base ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& p = effect.parameters[k];
+    const bool first = k == 0;
+    // The size of an effect starts one scale from neutral, what shapes it at its typical value.
+    const double start = first ? p.neutral + p.scale : p.neutral;
+    const bool shapes = !first && effect.id != "converter_efficiency_curve";
+    group.parameters.push_back(in_SI(p, start * p.unit_SI, shapes));
+  }
+  return group;
+}
+
+/// The search's view of a log: rows of all stages, their memory taken out.
+class PowerProblem {
+ public:
+  PowerProblem(const PowerModel& base, const PowerResiduals& residuals,
+               std::vector<const Effect*> effects)
+      : base_(base),
+        residuals_(residuals),
+        effects_(std::move(effects)),
+        cache_(residuals.stages().size()) {
+    std::size_t first = 0;
+    for (const Effect* effect : effects_) {
+      first_.push_back(first);
+      first += effect->parameters.size();
+    }
+  }
+
+  /// The base model with every effect whose parameters differ from neutral.
+  [[nodiscard]] PowerModel model(std::span<const double> values,
+                                 const std::function<bool(const Effect&)>& wanted) const {
+    PowerModel changed = base_;
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      const Effect& effect = *effects_[e];
+      const auto own = values.subspan(first_[e], effect.parameters.size());
+      if (!wanted(effect) || is_neutral(effect, own)) continue;
+      effect.on_power(changed, own);
+    }
+    return changed;
+  }
+
+  /// Minus the whitened residual of every row. A stage whose effects have the values of the last
+  /// call is not computed again: slopes move one parameter at a time.
+  void predict(std::span<const double> values, std::span<double> out) {
+    const std::size_t n = residuals_.samples();
+    std::vector<double> standardised(n);
+    for (std::size_t k = 0; k < residuals_.stages().size(); ++k) {
+      const Stage stage = residuals_.stages()[k].stage;
+      std::vector<double> key;
+      for (std::size_t e = 0; e < effects_.size(); ++e) {
+        if (!acts_on(*effects_[e], stage)) continue;
+        const auto own = values.subspan(first_[e], effects_[e]->parameters.size());
+        key.insert(key.end(), own.begin(), own.end());
+      }
+      Cached& last = cache_[k];
+      if (last.rows.empty() || last.key != key) {
+        const PowerModel m =
+            model(values, [stage](const Effect& effect) { return acts_on(effect, stage); });
+        residuals_.standardised(k, m, standardised);
+        last.key = std::move(key);
+        last.rows.resize(residuals_.stages()[k].rows);
+        residuals_.whitened(k, standardised, last.rows);
+        // A tilt beyond the limit has no power: far off, but finite.
+        for (double& r : last.rows) {
+          if (!std::isfinite(r)) r = 1e3;
+        }
+      }
+      std::transform(last.rows.begin(), last.rows.end(),
+                     out.begin() + static_cast<std::ptrdiff_t>(residuals_.stages()[k].first_row),
+                     std::negate<>());
+    }
+  }
+
+  [[nodiscard]] std::size_t first_parameter(std::size_t e) const { return first_[e]; }
+
+ private:
+  static bool is_neutral(const Effect& effect, std::span<const double> own) {
+    // The first parameters are sizes; with them neutral the others change nothing.
+    const std::size_t sizes = effect.id == "converter_efficiency_curve" ? 2 : 1;
+    for (std::size_t k = 0; k < sizes; ++k) {
+      if (own[k] != effect.parameters[k].neutral * effect.parameters[k].unit_SI) return false;
+    }
+    return true;
+  }
+
+  struct Cached {
+    std::vector<double> key;
+    std::vector<double> rows;
+  };
+  const PowerModel& base_;
+  const PowerResiduals& residuals_;
+  std::vector<const Effect*> effects_;
+  std::vector<std::size_t> first_;
+  std::vector<Cached> cache_;
+};
+
+/// Equal stretches of time.
+std::size_t block_count(double duration) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(duration / shortest_block), fewest_blocks,
+                                 most_blocks);
+}
+
+int block_at(const PowerLog& log, std::size_t sample) {
+  const double duration = log.time.back() - log.time.front();
+  const std::size_t blocks = block_count(duration);
+  const double share = (log.time[sample] - log.time.front()) / duration;
+  return static_cast<int>(
+      std::min(blocks - 1, static_cast<std::size_t>(share * static_cast<double>(blocks))));
+}
+
+/// Block of every row; −1 for rows that are not used.
+std::vector<int> blocks_of(const PowerResiduals& residuals) {
+  std::vector<int> block;
+  block.reserve(residuals.rows());
+  for (const PowerStage& stage : residuals.stages()) {
+    for (std::size_t row = 0; row < stage.rows; ++row) {
+      const bool used = stage.usable_rows[row] && row >= stage.memory.size();
+      block.push_back(used ? block_at(residuals.log(), row * stage.samples_per_row) : -1);
+    }
+  }
+  return block;
+}
+
+/// The motor stage shares no effect with the others; the ammeter's gain acts on tether and
+/// converter.
+std::vector<SelectionPart> parts_of(const PowerResiduals& residuals,
+                                    const std::vector<const Effect*>& effects) {
+  SelectionPart motors{std::vector<char>(residuals.rows(), 0), {}};
+  SelectionPart line{std::vector<char>(residuals.rows(), 0), {}};
+  for (const PowerStage& stage : residuals.stages()) {
+    SelectionPart& part = stage.stage == Stage::motors ? motors : line;
+    const auto first = part.rows.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+    std::fill(first, first + static_cast<std::ptrdiff_t>(stage.rows), char{1});
+  }
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    (acts_on(*effects[e], Stage::motors) ? motors : line).groups.push_back(e);
+  }
+  std::vector<SelectionPart> parts;
+  for (SelectionPart& part : {std::ref(line), std::ref(motors)}) {
+    if (std::count(part.rows.begin(), part.rows.end(), char{1}) > 0) parts.push_back(part);
+  }
+  return parts;
+}
+
+std::vector<ParameterEstimate> estimates(const Effect& effect, std::size_t first,
+                                         const ModelFit& fit, double student_factor) {
+  std::vector<ParameterEstimate> result;
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& p = effect.parameters[k];
+    const double value = fit.values[first + k] / p.unit_SI;
+    const double half = student_factor * fit.standard_error[first + k] / p.unit_SI;
+    result.push_back(
+        {p.name, value, p.unit, std::max(value - half, p.lower), std::min(value + half, p.upper)});
+  }
+  return result;
+}
+
+/// Root mean square of a stage's held-out residuals in its own unit, its noise's memory included.
+double stage_rmse(const PowerResiduals& residuals, std::size_t k, const ModelFit& fit,
+                  const std::function<PowerModel(std::span<const double>)>& model) {
+  const std::size_t n = residuals.samples();
+  const PowerStage& stage = residuals.stages()[k];
+  std::vector<double> r(n);
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < fit.without_block.size(); ++b) {
+    residuals.standardised(k, model(fit.without_block[b]), r);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!stage.usable[i] || block_at(residuals.log(), i) != static_cast<int>(b) ||
+          !std::isfinite(r[i])) {
+        continue;
+      }
+      sum += r[i] * r[i];
+      ++count;
+    }
+  }
+  const double percent = stage.stage == Stage::motors ? 100 : 1;
+  return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
+}
+
+/// Parts of the base model's held-out squared error.
+ErrorBudget error_budget(const Selection& selection) {
+  const auto square = [](double x) { return x * x; };
+  const double whole = square(selection.base.holdout_rmse);
+  ErrorBudget budget;
+  for (const SelectedGroup& found : selection.selected) {
+    budget.findings.push_back(100 * (square(found.rmse_before) - square(found.rmse_after)) / whole);
+  }
+  const double complete = square(selection.complete.holdout_rmse);
+  budget.unexplained = 100 * (square(selection.extended.holdout_rmse) - complete) / whole;
+  budget.noise = 100 * complete / whole;
+  return budget;
+}
+
+FlownRange flown_range(const PowerLog& log, const Design& design) {
+  FlownRange range;
+  range.airspeed = airspeed(design, design.requirements.power_at);
+  const auto n = static_cast<double>(log.time.size());
+  double square = 0;
+  for (const double i : log.supply_current) square += i * i;
+  range.current = std::sqrt(square / n);
+  range.ambient_temperature_C = design.tether.conductor_temperature_C;
+  if (!log.ambient_temperature_C.empty()) {
+    range.ambient_temperature_C = 0;
+    for (const double t : log.ambient_temperature_C) range.ambient_temperature_C += t / n;
+  }
+  if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
+    std::vector<double> power;
+    for (std::size_t i = 0; i < log.time.size(); ++i) {
+      power.push_back(log.bus_voltage[i] * log.bus_current[i]);
+    }
+    std::sort(power.begin(), power.end());
+    range.lowest_output = power[power.size() / 100];
+    range.highest_output = power[power.size() - 1 - power.size() / 100];
+  }
+  return range;
+}
+
+}  // namespace
+
+PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
+                              std::span<const std::string> base_effects,
+                              const SelectionProgress& progress) {
+  check_lengths(log);
+  if (!design.tether.cross_section) {
+    throw std::invalid_argument(
+        "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
+  }
+  const std::vector<Effect> catalogue = power_effects();
+  const auto in_base = [&](const Effect& effect) {
+    return std::find(base_effects.begin(), base_effects.end(), effect.id) != base_effects.end();
+  };
+  for (const std::string& id : base_effects) {
+    if (std::none_of(catalogue.begin(), catalogue.end(),
+                     [&](const Effect& effect) { return effect.id == id; })) {
+      throw std::invalid_argument("\"" + id + "\" is not an effect of power logs");
+    }
+  }
+
+  PowerDiagnosis result{{}, design};
+  Diagnosis& diagnosis = result.diagnosis;
+  diagnosis.kind = "power";
+  diagnosis.unit = "standard deviations of the noise";
+  diagnosis.quantity = "voltage lost in the tether, converter input, motor power";
+  diagnosis.samples = log.time.size();
+
+  const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
+  if (duration < shortest_power_log || log.time.size() < 100) {
+    const std::string needs =
+        fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
+                    shortest_power_log, duration, log.time.size());
+    for (const Effect& effect : catalogue) diagnosis.not_testable.push_back({effect.id, needs});
+    diagnosis.notes.push_back("the log is too short to judge");
+    return result;
+  }
+
+  if (progress) progress("screening the instruments");
+  const PowerModel base{design, {}, {}, 1};
+  ScreenedPowerLog screened = screen_power_log(base, log);
+  diagnosis.notes = screened.notes;
+  const PowerResiduals residuals(base, std::move(screened));
+
+  std::vector<const Effect*> effects;
+  for (const Effect& effect : catalogue) {
+    const std::string needs = lacking(effect, residuals.log());
+    if (needs.empty()) {
+      effects.push_back(&effect);
+    } else {
+      diagnosis.not_testable.push_back({effect.id, needs});
+    }
+  }
+  if (residuals.stages().empty()) return result;
+
+  PowerProblem view(base, residuals, effects);
+  SelectionProblem problem;
+  for (const Effect* effect : effects)
+    problem.groups.push_back(group_of(*effect, in_base(*effect)));
+  problem.predict = [&view](std::span<const double> values, std::span<double> out) {
+    view.predict(values, out);
+  };
+  problem.measured.assign(residuals.rows(), 0);
+  problem.noise.assign(residuals.rows(), 1);
+  problem.block = blocks_of(residuals);
+  problem.unnamed = power_shapes(residuals);
+
+  SelectionOptions options;
+  options.false_alarm_probability = false_alarm_probability;
+  const std::vector<SelectionPart> parts = parts_of(residuals, effects);
+  Selection selection = select_subset(problem, parts, options, progress);
+  // A step must stand where it happened, or names are sought for the stretch between.
+  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
+    selection = select_subset(problem, parts, options, progress);
+  }
+
+  diagnosis.samples = residuals.samples();
+  diagnosis.effective_samples = static_cast<double>(selection.rows);
+  diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
+  diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (!in_base(*effects[e])) continue;
+    for (ParameterEstimate& p : estimates(*effects[e], view.first_parameter(e), selection.base,
+                                          selection.student_factor)) {
+      diagnosis.base.parameters.push_back(std::move(p));
+    }
+  }
+  for (const SelectedGroup& found : selection.selected) {
+    const Effect& effect = *effects[found.group];
+    Finding finding;
+    finding.effect = effect.id;
+    finding.title = effect.title;
+    finding.mechanism = effect.mechanism;
+    finding.stage = to_string(effect.stage);
+    finding.parameters = estimates(effect, view.first_parameter(found.group), selection.complete,
+                                   selection.student_factor);
+    finding.holdout_rmse_before = found.rmse_before;
+    finding.holdout_rmse_after = found.rmse_after;
+    finding.gain_percent = found.gain_percent;
+    finding.gain_se_percent = found.gain_se_percent;
+    for (const std::size_t g : found.indistinguishable) {
+      finding.indistinguishable_from.push_back(effects[g]->id);
+    }
+    if (!finding.indistinguishable_from.empty()) finding.to_separate = effect.to_separate;
+    for (const ParameterEstimate& p : finding.parameters) {
+      diagnosis.extended.parameters.push_back(p);
+    }
+    diagnosis.findings.push_back(std::move(finding));
+  }
+  for (const Selection::Aliased& aliased : selection.aliased) {
+    std::string because = "in this log it changes nothing that can be told apart";
+    for (std::size_t k = 0; k < aliased.with.size(); ++k) {
+      because += (k == 0 ? " from " : ", ") + effects[aliased.with[k]]->id;
+    }
+    diagnosis.not_identifiable.push_back({effects[aliased.group]->id, because});
+  }
+  const auto everything = [](const Effect&) { return true; };
+  const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
+  diagnosis.budget = error_budget(selection);
+  if (!selection.unnamed.regressors.empty()) {
+    const UnnamedRegressor& strongest = problem.unnamed[selection.unnamed.regressors.front()];
+    diagnosis.unexplained.detected = true;
+    diagnosis.unexplained.channels = selection.unnamed.channels;
+    diagnosis.unexplained.share_percent = selection.unnamed.share_percent;
+    diagnosis.unexplained.shape = strongest.shape;
+    diagnosis.unexplained.regressor = strongest.shape;
+  }
+  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
+    const PowerStage& stage = residuals.stages()[k];
+    diagnosis.further.push_back({stage.quantity, stage.unit,
+                                 stage_rmse(residuals, k, selection.base, model),
+                                 stage_rmse(residuals, k, selection.extended, model)});
+  }
+  result.extended =
+      lasting_design(model(selection.extended.values), flown_range(residuals.log(), design));
+  return result;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,382 @@
+#include "tethercalc/diagnose/power_residuals.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace tethercalc {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Standard deviation of normal noise with few outliers, from the median absolute value.
+double robust_deviation(const std::vector<double>& x, const std::vector<char>& usable) {
+  std::vector<double> size;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (usable[i]) size.push_back(std::abs(x[i]));
+  }
+  return 1.4826 * median(std::move(size));
+}
+
+/// Third differences of samples i … i+3, scaled to keep the variance of white noise; slow signals
+/// vanish in them.
+double third_difference(const std::vector<double>& x, std::size_t i) {
+  return (x[i + 3] - 3 * x[i + 2] + 3 * x[i + 1] - x[i]) / std::sqrt(20.0);
+}
+
+/// Height with its noise averaged out where the drone keeps it: over 81 samples, wherever both
+/// halves of them have the same mean within noise. Elsewhere as read. Without this a model in which
+/// height does not matter would seem to explain more, since it is spared the altimeter's noise.
+std::vector<double> steadied(const std::vector<double>& x) {
+  constexpr std::size_t half = 40;
+  const std::size_t n = x.size();
+  if (n < 2 * half + 1) return x;
+  std::vector<double> step(n - 1);
+  for (std::size_t i = 1; i < n; ++i) step[i - 1] = std::abs(x[i] - x[i - 1]);
+  const double noise = 1.4826 * median(step) / std::sqrt(2.0);
+  std::vector<double> sum(n + 1, 0);
+  std::partial_sum(x.begin(), x.end(), sum.begin() + 1);
+  const double limit = 3 * noise * std::sqrt(2.0 / half);
+  std::vector<double> result = x;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t middle = std::clamp(i, half, n - half - 1);
+    const double before = (sum[middle] - sum[middle - half]) / half;
+    const double after = (sum[middle + half + 1] - sum[middle + 1]) / half;
+    const double mean = (sum[middle + half + 1] - sum[middle - half]) / (2 * half + 1);
+    if (std::abs(after - before) <= limit && std::abs(x[i] - mean) <= 5 * noise) result[i] = mean;
+  }
+  return result;
+}
+
+/// Smooth shapes that any of the effects, named or not, may leave in a stage: slow waves in time
+/// together with low powers of height and airspeed; for the tether multiplied with the current, for
+/// the converter joined by its load.
+Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
+                              const std::vector<double>& bus_power) {
+  constexpr int waves = 6;
+  const auto n = static_cast<Eigen::Index>(log.time.size());
+  std::vector<Eigen::VectorXd> columns;
+  const Eigen::Map<const Eigen::ArrayXd> h(log.height.data(), n);
+  const Eigen::Map<const Eigen::ArrayXd> v(log.airspeed.data(), n);
+  const Eigen::Map<const Eigen::ArrayXd> current(log.supply_current.data(), n);
+  const Eigen::ArrayXd height = h / 10;
+  const Eigen::ArrayXd speed = v / 5;
+  columns.emplace_back(Eigen::VectorXd::Ones(n));
+  for (const Eigen::ArrayXd& x :
+       {Eigen::ArrayXd(height), Eigen::ArrayXd(height.square()), Eigen::ArrayXd(speed),
+        Eigen::ArrayXd(speed.square()), Eigen::ArrayXd(speed.cube()),
+        Eigen::ArrayXd(height * speed), Eigen::ArrayXd(height * speed.square())}) {
+    columns.emplace_back(x.matrix());
+  }
+  const double duration = log.time.back() - log.time.front();
+  for (int k = 1; k <= waves; ++k) {
+    Eigen::VectorXd wave(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      wave[i] = std::cos(std::numbers::pi * k *
+                         (log.time[static_cast<std::size_t>(i)] - log.time.front()) / duration);
+    }
+    columns.push_back(wave);
+    if (stage == Stage::tether) columns.emplace_back((wave.array() * height).matrix());
+  }
+  if (stage == Stage::tether) {
+    for (Eigen::VectorXd& column : columns) column.array() *= current;
+  }
+  if (stage == Stage::converter) {
+    const Eigen::Map<const Eigen::ArrayXd> power(bus_power.data(), n);
+    columns.emplace_back((power / 300).matrix());
+    columns.emplace_back((power / 300).square().matrix());
+  }
+  Eigen::MatrixXd shapes(n, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    shapes.col(static_cast<Eigen::Index>(c)) = columns[c];
+  }
+  return shapes;
+}
+
+/// What `shapes` leave of `x` by least squares over usable rows; 0 in the others.
+std::vector<double> without_shapes(const Eigen::MatrixXd& shapes, const std::vector<double>& x,
+                                   const std::vector<char>& usable) {
+  Eigen::MatrixXd used = shapes;
+  Eigen::VectorXd target(shapes.rows());
+  for (Eigen::Index i = 0; i < shapes.rows(); ++i) {
+    const bool ok = usable[static_cast<std::size_t>(i)];
+    target[i] = ok ? x[static_cast<std::size_t>(i)] : 0;
+    if (!ok) used.row(i).setZero();
+  }
+  // Heights or airspeeds that never change make columns equal: the decomposition must bear that.
+  const Eigen::MatrixXd normal = used.transpose() * used;
+  const Eigen::VectorXd fit =
+      used * normal.completeOrthogonalDecomposition().solve(used.transpose() * target);
+  std::vector<double> rest(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    rest[i] = target[static_cast<Eigen::Index>(i)] - fit[static_cast<Eigen::Index>(i)];
+  }
+  return rest;
+}
+
+/// Autoregression by Levinson and Durbin's recursion; its order has the least BIC (Schwarz 1978).
+struct Autoregression {
+  std::vector<double> memory;
+  double innovation = 1;  ///< standard deviation of the white part over that of `x`
+};
+
+Autoregression autoregression(const std::vector<double>& x, const std::vector<char>& usable) {
+  constexpr std::size_t largest_order = 20;
+  const std::size_t orders = std::min(largest_order, x.size() / 20);
+  std::vector<double> covariance(orders + 1, 0);
+  std::size_t count = 0;
+  for (std::size_t lag = 0; lag <= orders; ++lag) {
+    double sum = 0;
+    std::size_t pairs = 0;
+    for (std::size_t i = lag; i < x.size(); ++i) {
+      if (!usable[i] || !usable[i - lag]) continue;
+      sum += x[i] * x[i - lag];
+      ++pairs;
+    }
+    if (lag == 0) count = pairs;
+    // Dividing by all usable samples keeps the sequence positive definite.
+    covariance[lag] = count > 0 ? sum / static_cast<double>(count) : 0;
+  }
+  Autoregression best;
+  if (!(covariance[0] > 0)) return best;
+  std::vector<double> phi;
+  double variance = 1;
+  double best_criterion = 0;
+  const auto samples = static_cast<double>(count);
+  for (std::size_t order = 1; order <= orders; ++order) {
+    double reflected = covariance[order] / covariance[0];
+    for (std::size_t j = 0; j < phi.size(); ++j) {
+      reflected -= phi[j] * covariance[order - 1 - j] / covariance[0];
+    }
+    reflected /= variance;
+    std::vector<double> next(order);
+    for (std::size_t j = 0; j + 1 < order; ++j) next[j] = phi[j] - reflected * phi[order - 2 - j];
+    next[order - 1] = reflected;
+    phi = std::move(next);
+    variance *= 1 - reflected * reflected;
+    if (!(variance > 0)) break;
+    const double criterion =
+        samples * std::log(variance) + static_cast<double>(order) * std::log(samples);
+    if (criterion < best_criterion) {
+      best_criterion = criterion;
+      best = {phi, std::sqrt(variance)};
+    }
+  }
+  return best;
+}
+
+/// Airspeed noise must be averaged before the memory of the motors' noise is taken out: that takes
+/// the slow part of the airspeed out too, and what is left of it would drown in its noise and
+/// attenuate every drag. 8 s is twice the memory seen in flight, and short against a change of
+/// airspeed.
+constexpr double motor_averaging = 8;  // s
+
+void set_usable_rows(PowerStage& stage) {
+  stage.usable_rows.assign(stage.rows, 0);
+  for (std::size_t row = 0; row < stage.rows; ++row) {
+    const auto first =
+        stage.usable.begin() + static_cast<std::ptrdiff_t>(row * stage.samples_per_row);
+    const auto usable = static_cast<std::size_t>(
+        std::count(first, first + static_cast<std::ptrdiff_t>(stage.samples_per_row), char{1}));
+    stage.usable_rows[row] = 2 * usable >= stage.samples_per_row;
+  }
+}
+
+std::vector<double> row_means(const PowerStage& stage, std::span<const double> samples) {
+  std::vector<double> means(stage.rows, 0);
+  for (std::size_t row = 0; row < stage.rows; ++row) {
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < stage.samples_per_row; ++j) {
+      const std::size_t i = row * stage.samples_per_row + j;
+      if (!stage.usable[i]) continue;
+      means[row] += samples[i];
+      ++count;
+    }
+    if (count > 0) means[row] /= static_cast<double>(count);
+  }
+  return means;
+}
+
+}  // namespace
+
+PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened)
+    : screened_(std::move(screened)) {
+  if (!base.design.tether.cross_section) {
+    throw std::invalid_argument("a power log needs the cross-section of the cable that flew");
+  }
+  const PowerLog& log = screened_.log;
+  const std::size_t n = log.time.size();
+  if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
+    bus_power_.resize(n);
+    log_bus_power_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      bus_power_[i] = log.bus_voltage[i] * log.bus_current[i];
+      log_bus_power_[i] = std::log(std::max(bus_power_[i], 1e-3));
+    }
+  }
+
+  screened_.log.height = steadied(log.height);
+
+  const auto add = [&](Stage stage, const char* quantity, const char* unit,
+                       const std::vector<char>& usable) {
+    if (usable.empty()) return;
+    PowerStage s;
+    s.stage = stage;
+    s.quantity = quantity;
+    s.unit = unit;
+    s.usable = usable;
+    if (stage == Stage::motors) {
+      const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
+      s.samples_per_row = std::max<std::size_t>(
+          1, static_cast<std::size_t>(std::lround(motor_averaging / interval)));
+    }
+    s.first_row = rows_;
+    s.rows = n / s.samples_per_row;
+    rows_ += s.rows;
+    stages_.push_back(std::move(s));
+  };
+  add(Stage::tether, "voltage lost in the tether", "V", screened_.tether_usable);
+  add(Stage::converter, "power at the converter's input", "W", screened_.converter_usable);
+  add(Stage::motors, "power at the motors' bus", "%", screened_.motors_usable);
+  for (std::size_t k = 0; k < stages_.size(); ++k) estimate_noise(base, stages_[k], k);
+}
+
+void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k) {
+  const PowerLog& log = screened_.log;
+  const std::size_t n = log.time.size();
+  if (stage.stage == Stage::converter) {
+    // Input and output share the true power and have noise of their own, so the covariance of their
+    // fast changes holds the former and what exceeds it the latter.
+    std::vector<double> input(n);
+    for (std::size_t i = 0; i < n; ++i) input[i] = log.drone_voltage[i] * log.supply_current[i];
+    double in = 0, out = 0, both = 0, slope = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 3 < n; ++i) {
+      const auto first = stage.usable.begin() + static_cast<std::ptrdiff_t>(i);
+      if (!std::all_of(first, first + 4, [](char ok) { return ok; })) continue;
+      const double a = third_difference(input, i);
+      const double b = third_difference(bus_power_, i);
+      in += a * a;
+      out += b * b;
+      both += a * b;
+      slope += converter_input(base, bus_power_[i]).slope;
+      ++count;
+    }
+    if (count > 0) {
+      slope /= static_cast<double>(count);
+      const double total = std::max(
+          (in + slope * slope * out - 2 * slope * both) / static_cast<double>(count), 1e-12);
+      const double excess = (out - both / slope) / static_cast<double>(count);
+      output_variance_ = std::clamp(excess, 0.02 * total, 0.98 * total) / (slope * slope);
+      input_variance_ = total - slope * slope * output_variance_;
+    }
+  }
+
+  std::vector<double> raw(n);
+  standardised(k, base, raw);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!std::isfinite(raw[i])) stage.usable[i] = 0;
+  }
+  const Eigen::MatrixXd shapes = smooth_shapes(log, stage.stage, bus_power_);
+  std::vector<double> noise = without_shapes(shapes, raw, stage.usable);
+  // Spikes that the channels alone do not show; after them the shapes fit better.
+  for (int pass = 0; pass < 2; ++pass) {
+    const double deviation = robust_deviation(noise, stage.usable);
+    constexpr double outlying = 5;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::abs(noise[i]) > outlying * deviation) stage.usable[i] = 0;
+    }
+    noise = without_shapes(shapes, raw, stage.usable);
+  }
+  double square = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!stage.usable[i]) continue;
+    square += noise[i] * noise[i];
+    ++count;
+  }
+  if (count > static_cast<std::size_t>(shapes.cols())) {
+    stage.noise =
+        std::sqrt(square / static_cast<double>(count - static_cast<std::size_t>(shapes.cols())));
+  }
+  if (!(stage.noise > 0)) stage.noise = 1;
+  for (double& x : noise) x /= stage.noise;
+  set_usable_rows(stage);
+  const std::vector<double> averaged = row_means(stage, noise);
+  const Autoregression fitted = autoregression(averaged, stage.usable_rows);
+  double row_square = 0;
+  std::size_t row_count = 0;
+  for (std::size_t i = 0; i < averaged.size(); ++i) {
+    if (!stage.usable_rows[i]) continue;
+    row_square += averaged[i] * averaged[i];
+    ++row_count;
+  }
+  // The shapes took as many degrees of freedom from the means as from the samples.
+  const double degrees =
+      std::max(1.0, static_cast<double>(row_count) - static_cast<double>(shapes.cols()));
+  stage.memory = fitted.memory;
+  stage.innovation = fitted.innovation * std::sqrt(row_square / degrees);
+  if (!(stage.innovation > 0)) stage.innovation = 1;
+}
+
+void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
+                                  std::span<double> out) const {
+  const PowerLog& log = screened_.log;
+  const PowerStage& stage = stages_[k];
+  const double gain = model.supply_current_gain;
+  switch (stage.stage) {
+    case Stage::tether: {
+      const std::vector<double> resistance = loop_resistance(model, log);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const double lost = log.supply_voltage[i] - log.drone_voltage[i];
+        out[i] = (lost - log.supply_current[i] / gain * resistance[i]) / stage.noise;
+      }
+      break;
+    }
+    case Stage::converter:
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const double input = log.drone_voltage[i] * log.supply_current[i] / gain;
+        const ConverterInput needed = converter_input(model, bus_power_[i]);
+        const double variance =
+            input_variance_ / (gain * gain) + needed.slope * needed.slope * output_variance_;
+        out[i] = (input - model.design.drone.auxiliary_power - needed.power) /
+                 (std::sqrt(variance) * stage.noise);
+      }
+      break;
+    default: {
+      const std::vector<double> power = motor_power(model, log);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = (log_bus_power_[i] - std::log(power[i])) / stage.noise;
+      }
+    }
+  }
+}
+
+void PowerResiduals::whitened(std::size_t k, std::span<const double> standardised,
+                              std::span<double> out) const {
+  const PowerStage& stage = stages_[k];
+  const std::size_t order = stage.memory.size();
+  // Unusable rows are bridged by the last usable one: good enough to predict the next from.
+  std::vector<double> bridged = row_means(stage, standardised);
+  for (std::size_t i = 1; i < stage.rows; ++i) {
+    if (!stage.usable_rows[i]) bridged[i] = bridged[i - 1];
+  }
+  for (std::size_t i = 0; i < stage.rows; ++i) {
+    out[i] = 0;
+    if (!stage.usable_rows[i] || i < order) continue;
+    double predicted = 0;
+    for (std::size_t j = 0; j < order; ++j) predicted += stage.memory[j] * bridged[i - 1 - j];
+    out[i] = (bridged[i] - predicted) / stage.innovation;
+  }
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,22 @@
+// Shapes that a power log may follow without any effect of the catalogue.
+#pragma once
+
+#include <vector>
+
+#include "tethercalc/diagnose/power_residuals.hpp"
+#include "tethercalc/diagnose/selection.hpp"
+
+namespace tethercalc {
+
+/// Unnamed regressors over the rows of `residuals`, each in one stage and of one channel: steps,
+/// drift and waves in time; bends in height, airspeed, current and ambient temperature. In the
+/// tether they change its resistance, at the motors their relative power. Memory is taken out as
+/// from the residuals. Channels bear the names of their CSV columns.
+[[nodiscard]] std::vector<UnnamedRegressor> power_shapes(const PowerResiduals& residuals);
+
+/// Adds steps in time close to those among `found` (indices into `shapes`), one every row. False
+/// where there is no step among them.
+bool add_finer_steps(const PowerResiduals& residuals, const std::vector<std::size_t>& found,
+                     std::vector<UnnamedRegressor>& shapes);
+
+}  // namespace tethercalc

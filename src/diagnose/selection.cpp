@@ -1,0 +1,558 @@
+#include "tethercalc/diagnose/selection.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "diagnose/block_fit.hpp"
+#include "diagnose/unnamed_structure.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A candidate is aliased where less than this part of its change of the prediction, in root mean
+/// square, is its own. A hundredth means that its variance is inflated ten-thousandfold, and that
+/// a log of 10 minutes knows as much of it as 60 ms would without the alias.
+constexpr double aliased_below = 0.01;
+/// A rival explains as well only if it removes at least this part of what the selected effect does.
+constexpr double rival_gain = 0.5;
+/// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
+/// within what the idealised shape of any named effect misses of nature.
+constexpr double outdone_gain = 0.1;
+/// An effect must remove so many times the usual gain to be named beside unnamed structure: what
+/// the unnamed shape misses of the unknown must not be given a name.
+constexpr double gain_beside_unnamed = 2.5;
+/// Unnamed structure enters the estimates of the parameters only where it is at least this part of
+/// the squared error. A small one disturbs them less without it than its chosen shape does with it.
+constexpr double structure_that_disturbs = 0.25;
+constexpr std::size_t most_rivals = 2;
+
+double students_t_p_value(double t, double degrees) {
+  if (!std::isfinite(t)) return t > 0 ? 0 : 1;
+  const boost::math::students_t distribution(degrees);
+  return boost::math::cdf(boost::math::complement(distribution, t));
+}
+
+double fisher_p_value(double f, double numerator, double denominator) {
+  if (!std::isfinite(f)) return 0;
+  const boost::math::fisher_f distribution(numerator, denominator);
+  return boost::math::cdf(boost::math::complement(distribution, std::max(f, 0.0)));
+}
+
+/// Sum of the differences of block errors and its standard error over blocks.
+struct BlockDifference {
+  double sum = 0;
+  double se = 0;
+};
+
+BlockDifference difference(const VectorXd& a, const VectorXd& b) {
+  const VectorXd d = a - b;
+  const auto blocks = static_cast<double>(d.size());
+  const double spread = (d.array() - d.mean()).square().sum();
+  return {d.sum(), std::sqrt(blocks / (blocks - 1) * spread)};
+}
+
+double gain_percent(double before, double after) {
+  return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
+}
+
+/// Standard error of the gain by leaving out one block after the other.
+double gain_se_percent(const BlockFit& before, const BlockFit& after) {
+  const auto blocks = static_cast<double>(before.block_error.size());
+  VectorXd gain(before.block_error.size());
+  for (Index b = 0; b < gain.size(); ++b) {
+    gain[b] = gain_percent(before.squared_error() - before.block_error[b],
+                           after.squared_error() - after.block_error[b]);
+  }
+  return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
+}
+
+/// What the systematic errors add to the variance of each parameter of the fit: the squares of how
+/// far least squares would follow them.
+VectorXd systematic_variance(const Record& record, const BlockFit& fit) {
+  VectorXd variance = VectorXd::Zero(fit.jacobian.cols());
+  if (fit.jacobian.cols() == 0) return variance;
+  const MatrixXd weighted = fit.weight.cwiseSqrt().asDiagonal() * fit.jacobian;
+  const auto factor = weighted.colPivHouseholderQr();
+  for (const std::vector<double>& column : record.problem().systematic) {
+    const VectorXd change = fit.weight.cwiseSqrt().cwiseProduct(record.scaled_column(column));
+    variance += factor.solve(change).cwiseAbs2();
+  }
+  return variance;
+}
+
+/// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every
+/// fit frees.
+double precision(const BlockFit& fit) {
+  double sum = 0;
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    const auto column = static_cast<Index>(k);
+    sum -= std::log(jackknife_covariance(fit, {column})(0, 0) + 1e-300) / 2;
+  }
+  return sum;
+}
+
+class Search {
+ public:
+  Search(const SelectionProblem& problem, const SelectionOptions& options,
+         const SelectionProgress& progress)
+      : record_(problem), options_(options), progress_(progress) {
+    degrees_ = static_cast<double>(record_.blocks() - 1);
+    student_factor_ = boost::math::quantile(boost::math::students_t(degrees_), 0.975);
+  }
+
+  Selection run();
+
+ private:
+  /// A fit with one more group and what speaks for it.
+  struct Trial {
+    std::size_t group = 0;
+    BlockFit fit;
+    double p_value = 1;
+    bool worth_a_name = false;
+  };
+
+  void tell(const std::string& what) const {
+    if (progress_) progress_(what);
+  }
+  [[nodiscard]] const ParameterGroup& group(std::size_t g) const {
+    return record_.problem().groups[g];
+  }
+
+  [[nodiscard]] Freed freed(const std::vector<std::size_t>& selected) const;
+  [[nodiscard]] BlockFit fit(const std::vector<std::size_t>& selected, const BlockFit* near) const;
+  [[nodiscard]] double p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const;
+  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
+                            std::size_t tested) const;
+  [[nodiscard]] std::vector<std::size_t> candidates() const;
+  [[nodiscard]] std::optional<Trial> best_step() const;
+  [[nodiscard]] std::vector<std::size_t> selected_without(std::size_t g) const;
+
+  void find_aliased(const BlockFit& base, Selection& result) const;
+  void step_forward();
+  void drop_superfluous();
+  bool drop_outdone();
+  void find_unnamed();
+  void sum_up(const BlockFit& base, Selection& result) const;
+  [[nodiscard]] std::vector<std::size_t> rivals(std::size_t g, const BlockFit& all) const;
+  [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const;
+
+  Record record_;
+  const SelectionOptions& options_;
+  const SelectionProgress& progress_;
+  double degrees_ = 0;
+  double student_factor_ = 0;
+  std::vector<std::size_t> selected_;
+  std::vector<std::size_t> unnamed_;
+  std::set<std::size_t> aliased_;
+  std::set<std::size_t> rejected_;  ///< taken back once; never tried again, so the search ends
+  BlockFit current_;
+};
+
+Freed Search::freed(const std::vector<std::size_t>& selected) const {
+  std::set<std::size_t> replaced;
+  for (const std::size_t g : selected) {
+    if (group(g).replaces) replaced.insert(*group(g).replaces);
+  }
+  Freed result;
+  for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+    const bool wanted = group(g).role == ParameterGroup::Role::fitted ||
+                        std::find(selected.begin(), selected.end(), g) != selected.end();
+    if (wanted && !replaced.contains(g)) result.groups.push_back(g);
+  }
+  result.unnamed = unnamed_;
+  return result;
+}
+
+/// Starts from the values of `near` for what is free in both.
+BlockFit Search::fit(const std::vector<std::size_t>& selected, const BlockFit* near) const {
+  const Freed free = freed(selected);
+  std::vector<double> start;
+  for (const ModelParameter& p : record_.parameters()) start.push_back(p.neutral);
+  for (const std::size_t g : free.groups) {
+    const bool known =
+        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
+                               near->freed.groups.end();
+    for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
+      const std::size_t index = record_.first_parameter(g) + k;
+      start[index] = known ? near->values[index] : record_.parameters()[index].start;
+    }
+  }
+  return fit_blocks(record_, free, std::move(start));
+}
+
+/// Of the hypothesis that the group is neutral: Wald's statistic with the jackknife covariance,
+/// referred to Hotelling's distribution for as many blocks. A group that replaces another has no
+/// neutral value to compare with; there the held-out errors of the blocks are compared by Student's
+/// test instead.
+double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
+  std::vector<Index> columns;
+  std::vector<double> distance;
+  for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
+    const std::size_t index = record_.first_parameter(g) + k;
+    const ModelParameter& p = record_.parameters()[index];
+    const auto column = std::find(with.active.begin(), with.active.end(), index);
+    if (p.shape_only || column == with.active.end()) continue;
+    columns.push_back(column - with.active.begin());
+    distance.push_back((with.values[index] - p.neutral) / p.scale);
+  }
+  if (columns.empty() || group(g).replaces) {
+    const BlockDifference gain = difference(without.block_error, with.block_error);
+    return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
+  }
+  const VectorXd offset = VectorXd::Map(distance.data(), static_cast<Index>(distance.size()));
+  const MatrixXd covariance = jackknife_covariance(with, columns);
+  const double t2 = offset.dot(covariance.completeOrthogonalDecomposition().solve(offset));
+  const auto count = static_cast<double>(columns.size());
+  const double denominator = degrees_ + 1 - count;
+  return fisher_p_value(t2 / count * denominator / degrees_, count, denominator);
+}
+
+Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit with,
+                            std::size_t tested) const {
+  Trial trial;
+  trial.group = g;
+  trial.p_value = p_value(g, without, with);
+  const double gain = gain_percent(without.squared_error(), with.squared_error());
+  const double least_gain =
+      options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
+  trial.worth_a_name =
+      gain >= least_gain && gain > 2 * gain_se_percent(without, with) &&
+      trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
+  trial.fit = std::move(with);
+  return trial;
+}
+
+std::vector<std::size_t> Search::candidates() const {
+  std::set<std::size_t> taken(selected_.begin(), selected_.end());
+  for (const std::size_t g : selected_) {
+    if (group(g).replaces) taken.insert(*group(g).replaces);
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+    if (group(g).role == ParameterGroup::Role::candidate && !taken.contains(g) &&
+        !aliased_.contains(g) && !rejected_.contains(g)) {
+      result.push_back(g);
+    }
+  }
+  return result;
+}
+
+/// The candidate with the least held-out error; among those within one standard error of it the one
+/// with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical Learning,
+/// 2nd ed., section 7.10).
+std::optional<Search::Trial> Search::best_step() const {
+  const std::vector<std::size_t> open = candidates();
+  std::vector<Trial> worthy;
+  for (const std::size_t g : open) {
+    tell("trying " + group(g).id);
+    std::vector<std::size_t> more = selected_;
+    more.push_back(g);
+    Trial trial = judge(g, current_, fit(more, &current_), open.size());
+    if (trial.worth_a_name) worthy.push_back(std::move(trial));
+  }
+  if (worthy.empty()) return std::nullopt;
+  const auto best = std::min_element(
+      worthy.begin(), worthy.end(),
+      [](const auto& a, const auto& b) { return a.fit.squared_error() < b.fit.squared_error(); });
+  const Trial* chosen = &*best;
+  for (const Trial& trial : worthy) {
+    const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
+    if (group(trial.group).parameters.size() < group(chosen->group).parameters.size() &&
+        excess.sum <= excess.se) {
+      chosen = &trial;
+    }
+  }
+  return *chosen;
+}
+
+std::vector<std::size_t> Search::selected_without(std::size_t g) const {
+  std::vector<std::size_t> rest = selected_;
+  std::erase(rest, g);
+  return rest;
+}
+
+void Search::step_forward() {
+  while (selected_.size() < options_.most_findings) {
+    std::optional<Trial> step = best_step();
+    if (!step) return;
+    selected_.push_back(step->group);
+    current_ = std::move(step->fit);
+    tell("found " + group(step->group).id);
+    if (unnamed_.empty()) drop_superfluous();
+  }
+}
+
+/// Takes back what the other names make superfluous, the weakest first.
+void Search::drop_superfluous() {
+  while (selected_.size() > 1) {
+    std::optional<std::size_t> weakest;
+    double weakest_error = std::numeric_limits<double>::infinity();
+    BlockFit rest_fit;
+    for (const std::size_t g : selected_) {
+      BlockFit without = fit(selected_without(g), &current_);
+      const std::size_t tested = candidates().size() + 1;
+      const bool earns = judge(g, without, current_, tested).worth_a_name;
+      if (!earns && without.squared_error() < weakest_error) {
+        weakest = g;
+        weakest_error = without.squared_error();
+        rest_fit = std::move(without);
+      }
+    }
+    if (!weakest) return;
+    tell("taking back " + group(*weakest).id);
+    selected_ = selected_without(*weakest);
+    rejected_.insert(*weakest);
+    current_ = std::move(rest_fit);
+  }
+}
+
+/// Takes back a name if an unnamed regressor in its place explains significantly more and, once
+/// that is in, the name has nothing left to explain. Both are needed: an unnamed shape may outweigh
+/// a weak effect that is there beside it, and a flexible shape may mimic a name without doing
+/// better.
+bool Search::drop_outdone() {
+  for (const std::size_t g : selected_) {
+    const BlockFit without = fit(selected_without(g), &current_);
+    const std::optional<UnnamedTrial> best =
+        best_unnamed(record_, without, unnamed_, options_.false_alarm_probability);
+    if (!best) continue;
+    const BlockDifference better = difference(current_.block_error, best->block_error);
+    const double earned = without.squared_error() - current_.squared_error();
+    if (better.sum <= student_factor_ * better.se || better.sum <= outdone_gain * earned) continue;
+
+    Search beside = *this;
+    beside.unnamed_.push_back(best->regressor);
+    BlockFit name_and_shape = beside.fit(selected_, &current_);
+    const BlockFit shape = beside.fit(selected_without(g), &name_and_shape);
+    if (beside.judge(g, shape, std::move(name_and_shape), candidates().size() + 1).worth_a_name) {
+      continue;
+    }
+    tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
+         " explains more");
+    selected_ = selected_without(g);
+    rejected_.insert(g);
+    current_ = fit(selected_, &current_);
+    return true;
+  }
+  return false;
+}
+
+void Search::find_unnamed() {
+  constexpr std::size_t most_regressors = 4;  // more would describe noise nobody reads
+  while (unnamed_.size() < most_regressors) {
+    tell("looking for structure without a name");
+    const std::optional<UnnamedTrial> best =
+        best_unnamed(record_, current_, unnamed_, options_.false_alarm_probability);
+    if (!best) return;
+    const BlockDifference drop = difference(current_.block_error, best->block_error);
+    if (drop.sum <= student_factor_ * drop.se ||
+        gain_percent(current_.squared_error(), best->block_error.sum()) <
+            options_.least_unexplained_percent) {
+      return;
+    }
+    unnamed_.push_back(best->regressor);
+    current_ = fit(selected_, &current_);
+  }
+}
+
+void Search::find_aliased(const BlockFit& base, Selection& result) const {
+  for (const std::size_t g : candidates()) {
+    std::vector<Index> columns;
+    std::vector<std::size_t> column_group;
+    for (std::size_t k = 0; k < base.active.size(); ++k) {
+      std::size_t owner = 0;
+      while (owner + 1 < record_.problem().groups.size() &&
+             record_.first_parameter(owner + 1) <= base.active[k]) {
+        ++owner;
+      }
+      if (group(g).replaces == owner) continue;
+      columns.push_back(static_cast<Index>(k));
+      column_group.push_back(owner);
+    }
+    std::vector<double> values = base.values;
+    for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
+      const std::size_t index = record_.first_parameter(g) + k;
+      values[index] = record_.parameters()[index].start;
+    }
+    MatrixXd slopes = group_slopes(record_, g, values);
+    const VectorXd norms = slopes.colwise().norm();
+    if (norms.minCoeff() <= 0) {
+      result.aliased.push_back({g, {}});
+      continue;
+    }
+    slopes = slopes * norms.cwiseInverse().asDiagonal();
+    const MatrixXd own = slopes;
+    if (!columns.empty()) {
+      const MatrixXd others = base.jacobian(Eigen::all, columns);
+      slopes -= others * others.colPivHouseholderQr().solve(slopes);
+    }
+    const MatrixXd gram = slopes.transpose() * slopes;
+    const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(gram).eigenvalues().minCoeff();
+    if (std::sqrt(std::max(least, 0.0)) >= aliased_below) continue;
+
+    Selection::Aliased aliased{g, {}};
+    std::vector<std::pair<double, std::size_t>> nearness;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const VectorXd other = base.jacobian.col(columns[k]);
+      const double cosine = std::abs(other.dot(own.col(0))) / std::max(other.norm(), 1e-300);
+      nearness.emplace_back(-cosine, column_group[k]);
+    }
+    std::sort(nearness.begin(), nearness.end());
+    for (const auto& [cosine, owner] : nearness) {
+      if (std::find(aliased.with.begin(), aliased.with.end(), owner) == aliased.with.end()) {
+        aliased.with.push_back(owner);
+      }
+    }
+    result.aliased.push_back(std::move(aliased));
+  }
+}
+
+std::vector<std::size_t> Search::rivals(std::size_t g, const BlockFit& all) const {
+  const BlockFit without = fit(selected_without(g), &all);
+  const double earned = without.squared_error() - all.squared_error();
+  std::vector<std::pair<double, std::size_t>> found;
+  for (std::size_t c = 0; c < record_.problem().groups.size(); ++c) {
+    const bool open = group(c).role == ParameterGroup::Role::candidate && !aliased_.contains(c) &&
+                      std::find(selected_.begin(), selected_.end(), c) == selected_.end();
+    if (!open || group(c).replaces == g) continue;
+    std::vector<std::size_t> instead = selected_without(g);
+    instead.push_back(c);
+    const BlockFit rival = fit(instead, &all);
+    const BlockDifference excess = difference(rival.block_error, all.block_error);
+    if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
+        excess.sum <= student_factor_ * excess.se) {
+      found.emplace_back(rival.squared_error(), c);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<std::size_t> result;
+  for (std::size_t k = 0; k < std::min(found.size(), most_rivals); ++k) {
+    result.push_back(found[k].second);
+  }
+  return result;
+}
+
+ModelFit Search::model_fit(const BlockFit& fit) const {
+  ModelFit result;
+  result.values = fit.values;
+  result.standard_error.assign(fit.values.size(), 0);
+  result.without_block.assign(record_.blocks(), fit.values);
+  const VectorXd systematic = systematic_variance(record_, fit);
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    const std::size_t index = fit.active[k];
+    const auto column = static_cast<Index>(k);
+    const ModelParameter& p = record_.parameters()[index];
+    result.standard_error[index] =
+        p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0) + systematic[column]);
+    for (std::size_t b = 0; b < record_.blocks(); ++b) {
+      double& value = result.without_block[b][index];
+      value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,
+                         p.upper);
+    }
+  }
+  result.holdout_rmse = std::sqrt(fit.squared_error() / static_cast<double>(record_.rows()));
+  result.holdout_residual.assign(record_.problem().measured.size(), 0);
+  for (Index i = 0; i < record_.rows(); ++i) {
+    const std::size_t row = record_.row_in_problem(i);
+    result.holdout_residual[row] = fit.holdout_residual[i] * record_.problem().noise[row];
+  }
+  return result;
+}
+
+void Search::sum_up(const BlockFit& base, Selection& result) const {
+  const auto rmse = [this](const BlockFit& f) {
+    return std::sqrt(f.squared_error() / static_cast<double>(record_.rows()));
+  };
+  for (const std::size_t g : selected_) {
+    SelectedGroup entry;
+    entry.group = g;
+    entry.p_value = p_value(g, fit(selected_without(g), &current_), current_);
+    entry.indistinguishable = rivals(g, current_);
+    result.selected.push_back(std::move(entry));
+  }
+  // The named part alone, one finding after the other.
+  Search named = *this;
+  named.unnamed_.clear();
+  BlockFit before = base;
+  std::vector<std::size_t> so_far;
+  for (SelectedGroup& entry : result.selected) {
+    so_far.push_back(entry.group);
+    BlockFit after = named.fit(so_far, &before);
+    entry.rmse_before = rmse(before);
+    entry.rmse_after = rmse(after);
+    entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
+    entry.gain_se_percent = gain_se_percent(before, after);
+    before = std::move(after);
+  }
+  result.extended = model_fit(before);
+  const double share = 1 - current_.squared_error() / before.squared_error();
+  const bool disturbed =
+      share >= structure_that_disturbs && precision(current_) > precision(before);
+  result.complete = model_fit(disturbed ? current_ : before);
+
+  if (unnamed_.empty()) return;
+  result.unnamed.regressors = unnamed_;
+  for (const std::size_t u : unnamed_) {
+    const std::string& channel = record_.problem().unnamed[u].channel;
+    auto& channels = result.unnamed.channels;
+    if (std::find(channels.begin(), channels.end(), channel) == channels.end()) {
+      channels.push_back(channel);
+    }
+  }
+  result.unnamed.share_percent = 100 * std::max(0.0, share);
+}
+
+Selection Search::run() {
+  Selection result;
+  result.rows = static_cast<std::size_t>(record_.rows());
+  result.blocks = record_.blocks();
+  result.student_factor = student_factor_;
+
+  tell("fitting the base model");
+  const BlockFit base = fit({}, nullptr);
+  current_ = base;
+  result.base = model_fit(base);
+  find_aliased(base, result);
+  for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
+
+  // Every round either ends or puts an effect on the list of those never tried again.
+  do {
+    step_forward();
+  } while (drop_outdone());
+  find_unnamed();
+  if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+  sum_up(base, result);
+  return result;
+}
+
+}  // namespace
+
+Selection select_effects(const SelectionProblem& problem, const SelectionOptions& options,
+                         const SelectionProgress& progress) {
+  return Search(problem, options, progress).run();
+}
+
+double noise_floor(std::span<const double> residuals) {
+  if (residuals.size() < 2) throw std::invalid_argument("a noise floor needs two residuals");
+  std::vector<double> steps(residuals.size() - 1);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    steps[i] = std::abs(residuals[i + 1] - residuals[i]);
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  // 1.4826: median absolute deviation to standard deviation; √2: a difference of two readings.
+  return 1.4826 * *middle / std::sqrt(2.0);
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,473 @@
+#include "diagnose/subset_selection.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "diagnose/block_fit.hpp"
+#include "diagnose/unnamed_structure.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Groups = std::vector<std::size_t>;
+
+/// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
+/// likelihood.
+constexpr double rival_excess = 6;
+/// A rival must remove at least this part of what the selected effect does.
+constexpr double rival_gain = 0.5;
+/// Shapes take the place of names only where they shorten the description by this much more: a
+/// mechanism that is known to exist is the likelier cause, and the true shape of a named effect
+/// differs a little from the idealised one. e⁻⁴ = 2 % of the likelihood.
+constexpr double name_preference = 8;
+constexpr std::size_t most_rivals = 2;
+/// Part of what unnamed shapes remove that they may miss of the unknown. A name beside them must
+/// explain more than that, or it might name the unknown's rest.
+constexpr double missed_by_shapes = 0.1;
+constexpr std::size_t most_shapes = 3;  ///< more would describe noise that nobody reads
+constexpr std::size_t beam = 4;         ///< subsets of one size that are tried with one more effect
+/// An effect is aliased where less than this part of its change of the prediction, in root mean
+/// square, is its own.
+constexpr double aliased_below = 0.01;
+
+struct Model {
+  Groups named;  ///< sorted
+  Groups shapes;
+  BlockFit fit;
+  double length = 0;  ///< description length, in units of squared noise
+};
+
+/// The search in one part.
+class PartSearch {
+ public:
+  PartSearch(const SelectionProblem& part_problem, const Groups& groups,
+             const SelectionOptions& options, const SelectionProgress& progress)
+      : problem_(part_problem), record_(part_problem), options_(options), progress_(progress) {
+    for (const std::size_t g : groups) {
+      (problem_.groups[g].role == ParameterGroup::Role::fitted ? fitted_ : candidates_)
+          .push_back(g);
+    }
+    const double alpha = options.false_alarm_probability;
+    const auto price = [alpha](std::size_t choices) {
+      return 2 * std::log(std::max(1.0, static_cast<double>(choices)) / alpha);
+    };
+    name_price_ = price(problem_.groups.size());
+    shape_price_ = price(problem_.unnamed.size());
+  }
+
+  void run();
+
+  [[nodiscard]] const Record& record() const { return record_; }
+  [[nodiscard]] const Model& base() const { return base_; }
+  [[nodiscard]] const Model& best() const { return best_; }
+  [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
+
+  /// The named effects of the best model in the order of what they add, with the fit after each.
+  [[nodiscard]] std::vector<std::pair<std::size_t, BlockFit>> in_order() const;
+  [[nodiscard]] Groups rivals(std::size_t g) const;
+  [[nodiscard]] double length_without(std::size_t g) const {
+    return model(without(best_.named, g), best_.shapes, &best_.fit).fit.squared_error();
+  }
+
+ private:
+  static Groups with(Groups named, std::size_t g) {
+    named.insert(std::upper_bound(named.begin(), named.end(), g), g);
+    return named;
+  }
+  static Groups without(Groups named, std::size_t g) {
+    std::erase(named, g);
+    return named;
+  }
+  [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near) const;
+  void consider(Model candidate, double handicap = 0) {
+    if (candidate.length + handicap < best_.length) best_ = std::move(candidate);
+  }
+  void search_names();
+  void search_shapes();
+  [[nodiscard]] Model with_shapes(Model start) const;
+  void add_names();
+  void find_aliased(const Model& model, bool beside_findings);
+  [[nodiscard]] bool is_aliased(std::size_t g) const {
+    return std::any_of(aliased_.begin(), aliased_.end(),
+                       [g](const Selection::Aliased& a) { return a.group == g; });
+  }
+
+  const SelectionProblem& problem_;
+  Record record_;
+  const SelectionOptions& options_;
+  const SelectionProgress& progress_;
+  Groups fitted_;
+  Groups candidates_;
+  double name_price_ = 0;
+  double shape_price_ = 0;
+  Model base_;
+  Model best_;
+  std::vector<Selection::Aliased> aliased_;
+};
+
+/// Starts from the values of `near` for what is free in both.
+Model PartSearch::model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
+  Freed freed;
+  freed.groups = fitted_;
+  freed.groups.insert(freed.groups.end(), named.begin(), named.end());
+  std::sort(freed.groups.begin(), freed.groups.end());
+  freed.unnamed = shapes;
+  std::vector<double> start;
+  for (const ModelParameter& p : record_.parameters()) start.push_back(p.neutral);
+  for (const std::size_t g : freed.groups) {
+    const bool known =
+        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
+                               near->freed.groups.end();
+    for (std::size_t k = 0; k < problem_.groups[g].parameters.size(); ++k) {
+      const std::size_t index = record_.first_parameter(g) + k;
+      start[index] = known ? near->values[index] : record_.parameters()[index].start;
+    }
+  }
+  Model result{named, shapes, fit_blocks(record_, freed, start), 0};
+  result.length = result.fit.squared_error() + name_price_ * static_cast<double>(named.size()) +
+                  shape_price_ * static_cast<double>(shapes.size());
+  if (!named.empty() && !shapes.empty()) {
+    freed.unnamed.clear();
+    const double named_alone = fit_blocks(record_, freed, std::move(start)).squared_error();
+    result.length += missed_by_shapes * static_cast<double>(named.size()) *
+                     std::max(0.0, named_alone - result.fit.squared_error());
+  }
+  return result;
+}
+
+void PartSearch::run() {
+  base_ = model({}, {}, nullptr);
+  best_ = base_;
+  find_aliased(base_, false);
+  for (const Selection::Aliased& a : aliased_) std::erase(candidates_, a.group);
+  search_names();
+  search_shapes();
+  if (!best_.shapes.empty()) add_names();
+  if (!best_.named.empty()) find_aliased(best_, true);
+}
+
+void PartSearch::search_names() {
+  std::vector<Model> level{base_};
+  for (std::size_t size = 1; size <= std::min(options_.most_findings, candidates_.size()); ++size) {
+    std::map<Groups, Model> next;
+    for (const Model& parent : level) {
+      for (const std::size_t g : candidates_) {
+        if (std::binary_search(parent.named.begin(), parent.named.end(), g)) continue;
+        const Groups named = with(parent.named, g);
+        if (next.contains(named)) continue;
+        if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
+        next.emplace(named, model(named, {}, &parent.fit));
+      }
+    }
+    level.clear();
+    for (auto& [named, m] : next) level.push_back(std::move(m));
+    std::sort(level.begin(), level.end(),
+              [](const Model& a, const Model& b) { return a.length < b.length; });
+    const bool better = !level.empty() && level.front().length < best_.length;
+    if (better) consider(level.front());
+    // Two effects may cancel, so pairs are tried whatever singles say; three hardly do.
+    if (size >= 2 && !better) break;
+    if (size >= 2 && level.size() > beam) level.erase(level.begin() + beam, level.end());
+  }
+}
+
+/// Adds the unnamed shapes that are worth their price.
+Model PartSearch::with_shapes(Model start) const {
+  Model best = std::move(start);
+  while (best.shapes.size() < most_shapes) {
+    const std::optional<UnnamedTrial> trial =
+        best_unnamed(record_, best.fit, best.shapes, options_.false_alarm_probability);
+    if (!trial || best.fit.squared_error() - trial->block_error.sum() < shape_price_) {
+      break;
+    }
+    Groups shapes = best.shapes;
+    shapes.push_back(trial->regressor);
+    best = model(best.named, shapes, &best.fit);
+  }
+  return best;
+}
+
+/// Shapes beside all of the names, beside all but one of them, and instead of them.
+void PartSearch::search_shapes() {
+  if (problem_.unnamed.empty()) return;
+  if (progress_) progress_("looking for structure without a name");
+  const Model named = best_;
+  consider(with_shapes(named));
+  if (named.named.empty()) return;
+  if (named.named.size() > 1) {
+    for (const std::size_t g : named.named) {
+      consider(with_shapes(model(without(named.named, g), {}, &named.fit)), name_preference);
+    }
+  }
+  consider(with_shapes(base_), name_preference);
+}
+
+/// What the unknown had hidden; and names that beside it explain nothing go.
+void PartSearch::add_names() {
+  for (bool changed = true; changed;) {
+    changed = false;
+    const Model now = best_;
+    for (const std::size_t g : candidates_) {
+      const bool in = std::binary_search(now.named.begin(), now.named.end(), g);
+      if (!in && now.named.size() >= options_.most_findings) continue;
+      consider(model(in ? without(now.named, g) : with(now.named, g), now.shapes, &now.fit));
+    }
+    for (const std::size_t u : now.shapes)
+      consider(model(now.named, without(now.shapes, u), &now.fit));
+    changed = best_.length < now.length - 1e-9;
+  }
+}
+
+void PartSearch::find_aliased(const Model& model, bool beside_findings) {
+  for (const std::size_t g : candidates_) {
+    if (is_aliased(g) || std::binary_search(model.named.begin(), model.named.end(), g)) continue;
+    std::vector<double> values = model.fit.values;
+    for (std::size_t k = 0; k < problem_.groups[g].parameters.size(); ++k) {
+      const std::size_t index = record_.first_parameter(g) + k;
+      values[index] = record_.parameters()[index].start;
+    }
+    // The first parameter is the size of the effect.
+    const VectorXd slope = group_slopes(record_, g, values).col(0);
+    const auto others = static_cast<Index>(model.fit.active.size());
+    VectorXd own = slope;
+    if (others > 0) {
+      const MatrixXd jacobian = model.fit.jacobian.leftCols(others);
+      own -= jacobian * jacobian.colPivHouseholderQr().solve(slope);
+    }
+    if (slope.norm() > 0 && own.norm() >= aliased_below * slope.norm()) continue;
+    if (slope.norm() <= 0 && beside_findings) continue;
+    aliased_.push_back({g, slope.norm() > 0 ? model.named : Groups{}});
+  }
+}
+
+std::vector<std::pair<std::size_t, BlockFit>> PartSearch::in_order() const {
+  std::vector<std::pair<std::size_t, BlockFit>> order;
+  Groups so_far;
+  const BlockFit* near = &best_.fit;
+  while (so_far.size() < best_.named.size()) {
+    std::optional<std::pair<std::size_t, BlockFit>> next;
+    for (const std::size_t g : best_.named) {
+      if (std::binary_search(so_far.begin(), so_far.end(), g)) continue;
+      BlockFit fit = model(with(so_far, g), {}, near).fit;
+      if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
+    }
+    so_far = with(so_far, next->first);
+    order.push_back(std::move(*next));
+  }
+  return order;
+}
+
+Groups PartSearch::rivals(std::size_t g) const {
+  const Groups rest = without(best_.named, g);
+  const double alone = model(rest, best_.shapes, &best_.fit).fit.squared_error();
+  const double earned = alone - best_.fit.squared_error();
+  std::vector<std::pair<double, std::size_t>> found;
+  for (const std::size_t c : candidates_) {
+    if (std::binary_search(best_.named.begin(), best_.named.end(), c)) continue;
+    const Model rival = model(with(rest, c), best_.shapes, &best_.fit);
+    if (rival.length - best_.length <= rival_excess &&
+        alone - rival.fit.squared_error() >= rival_gain * earned) {
+      found.emplace_back(rival.length, c);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  Groups result;
+  for (const auto& [length, c] : found) {
+    if (result.size() < most_rivals) result.push_back(c);
+  }
+  return result;
+}
+
+/// Standard errors from the curvature of the likelihood, by parameter. Unlike the jackknife of the
+/// fit, they count what a parameter that rests on a bound leaves open in the others.
+std::map<std::size_t, double> likelihood_errors(const Record& record, const BlockFit& fit) {
+  std::vector<std::size_t> parameters;
+  MatrixXd jacobian(record.rows(), 0);
+  for (const std::size_t g : fit.freed.groups) {
+    const MatrixXd slopes = group_slopes(record, g, fit.values);
+    jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() + slopes.cols());
+    jacobian.rightCols(slopes.cols()) = slopes;
+    for (Index k = 0; k < slopes.cols(); ++k) {
+      parameters.push_back(record.first_parameter(g) + static_cast<std::size_t>(k));
+    }
+  }
+  const auto shapes = static_cast<Index>(fit.freed.unnamed.size());
+  const Index named = jacobian.cols();
+  jacobian.conservativeResize(Eigen::NoChange, named + shapes);
+  jacobian.rightCols(shapes) = fit.jacobian.rightCols(shapes);
+
+  std::map<std::size_t, double> errors;
+  if (named == 0) return errors;
+  const MatrixXd covariance =
+      (jacobian.transpose() * jacobian).completeOrthogonalDecomposition().pseudoInverse();
+  for (Index k = 0; k < named; ++k) {
+    const std::size_t index = parameters[static_cast<std::size_t>(k)];
+    errors[index] = record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
+  }
+  return errors;
+}
+
+/// What of a fit concerns the freed parameters of `groups`, into a fit of all parts.
+void merge_fit(const PartSearch& part, const BlockFit& fit, const std::vector<int>& block_ids,
+               ModelFit& all) {
+  const Record& record = part.record();
+  const auto student = static_cast<Index>(record.blocks());
+  for (const std::size_t g : fit.freed.groups) {
+    const std::size_t first = record.first_parameter(g);
+    for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
+      all.values[first + k] = fit.values[first + k];
+      for (auto& values : all.without_block) values[first + k] = fit.values[first + k];
+    }
+  }
+  for (const auto& [index, error] : likelihood_errors(record, fit)) {
+    all.standard_error[index] = error;
+  }
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    const std::size_t index = fit.active[k];
+    const auto column = static_cast<Index>(k);
+    const ModelParameter& p = record.parameters()[index];
+    all.standard_error[index] = std::max(
+        all.standard_error[index], p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0)));
+    for (Index b = 0; b < student; ++b) {
+      double& value =
+          all.without_block[static_cast<std::size_t>(block_ids[static_cast<std::size_t>(b)])]
+                           [index];
+      value = std::clamp(value + p.scale * fit.left_out(column, b), p.lower, p.upper);
+    }
+  }
+}
+
+/// Standard error of the gain in percent by leaving out one block after the other. `other` is the
+/// squared error of the other parts.
+double gain_se_percent(const VectorXd& before, const VectorXd& after, double other) {
+  const auto blocks = static_cast<double>(before.size());
+  VectorXd gain(before.size());
+  for (Index b = 0; b < gain.size(); ++b) {
+    gain[b] =
+        100 *
+        (1 - std::sqrt((other + after.sum() - after[b]) / (other + before.sum() - before[b])));
+  }
+  return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
+}
+
+}  // namespace
+
+Selection select_subset(const SelectionProblem& problem, const std::vector<SelectionPart>& parts,
+                        const SelectionOptions& options, const SelectionProgress& progress) {
+  Selection result;
+  std::vector<double> neutral;
+  for (const ParameterGroup& group : problem.groups) {
+    for (const ModelParameter& p : group.parameters) neutral.push_back(p.neutral);
+  }
+  const int blocks = 1 + *std::max_element(problem.block.begin(), problem.block.end());
+  ModelFit empty;
+  empty.values = neutral;
+  empty.standard_error.assign(neutral.size(), 0);
+  empty.without_block.assign(static_cast<std::size_t>(std::max(blocks, 0)), neutral);
+  result.base = result.extended = result.complete = empty;
+
+  struct Found {
+    SelectedGroup entry;
+    VectorXd before, after;  ///< squared errors of the blocks of its part
+
+    [[nodiscard]] double gain() const { return before.sum() - after.sum(); }
+  };
+  std::vector<Found> found;
+  double base_error = 0;
+  double named_error = 0;
+  double complete_error = 0;
+  for (const SelectionPart& part : parts) {
+    SelectionProblem own = problem;
+    for (std::size_t i = 0; i < own.block.size(); ++i) {
+      if (!part.rows[i]) own.block[i] = -1;
+    }
+    const auto concerns = [&part](const UnnamedRegressor& u) {
+      for (std::size_t i = 0; i < u.column.size(); ++i) {
+        if (u.column[i] != 0 && !part.rows[i]) return false;
+      }
+      return true;
+    };
+    std::vector<std::size_t> shape_index;
+    std::vector<UnnamedRegressor> shapes;
+    for (std::size_t u = 0; u < own.unnamed.size(); ++u) {
+      if (!concerns(own.unnamed[u])) continue;
+      shape_index.push_back(u);
+      shapes.push_back(own.unnamed[u]);
+    }
+    own.unnamed = std::move(shapes);
+    const std::set<int> distinct(own.block.begin(), own.block.end());
+    std::vector<int> block_ids(distinct.begin(), distinct.end());
+    std::erase(block_ids, -1);
+
+    PartSearch search(own, part.groups, options, progress);
+    search.run();
+    const Model& best = search.best();
+    result.rows += static_cast<std::size_t>(search.record().rows());
+    result.blocks = std::max(result.blocks, search.record().blocks());
+    for (const Selection::Aliased& aliased : search.aliased()) result.aliased.push_back(aliased);
+
+    const BlockFit* before = &search.base().fit;
+    const auto order = search.in_order();
+    for (const auto& [g, fit] : order) {
+      Found f;
+      f.entry.group = g;
+      f.entry.indistinguishable = search.rivals(g);
+      f.before = before->block_error;
+      f.after = fit.block_error;
+      const boost::math::chi_squared chi(static_cast<double>(problem.groups[g].parameters.size()));
+      f.entry.p_value = boost::math::cdf(boost::math::complement(
+          chi, std::max(0.0, search.length_without(g) - best.fit.squared_error())));
+      found.push_back(std::move(f));
+      before = &fit;
+    }
+    base_error += search.base().fit.squared_error();
+    named_error += before->squared_error();
+    complete_error += best.fit.squared_error();
+    merge_fit(search, search.base().fit, block_ids, result.base);
+    merge_fit(search, *before, block_ids, result.extended);
+    merge_fit(search, best.fit, block_ids, result.complete);
+    for (const std::size_t u : best.shapes) {
+      result.unnamed.regressors.push_back(shape_index[u]);
+    }
+  }
+
+  const auto rows = static_cast<double>(result.rows);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.gain() > b.gain(); });
+  double error = base_error;
+  for (Found& f : found) {
+    const double after = error - f.gain();
+    f.entry.rmse_before = std::sqrt(error / rows);
+    f.entry.rmse_after = std::sqrt(after / rows);
+    f.entry.gain_percent = 100 * (1 - std::sqrt(after / error));
+    f.entry.gain_se_percent = gain_se_percent(f.before, f.after, error - f.before.sum());
+    error = after;
+    result.selected.push_back(f.entry);
+  }
+  result.base.holdout_rmse = std::sqrt(base_error / rows);
+  result.extended.holdout_rmse = std::sqrt(named_error / rows);
+  result.complete.holdout_rmse = std::sqrt(complete_error / rows);
+  result.student_factor =
+      boost::math::quantile(boost::math::students_t(static_cast<double>(result.blocks) - 1), 0.975);
+  for (const std::size_t u : result.unnamed.regressors) {
+    const std::string& channel = problem.unnamed[u].channel;
+    auto& channels = result.unnamed.channels;
+    if (std::find(channels.begin(), channels.end(), channel) == channels.end()) {
+      channels.push_back(channel);
+    }
+  }
+  if (!result.unnamed.regressors.empty()) {
+    result.unnamed.share_percent = 100 * std::max(0.0, 1 - complete_error / named_error);
+  }
+  return result;
+}
+
+}  // namespace tethercalc

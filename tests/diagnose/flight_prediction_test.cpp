@@ -1,0 +1,160 @@
+#include "tethercalc/diagnose/flight_prediction.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "tethercalc/model/units.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+FlightRecord swinging_flight() {
+  Observations o;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.1 * i;
+    o.time.push_back(t);
+    o.tilt.push_back(0.4 * std::sin(0.7 * t));
+    o.roll.push_back(0.05 * std::cos(t));
+    o.yaw.push_back(0.02 * t);
+    o.forward_speed.push_back(8 * std::sin(0.5 * t + 0.3));
+    o.right_speed.push_back(0);
+    o.down_speed.push_back(0.3 * std::sin(0.3 * t));
+    o.forward_acceleration.push_back(0);
+    o.down_acceleration.push_back(0.09 * std::cos(0.3 * t));
+    o.expected_acceleration.push_back(0);
+  }
+  return flight_record(o, 1.6, 1.25, standard_gravity);
+}
+
+constexpr FlightBase base{.front_area = 0.015, .top_area = 0.012, .vertical_acceleration_gain = 1};
+
+std::vector<double> predicted(const FlightRecord& record, const Effect* effect,
+                              const std::vector<double>& values) {
+  FlightPrediction prediction(record);
+  const EffectValues one{effect, values};
+  predict_acceleration(prediction, base, {&one, effect == nullptr ? 0U : 1U});
+  return prediction.acceleration;
+}
+
+/// The prediction written out for one sample, from the formulas of the paper.
+double by_hand(const FlightRecord& r, std::size_t i, double wind, double linear) {
+  const double theta = r.tilt[i];
+  const double u = r.forward_speed[i] - wind;
+  const double area = 0.015 * std::cos(theta) + 0.012 * std::abs(std::sin(theta));
+  const double force = 0.5 * 1.25 * area * (u * std::abs(u) + linear * u);
+  return (standard_gravity - r.down_acceleration[i]) * std::tan(theta) * r.inverse_cos_roll[i] -
+         force / 1.6;
+}
+
+}  // namespace
+
+TEST_CASE("every effect of the list of the design stands in the catalogue once") {
+  std::set<std::string> ids;
+  for (const Effect& effect : effect_catalogue()) CHECK(ids.insert(effect.id).second);
+  for (const char* id :
+       {"linear_drag", "wind", "turning_wind", "wind_drift", "propwash", "pitch_trim",
+        "fore_aft_asymmetry", "vertical_coupling", "attitude_delay"}) {
+    CHECK(find_effect(id) != nullptr);
+  }
+  CHECK(find_effect("gravity_waves") == nullptr);
+}
+
+TEST_CASE("every entry of the catalogue is complete") {
+  for (const Effect& effect : effect_catalogue()) {
+    INFO(effect.id);
+    CHECK_FALSE(effect.title.empty());
+    CHECK(effect.mechanism.ends_with("."));
+    CHECK_FALSE(effect.change.empty());
+    CHECK_FALSE(effect.to_separate.empty());
+    CHECK_FALSE(effect.parameters.empty());
+    for (const EffectParameter& p : effect.parameters) {
+      CHECK(p.lower <= p.neutral);
+      CHECK(p.neutral <= p.upper);
+      CHECK(p.lower < p.upper);
+      CHECK(p.scale > 0);
+      CHECK_FALSE(p.unit.empty());
+    }
+    if (!effect.replaces.empty()) CHECK(find_effect(effect.replaces) != nullptr);
+  }
+}
+
+TEST_CASE("an effect at its neutral values changes no prediction, beyond it every effect does") {
+  const FlightRecord record = swinging_flight();
+  const std::vector<double> plain = predicted(record, nullptr, {});
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.log != LogKind::flight) continue;
+    INFO(effect.id);
+    std::vector<double> values;
+    for (const EffectParameter& p : effect.parameters) values.push_back(p.neutral * p.unit_SI);
+    CHECK(predicted(record, &effect, values) == plain);
+    values[0] += effect.parameters[0].scale * effect.parameters[0].unit_SI;
+    CHECK(predicted(record, &effect, values) != plain);
+  }
+}
+
+TEST_CASE("the acceleration follows the published force balance") {
+  const FlightRecord record = swinging_flight();
+  const std::vector<double> plain = predicted(record, nullptr, {});
+  const std::vector<double> windy = predicted(record, find_effect("wind"), {-1.2});
+  const std::vector<double> linear = predicted(record, find_effect("linear_drag"), {19.0});
+  for (std::size_t i = 0; i < record.size(); i += 13) {
+    CHECK(plain[i] == Approx(by_hand(record, i, 0, 0)).epsilon(1e-12));
+    CHECK(windy[i] == Approx(by_hand(record, i, -1.2, 0)).epsilon(1e-12));
+    CHECK(linear[i] == Approx(by_hand(record, i, 0, 19)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("propwash acts only while speed and tilt oppose each other") {
+  const FlightRecord record = swinging_flight();
+  const std::vector<double> plain = predicted(record, nullptr, {});
+  const std::vector<double> washed = predicted(record, find_effect("propwash"), {0.5});
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double u = record.forward_speed[i];
+    const double theta = record.tilt[i];
+    const double less_drag = u * theta < 0 ? 0.5 * u * std::abs(theta) / 1.6 : 0;
+    CHECK(washed[i] - plain[i] == Approx(less_drag).margin(1e-12));
+  }
+}
+
+TEST_CASE("an attitude delay shifts a smooth tilt back to where it was") {
+  const FlightRecord record = swinging_flight();
+  FlightPrediction prediction(record);
+  const std::vector<double> delay{0.13};
+  const EffectValues effect{find_effect("attitude_delay"), delay};
+  predict_acceleration(prediction, base, {&effect, 1});
+  for (std::size_t i = 3; i + 5 < record.size(); ++i) {
+    // Lagrange's cubic at 0.1 s steps errs by h⁴·f⁗/24·(9/16) ≤ 2.3e-7 here.
+    const double wanted = 0.4 * std::sin(0.7 * (record.time[i] + 0.13));
+    CHECK(prediction.tilt[i] == Approx(wanted).margin(3e-7));
+  }
+}
+
+TEST_CASE("a flight that obeys the model is simulated back onto its own speed") {
+  // Constant tilt: speed rises to where drag balances; integrate finely, log at 10 Hz.
+  Observations o;
+  const double tilt = 0.3;
+  double v = 0;
+  for (int k = 0; k < 60000; ++k) {
+    if (k % 1000 == 0) {
+      o.time.push_back(k * 1e-4);
+      o.tilt.push_back(tilt);
+      for (auto* zero : {&o.roll, &o.yaw, &o.right_speed, &o.down_speed, &o.forward_acceleration,
+                         &o.down_acceleration, &o.expected_acceleration}) {
+        zero->push_back(0);
+      }
+      o.forward_speed.push_back(v);
+    }
+    const double area = 0.015 * std::cos(tilt) + 0.012 * std::sin(tilt);
+    v += 1e-4 * (standard_gravity * std::tan(tilt) - 0.5 * 1.25 * area * v * v / 1.6);
+  }
+  const FlightRecord record = flight_record(o, 1.6, 1.25, standard_gravity);
+  const std::vector<double> simulated = simulate_speed(record, base, {}, 100, 1);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    // Trapezoids at 0.1 s and Euler at 1e-4 s both err by less than a few mm/s in 6 s.
+    CHECK(simulated[i] == Approx(record.forward_speed[i]).margin(5e-3));
+  }
+  const std::vector<double> restarted = simulate_speed(record, base, {}, 2, 1);
+  CHECK(restarted[20] == record.forward_speed[20]);
+}

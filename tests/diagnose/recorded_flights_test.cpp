@@ -1,0 +1,108 @@
+// Diagnoses of the flight of the paper and of the simulated practice flights, where they are at
+// hand.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "support/reference_data.hpp"
+#include "tethercalc/diagnose/flight_diagnosis.hpp"
+#include "tethercalc/model/units.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+FlightLog read_log(const std::filesystem::path& file) {
+  FlightLog log;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream row(line);
+    double t = 0, roll = 0, pitch = 0, yaw = 0, north = 0, east = 0, down = 0;
+    row >> t >> roll >> pitch >> yaw >> north >> east >> down;
+    log.time.push_back(t);
+    log.roll.push_back(roll * unit::degree);
+    log.pitch.push_back(pitch * unit::degree);
+    log.yaw.push_back(yaw * unit::degree);
+    log.north_velocity.push_back(north);
+    log.east_velocity.push_back(east);
+    log.down_velocity.push_back(down);
+  }
+  return log;
+}
+
+Diagnosis diagnosed(const FlightLog& log, double mass, double air_density,
+                    const FlightDiagnosisOptions& options) {
+  Design design;
+  design.drone.mass = mass;
+  design.flight.air_density = air_density;
+  return diagnose_flight(design, log, options);
+}
+
+FlightDiagnosisOptions published_choice(const FlightLog& log) {
+  FlightDiagnosisOptions options;
+  options.range = range_in_percent(log, 25, 90);
+  options.pitch_offset = 1.4955439766569403 * unit::degree;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the published flight shows linear drag and wind, and propwash beside them") {
+  const auto file = test::reference_file("data/x500-flight.csv");
+  if (!file) return;
+  const FlightLog log = read_log(*file);
+  FlightDiagnosisOptions options = published_choice(log);
+
+  std::set<std::string> found;
+  for (const Finding& f : diagnosed(log, 1.549, 1.293, options).findings) found.insert(f.effect);
+  CHECK(found.contains("linear_drag"));
+  CHECK(found.contains("wind"));
+
+  options.base = {"linear_drag", "wind"};
+  const Diagnosis d = diagnosed(log, 1.549, 1.293, options);
+  REQUIRE_FALSE(d.findings.empty());
+  CHECK(d.findings[0].effect == "propwash");
+  CHECK(d.findings[0].gain_percent >= 30);
+  CHECK(d.effective_samples < 0.2 * static_cast<double>(d.samples));
+}
+
+TEST_CASE("the practice flights are answered correctly") {
+  const auto answers_file = test::reference_file("data/practice/answers.json");
+  if (!answers_file) return;
+  std::ifstream in(*answers_file);
+  const auto answers = nlohmann::json::parse(in)["answers"];
+  int flights = 0;
+  for (const auto& [name, answer] : answers.items()) {
+    if (!name.starts_with("flight")) continue;
+    ++flights;
+    INFO(name);
+    FlightDiagnosisOptions options;
+    options.base = {"linear_drag", "wind"};
+    const Diagnosis d =
+        diagnosed(read_log(answers_file->parent_path() / name), answer["given"]["mass_kg"],
+                  answer["given"]["air_density_kg_m3"], options);
+    const std::string effect = answer["effect"];
+    const bool unknown = effect.starts_with("unknown");
+    CHECK(d.unexplained.detected == unknown);
+    if (unknown || effect == "none") {
+      CHECK(d.findings.empty());
+      if (unknown) CHECK(d.unexplained.channels.front() == "roll");
+      continue;
+    }
+    REQUIRE(d.findings.size() == 1);
+    CHECK(d.findings[0].effect == effect);
+    const double truth = answer["injected"].begin().value();
+    const ParameterEstimate& p = d.findings[0].parameters[0];
+    // One flight may miss its 95 % interval; it may not miss it by another half of its width.
+    CHECK(std::abs(p.value - truth) < p.ci95_upper - p.ci95_lower);
+  }
+  CHECK(flights == 6);
+}

@@ -1,0 +1,149 @@
+// Logs that invite a wrong answer, and the right one.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "hidden_effects/simulated_flight.hpp"
+#include "tethercalc/diagnose/flight_diagnosis.hpp"
+
+using namespace tethercalc;
+using truth::HiddenFlight;
+
+namespace {
+
+Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log, double assumed_mass,
+                    std::vector<std::string> base = {"linear_drag", "wind"}) {
+  Design design;
+  design.drone.mass = assumed_mass;
+  design.flight.air_density = hidden.air_density;
+  FlightDiagnosisOptions options;
+  options.base = std::move(base);
+  return diagnose_flight(design, log, options);
+}
+
+Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log) {
+  return diagnosed(hidden, log, hidden.mass);
+}
+
+double area(const Diagnosis& d) { return d.extended.parameters.front().value; }
+
+template <class List>
+bool lists(const List& list, const std::string& effect) {
+  return std::any_of(list.begin(), list.end(),
+                     [&effect](const auto& entry) { return entry.effect == effect; });
+}
+
+}  // namespace
+
+TEST_CASE("a wrong mass in a drag flight is not identifiable and only rescales the areas") {
+  HiddenFlight hidden;
+  hidden.seed = 21;
+  const FlightLog log = truth::fly(hidden);
+  const Diagnosis right = diagnosed(hidden, log);
+  const Diagnosis wrong = diagnosed(hidden, log, 1.25 * hidden.mass);
+  CHECK(wrong.findings.empty());
+  CHECK(lists(wrong.not_identifiable, "extra_mass"));
+  CHECK(wrong.base.holdout_rmse == Approx(right.base.holdout_rmse).epsilon(1e-6));
+  CHECK(area(wrong) == Approx(1.25 * area(right)).epsilon(1e-4));
+}
+
+TEST_CASE("at constant yaw a turning wind is not identifiable") {
+  HiddenFlight hidden;
+  hidden.seed = 22;
+  const Diagnosis d = diagnosed(hidden, truth::fly(hidden));
+  CHECK(lists(d.not_identifiable, "turning_wind"));
+}
+
+TEST_CASE("wind and trim at low speed and constant yaw are reported together") {
+  // At walking speed drag is nearly linear: a wind is then a constant force, and so is a trim.
+  HiddenFlight hidden;
+  hidden.seed = 23;
+  hidden.steepest_pitch = 5;
+  hidden.linear = 40;
+  hidden.wind = -2.5;
+  const Diagnosis d = diagnosed(hidden, truth::fly(hidden), hidden.mass, {"linear_drag"});
+  REQUIRE_FALSE(d.findings.empty());
+  const Finding& first = d.findings.front();
+  const auto& rivals = first.indistinguishable_from;
+  const std::string other = first.effect == "wind" ? "pitch_trim" : "wind";
+  CHECK((first.effect == "wind" || first.effect == "pitch_trim"));
+  CHECK(std::find(rivals.begin(), rivals.end(), other) != rivals.end());
+  CHECK_FALSE(first.to_separate.empty());
+}
+
+TEST_CASE("without a down velocity vertical coupling is not testable, the rest is") {
+  HiddenFlight hidden;
+  hidden.seed = 24;
+  hidden.propwash = 0.6;
+  FlightLog log = truth::fly(hidden);
+  log.down_velocity.clear();
+  log.roll.clear();
+  const Diagnosis d = diagnosed(hidden, log);
+  CHECK(lists(d.not_testable, "vertical_coupling"));
+  REQUIRE_FALSE(d.findings.empty());
+  CHECK(d.findings.front().effect == "propwash");
+}
+
+TEST_CASE("a log too short names nothing and says what it needs") {
+  HiddenFlight hidden;
+  hidden.seed = 25;
+  hidden.duration = 40;
+  hidden.propwash = 0.8;
+  const Diagnosis d = diagnosed(hidden, truth::fly(hidden));
+  CHECK(d.findings.empty());
+  CHECK(lists(d.not_testable, "propwash"));
+  REQUIRE_FALSE(d.notes.empty());
+  CHECK(d.notes.back().find("too short") != std::string::npos);
+}
+
+TEST_CASE("a clock offset between attitude and velocity is named as one") {
+  HiddenFlight hidden;
+  hidden.seed = 26;
+  FlightLog log = truth::fly(hidden);
+  const FlightLog honest = log;
+  for (std::size_t i = 2; i < log.time.size(); ++i) log.pitch[i] = honest.pitch[i - 2];
+  const Diagnosis d = diagnosed(hidden, log);
+  REQUIRE(d.findings.size() == 1);
+  CHECK(d.findings[0].effect == "attitude_delay");
+  // Two samples, give or take the 10 ms steps of the simulated flight.
+  CHECK(d.findings[0].parameters[0].value == Approx(0.2).margin(0.015));
+}
+
+TEST_CASE("a stuck sensor is left out and noted, not explained") {
+  HiddenFlight hidden;
+  hidden.seed = 27;
+  FlightLog log = truth::fly(hidden);
+  for (std::size_t i = 1500; i < 2000; ++i) log.pitch[i] = log.pitch[1500];
+  const Diagnosis d = diagnosed(hidden, log);
+  CHECK(d.findings.empty());
+  CHECK_FALSE(d.unexplained.detected);
+  REQUIRE_FALSE(d.notes.empty());
+  CHECK(d.notes.front().find("stuck") != std::string::npos);
+}
+
+TEST_CASE("outliers in one per cent of the samples hide nothing and invent nothing") {
+  HiddenFlight plain;
+  plain.seed = 28;
+  FlightLog log = truth::fly(plain);
+  truth::add_outliers(log, 0.01, 1);
+  CHECK(diagnosed(plain, log).findings.empty());
+
+  HiddenFlight hidden = plain;
+  hidden.fore_aft_asymmetry = 0.25;
+  FlightLog other = truth::fly(hidden);
+  truth::add_outliers(other, 0.01, 2);
+  const Diagnosis d = diagnosed(hidden, other);
+  REQUIRE(d.findings.size() == 1);
+  CHECK(d.findings[0].effect == "fore_aft_asymmetry");
+  const ParameterEstimate& p = d.findings[0].parameters[0];
+  CHECK(p.ci95_lower < 0.25);
+  CHECK(0.25 < p.ci95_upper);
+}
+
+TEST_CASE("an unknown effect in the base is refused by name") {
+  HiddenFlight hidden;
+  const FlightLog log = truth::fly(hidden);
+  CHECK_THROWS_WITH(diagnosed(hidden, log, hidden.mass, {"wnd"}),
+                    Catch::Contains("wnd") && Catch::Contains("wind_drift"));
+  CHECK_THROWS_AS(diagnosed(hidden, log, 0), std::invalid_argument);
+}

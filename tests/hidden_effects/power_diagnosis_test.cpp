@@ -1,0 +1,420 @@
+// Power logs with known hidden effects, and what the diagnosis makes of them. Rates are asserted
+// with room for chance: the bounds stand two standard deviations of a binomial count below what is
+// claimed.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "hidden_effects/power_scenarios.hpp"
+#include "support/random.hpp"
+#include "support/reference_data.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/io/power_log_reader.hpp"
+
+using namespace tethercalc;
+using namespace power_truth;
+
+namespace {
+
+std::uint64_t seed(std::uint64_t number) { return 1'000'003ULL * test::run_seed() + number; }
+
+Diagnosis diagnosis_of(const PowerLog& log) { return diagnose_power(spec(), log).diagnosis; }
+Diagnosis diagnosis_of(const Scenario& scenario) {
+  return diagnosis_of(as_power_log(simulate(scenario)));
+}
+
+/// True where the finding names the effect, alone or in a set of at most three.
+bool names(const Finding& finding, const std::string& effect) {
+  const auto& others = finding.indistinguishable_from;
+  return finding.effect == effect ||
+         (others.size() <= 2 && std::find(others.begin(), others.end(), effect) != others.end());
+}
+
+bool any_names(const Diagnosis& diagnosis, const std::string& effect) {
+  return std::any_of(diagnosis.findings.begin(), diagnosis.findings.end(),
+                     [&](const Finding& f) { return names(f, effect); });
+}
+
+template <typename List>
+bool lists(const List& list, const std::string& effect) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const auto& entry) { return entry.effect == effect; });
+}
+
+std::string summary(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const Finding& f : diagnosis.findings) {
+    text += f.effect + " (" + std::to_string(f.gain_percent) + " %)";
+    for (const auto& other : f.indistinguishable_from) text += " or " + other;
+    text += "; ";
+  }
+  if (diagnosis.unexplained.detected) text += "unnamed: " + diagnosis.unexplained.shape;
+  return text;
+}
+
+int false_alarms(int logs, std::uint64_t first) {
+  int count = 0;
+  for (int i = 0; i < logs; ++i) {
+    Scenario scenario;
+    scenario.seed = seed(first + static_cast<std::uint64_t>(i));
+    count += !diagnosis_of(scenario).findings.empty();
+  }
+  return count;
+}
+
+/// Counts over strengths from the limit of detection to large.
+struct Detection {
+  int worth = 0;    ///< logs in which the effect makes 5 % of the held-out error or more
+  int named = 0;    ///< of these, the first finding names it
+  int fitted = 0;   ///< logs in which it is the first finding
+  int covered = 0;  ///< of these, the interval holds the truth
+  std::string failures;
+};
+
+void detect(const HiddenEffect& effect, int logs, Detection& count) {
+  for (int i = 0; i < logs; ++i) {
+    Scenario scenario;
+    scenario.seed = seed(10'000 + static_cast<std::uint64_t>(i) +
+                         1000 * std::hash<std::string>{}(effect.id) % 100'000);
+    effect.hide(scenario.hidden, i / (logs - 1.0));
+    const Diagnosis d = diagnosis_of(scenario);
+    const bool right = !d.findings.empty() && names(d.findings.front(), effect.id);
+    // What the best explanation removes. Where nothing was found, more than 5 % went unnoticed if
+    // the error stands 5 % above that of pure noise.
+    const double noise = 1.01;
+    const double possible = 100 * (1 - noise / d.base.holdout_rmse);
+    if (possible >= 5) {
+      ++count.worth;
+      count.named += right;
+      if (!right) count.failures += effect.id + ": " + summary(d) + "\n";
+    }
+    if (!d.findings.empty() && d.findings.front().effect == effect.id) {
+      const ParameterEstimate& p = d.findings.front().parameters.front();
+      const double truth = effect.truth(scenario.hidden);
+      ++count.fitted;
+      count.covered += p.ci95_lower <= truth && truth <= p.ci95_upper;
+    }
+  }
+}
+
+void check_detection(std::size_t first, std::size_t last) {
+  Detection count;
+  for (std::size_t e = first; e < last; ++e) detect(hidden_effects()[e], 12, count);
+  INFO(count.failures);
+  CHECK(count.worth > 20);
+  CHECK(count.named >= 0.9 * count.worth);
+  CHECK(count.covered >= 0.83 * count.fitted);
+}
+
+/// Pairs of which one can always be described as a change of the other.
+bool degenerate(const std::string& a, const std::string& b) {
+  const auto is = [&](const char* x, const char* y) {
+    return (a == x && b == y) || (a == y && b == x);
+  };
+  // With a drum the resistance is the same at every height: any factor or addition is a longer
+  // cable.
+  return is("spooled_length", "conductor_resistivity") ||
+         is("spooled_length", "contact_resistance") ||
+         // The converter's fixed loss and the auxiliaries add up.
+         is("converter_efficiency_curve", "auxiliary_power");
+}
+
+void check_pairs(std::size_t remainder) {
+  const auto& effects = hidden_effects();
+  int pairs = 0;
+  int found = 0;
+  std::string failures;
+  std::size_t number = 0;
+  for (std::size_t a = 0; a < effects.size(); ++a) {
+    for (std::size_t b = a + 1; b < effects.size(); ++b) {
+      if (degenerate(effects[a].id, effects[b].id) || number++ % 2 != remainder) continue;
+      Scenario scenario;
+      scenario.seed = seed(200'000 + number);
+      effects[a].hide(scenario.hidden, 0.6);
+      effects[b].hide(scenario.hidden, 0.6);
+      const Diagnosis d = diagnosis_of(scenario);
+      const bool both = any_names(d, effects[a].id) && any_names(d, effects[b].id);
+      ++pairs;
+      found += both;
+      if (!both) failures += effects[a].id + " and " + effects[b].id + ": " + summary(d) + "\n";
+    }
+  }
+  INFO(failures);
+  CHECK(found >= 0.8 * pairs);
+}
+
+PowerLog practice_log(const char* name) {
+  const auto path = test::reference_file(std::string("data/practice/") + name);
+  return path ? read_power_log(*path) : PowerLog{};
+}
+
+}  // namespace
+
+TEST_CASE("a power log without hidden effects yields findings in at most 5 %, first hundred") {
+  CHECK(false_alarms(100, 0) <= 5);
+}
+
+TEST_CASE("a power log without hidden effects yields findings in at most 5 %, second hundred") {
+  CHECK(false_alarms(100, 100) <= 5);
+}
+
+TEST_CASE("effects of the line are named and their size is covered") { check_detection(0, 5); }
+
+TEST_CASE("effects of converter and motors are named and their size is covered") {
+  check_detection(5, 9);
+}
+
+TEST_CASE("effects of the airframe are named and their size is covered") {
+  check_detection(9, hidden_effects().size());
+}
+
+TEST_CASE("two power effects at once are both found, first half of the pairs") { check_pairs(0); }
+
+TEST_CASE("two power effects at once are both found, second half of the pairs") { check_pairs(1); }
+
+TEST_CASE("what no power effect describes is seen, with its channel, and not given a name") {
+  struct Unknown {
+    const char* channel;
+    void (*hide)(HiddenEffects&, double);
+  };
+  const std::vector<Unknown> unknowns{
+      {"time_s", [](HiddenEffects& h, double s) { h.step_in_motor_power = 0.03 + 0.07 * s; }},
+      {"time_s", [](HiddenEffects& h, double s) { h.step_in_resistance = 0.03 + 0.15 * s; }},
+      {"height_m", [](HiddenEffects& h, double s) { h.motor_power_per_height = 0.06 + 0.1 * s; }}};
+  int right = 0;
+  int total = 0;
+  std::string failures;
+  test::Random random(test::run_seed());
+  for (const Unknown& unknown : unknowns) {
+    for (int i = 0; i < 10; ++i) {
+      Scenario scenario;
+      scenario.seed = seed(300'000 + static_cast<std::uint64_t>(total));
+      scenario.hidden.step_at = random.uniform(0.25, 0.75);
+      unknown.hide(scenario.hidden, i / 9.0);
+      const Diagnosis d = diagnosis_of(scenario);
+      const bool ok = d.unexplained.detected && d.unexplained.channels.front() == unknown.channel &&
+                      d.findings.empty();
+      ++total;
+      right += ok;
+      if (!ok) failures += std::string(unknown.channel) + ": " + summary(d) + "\n";
+    }
+  }
+  INFO(failures);
+  CHECK(right >= 0.8 * total);
+}
+
+TEST_CASE("at one height contacts, drum and resistivity are declared indistinguishable") {
+  Scenario scenario;
+  scenario.profile = Profile::one_height;
+  scenario.hidden.contact_resistance = 0.3;
+  scenario.seed = seed(400'000);
+  const Diagnosis d = diagnosis_of(scenario);
+  INFO(summary(d));
+  REQUIRE(d.findings.size() == 1);
+  for (const char* id : {"contact_resistance", "conductor_resistivity"}) {
+    CHECK(names(d.findings.front(), id));
+  }
+  CHECK(d.findings.front().indistinguishable_from.size() <= 2);
+  CHECK_THAT(d.findings.front().to_separate, Catch::Contains("height"));
+}
+
+TEST_CASE("without the drone's voltage what needs it is not testable, the motors still are") {
+  Scenario scenario;
+  scenario.hidden.contact_resistance = 0.3;
+  scenario.hidden.extra_mass = 0.15;
+  scenario.seed = seed(400'010);
+  PowerLog log = as_power_log(simulate(scenario));
+  log.drone_voltage.clear();
+  const Diagnosis d = diagnosis_of(log);
+  INFO(summary(d));
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.log != LogKind::power) continue;
+    const bool needs = std::find(effect.needs.begin(), effect.needs.end(), "drone_voltage_V") !=
+                       effect.needs.end();
+    CHECK(lists(d.not_testable, effect.id) == needs);
+  }
+  REQUIRE(d.findings.size() == 1);
+  CHECK(names(d.findings.front(), "extra_mass"));
+}
+
+TEST_CASE("without the bus channels the tether is still judged") {
+  Scenario scenario;
+  scenario.hidden.contact_resistance = 0.3;
+  scenario.hidden.extra_mass = 0.15;
+  scenario.seed = seed(400'020);
+  PowerLog log = as_power_log(simulate(scenario));
+  log.bus_current.clear();
+  const Diagnosis d = diagnosis_of(log);
+  INFO(summary(d));
+  REQUIRE(d.findings.size() == 1);
+  CHECK(names(d.findings.front(), "contact_resistance"));
+  for (const char* id : {"extra_mass", "auxiliary_power", "motor_power_scale"}) {
+    CHECK(lists(d.not_testable, id));
+  }
+}
+
+TEST_CASE("a supply pair alone can show nothing, and says so") {
+  PowerLog log = as_power_log(simulate({}));
+  log.drone_voltage.clear();
+  log.bus_voltage.clear();
+  log.bus_current.clear();
+  log.ambient_temperature_C.clear();
+  const Diagnosis d = diagnosis_of(log);
+  CHECK(d.findings.empty());
+  const auto catalogue = effect_catalogue();
+  CHECK(d.not_testable.size() ==
+        static_cast<std::size_t>(std::count_if(catalogue.begin(), catalogue.end(),
+                                               [](auto& e) { return e.log == LogKind::power; })));
+}
+
+TEST_CASE("a power log that is too short is not judged") {
+  Scenario scenario;
+  scenario.duration = 90;
+  scenario.hidden.extra_mass = 0.3;
+  const Diagnosis d = diagnosis_of(scenario);
+  CHECK(d.findings.empty());
+  CHECK_FALSE(d.unexplained.detected);
+  CHECK(lists(d.not_testable, "extra_mass"));
+  REQUIRE_FALSE(d.notes.empty());
+}
+
+TEST_CASE("clocks that disagree are set right and not taken for physics") {
+  const double bus = GENERATE(0.0, 3.0, -2.0);
+  const double flight = GENERATE(0.0, 4.0);
+  if (bus == 0 && flight == 0) return;
+  Scenario scenario;
+  scenario.bus_clock_offset = bus;
+  scenario.flight_clock_offset = flight;
+  scenario.seed = seed(400'030);
+  const Diagnosis nothing = diagnosis_of(scenario);
+  INFO(summary(nothing));
+  CHECK(nothing.findings.empty());
+  CHECK_FALSE(nothing.notes.empty());
+
+  scenario.hidden.extra_mass = 0.2;
+  const Diagnosis heavy = diagnosis_of(scenario);
+  INFO(summary(heavy));
+  REQUIRE_FALSE(heavy.findings.empty());
+  CHECK(names(heavy.findings.front(), "extra_mass"));
+}
+
+TEST_CASE("a stuck instrument is noticed and not taken for physics") {
+  const std::string channel = GENERATE(as<std::string>(), "drone_voltage_V", "bus_current_A",
+                                       "supply_current_A", "height_m", "airspeed_m_s");
+  Scenario scenario;
+  scenario.stuck_channel = channel;
+  scenario.seed = seed(400'040);
+  const Diagnosis nothing = diagnosis_of(scenario);
+  INFO(channel << ": " << summary(nothing));
+  CHECK(nothing.findings.empty());
+  CHECK_FALSE(nothing.unexplained.detected);
+  CHECK(std::any_of(nothing.notes.begin(), nothing.notes.end(), [&](const std::string& note) {
+    return note.find(channel) != std::string::npos && note.find("stuck") != std::string::npos;
+  }));
+}
+
+TEST_CASE("outliers in 1 % of the samples change neither silence nor names") {
+  Scenario scenario;
+  scenario.outlier_share = 0.01;
+  scenario.seed = seed(400'050);
+  const Diagnosis nothing = diagnosis_of(scenario);
+  INFO(summary(nothing));
+  CHECK(nothing.findings.empty());
+
+  scenario.hidden.contact_resistance = 0.2;
+  const Diagnosis contact = diagnosis_of(scenario);
+  INFO(summary(contact));
+  REQUIRE_FALSE(contact.findings.empty());
+  CHECK(names(contact.findings.front(), "contact_resistance"));
+}
+
+TEST_CASE("a base effect is refitted and not reported") {
+  Scenario scenario;
+  scenario.hidden.extra_mass = 0.2;
+  scenario.seed = seed(400'060);
+  const std::vector<std::string> base{"extra_mass"};
+  const Diagnosis d = diagnose_power(spec(), as_power_log(simulate(scenario)), base).diagnosis;
+  INFO(summary(d));
+  CHECK(d.findings.empty());
+  REQUIRE(d.base.parameters.size() == 1);
+  CHECK(d.base.parameters.front().value == Approx(0.2).margin(0.02));
+}
+
+TEST_CASE("the extended design holds what outlives the flight") {
+  Scenario scenario;
+  scenario.seed = seed(400'070);
+  scenario.hidden.extra_mass = 0.2;
+  scenario.hidden.contact_resistance = 0.3;
+  const Design extended = diagnose_power(spec(), as_power_log(simulate(scenario))).extended;
+  CHECK(extended.drone.mass == Approx(1.91).margin(0.03));
+  CHECK(extended.tether.contact_resistance == Approx(0.3).margin(0.02));
+
+  Scenario warm;
+  warm.seed = seed(400'071);
+  warm.hidden.heating = 15;
+  warm.hidden.converter_fixed_loss = 15;
+  const Design hot = diagnose_power(spec(), as_power_log(simulate(warm))).extended;
+  // 4.6 A: 1.1 W/m, 15 K each in still air, less than half in the wind of the design airspeed.
+  CHECK(hot.tether.conductor_temperature_C > 23);
+  CHECK(hot.tether.conductor_temperature_C < 45);
+  REQUIRE(hot.supply.converter.efficiency.size() > 5);
+  CHECK(efficiency_at(hot.supply.converter, 300) ==
+        Approx(300 / (300 + 15 + 1.55e-4 * 9e4)).epsilon(0.003));
+}
+
+TEST_CASE("the error budget of a power log sums to the whole") {
+  Scenario scenario;
+  scenario.seed = seed(400'080);
+  scenario.hidden.contact_resistance = 0.2;
+  scenario.hidden.step_in_motor_power = 0.08;
+  const Diagnosis d = diagnosis_of(scenario);
+  INFO(summary(d));
+  REQUIRE(d.budget.findings.size() == d.findings.size());
+  const double named = std::accumulate(d.budget.findings.begin(), d.budget.findings.end(), 0.0);
+  CHECK(named + d.budget.unexplained + d.budget.noise == Approx(100).margin(1e-6));
+  CHECK(any_names(d, "contact_resistance"));
+  CHECK(d.budget.unexplained > 0);
+}
+
+TEST_CASE("a spec without a cable, and a base effect of flights, are refused with the reason") {
+  const PowerLog log = as_power_log(simulate({}));
+  Design design = spec();
+  design.tether.cross_section.reset();
+  CHECK_THROWS_WITH(diagnose_power(design, log), Catch::Contains("cross_section"));
+  const std::vector<std::string> base{"propwash"};
+  CHECK_THROWS_WITH(diagnose_power(spec(), log, base), Catch::Contains("propwash"));
+}
+
+TEST_CASE("the practice power logs are answered correctly") {
+  struct Answer {
+    const char* file;
+    std::string effect;
+    double value;
+  };
+  const std::vector<Answer> answers{{"power-22.csv", "conductor_heating", 15.506},
+                                    {"power-23.csv", "converter_efficiency_curve", 14.773},
+                                    {"power-24.csv", "spooled_length", 24.935},
+                                    {"power-25.csv", "extra_mass", 0.18769}};
+  const PowerLog plain = practice_log("power-21.csv");
+  if (plain.time.empty()) return;
+  const Diagnosis nothing = diagnosis_of(plain);
+  CHECK(nothing.findings.empty());
+  CHECK_FALSE(nothing.unexplained.detected);
+
+  for (const Answer& answer : answers) {
+    const Diagnosis d = diagnosis_of(practice_log(answer.file));
+    INFO(answer.file << ": " << summary(d));
+    REQUIRE(d.findings.size() == 1);
+    CHECK(d.findings.front().effect == answer.effect);
+    CHECK(d.findings.front().indistinguishable_from.empty());
+    CHECK(d.findings.front().parameters.front().ci95_lower <= answer.value);
+    CHECK(d.findings.front().parameters.front().ci95_upper >= answer.value);
+    CHECK_FALSE(d.unexplained.detected);
+  }
+
+  const Diagnosis step = diagnosis_of(practice_log("power-26.csv"));
+  CHECK(step.findings.empty());
+  CHECK(step.unexplained.detected);
+  CHECK(step.unexplained.channels == std::vector<std::string>{"time_s"});
+}

@@ -1,0 +1,87 @@
+#include "hidden_effects/power_scenarios.hpp"
+
+#include <cmath>
+
+namespace power_truth {
+
+using namespace tethercalc;
+
+Design spec() {
+  // Data sheet of the Holybro AIR2216 920 KV with a 10 inch propeller at 16 V: g, g/W.
+  const double sheet[15][2] = {{210, 9.12}, {259, 8.67},  {309, 8.45},  {373, 8.15},  {447, 7.76},
+                               {536, 7.39}, {628, 7.01},  {729, 6.73},  {814, 6.44},  {906, 6.18},
+                               {993, 5.88}, {1087, 5.65}, {1191, 5.43}, {1289, 5.18}, {1332, 5.13}};
+  std::vector<MotorPoint> points;
+  for (const auto& row : sheet) {
+    points.push_back({row[0] * unit::gram_force, row[0] / row[1]});
+  }
+  Design design;
+  design.drone.mass = 1.710;
+  design.drone.motor_count = 4;
+  design.drone.motor = MotorCurve(points);
+  design.drone.auxiliary_power = 15;
+  design.drone.drag = {0.01451, 0.01361, 19.27, 0};
+  design.tether.length = 30;
+  design.tether.cross_section = 1.09e-6;
+  design.tether.conductor = {0.0278e-6, 0.00403, 2700};
+  design.tether.insulation = {1360, 0.75e-3};
+  design.supply.voltage = 75;
+  design.supply.converter = {{{0.0, 0.9}}, 20};
+  design.flight.airspeed = 8.3333;
+  return design;
+}
+
+PowerLog as_power_log(const Log& log) {
+  return {log.time,           log.height,         log.airspeed,      log.ambient_temperature,
+          log.supply_voltage, log.supply_current, log.drone_voltage, log.bus_voltage,
+          log.bus_current};
+}
+
+const std::vector<HiddenEffect>& hidden_effects() {
+  // A strength s runs geometrically from the first to the second number.
+  static const auto between = [](double low, double high, double s) {
+    return low * std::pow(high / low, s);
+  };
+  static const std::vector<HiddenEffect> effects{
+      {"current_sensor_gain",
+       [](HiddenEffects& h, double s) { h.supply_current_gain = 1 + between(0.004, 0.06, s); },
+       [](const HiddenEffects& h) { return h.supply_current_gain; }},
+      {"conductor_resistivity",
+       [](HiddenEffects& h, double s) { h.resistivity_factor = 1 + between(0.01, 0.3, s); },
+       [](const HiddenEffects& h) { return h.resistivity_factor; }},
+      {"conductor_heating",
+       [](HiddenEffects& h, double s) {
+         h.heating = between(5, 30, s);
+         h.heating_time_constant = 120 + 180 * s;
+       },
+       [](const HiddenEffects& h) { return h.heating; }},
+      {"contact_resistance",
+       [](HiddenEffects& h, double s) { h.contact_resistance = between(0.01, 0.6, s); },
+       [](const HiddenEffects& h) { return h.contact_resistance; }},
+      {"spooled_length", [](HiddenEffects& h, double s) { h.spooled_length = between(3, 40, s); },
+       [](const HiddenEffects& h) { return h.spooled_length; }},
+      {"converter_efficiency_curve",
+       [](HiddenEffects& h, double s) { h.converter_fixed_loss = between(8, 30, s); },
+       [](const HiddenEffects& h) { return h.converter_fixed_loss; }},
+      {"auxiliary_power",
+       [](HiddenEffects& h, double s) { h.auxiliary_power = between(0.8, 25, s); },
+       [](const HiddenEffects& h) { return h.auxiliary_power; }},
+      {"motor_power_scale",
+       [](HiddenEffects& h, double s) { h.motor_power_factor = 1 + between(0.01, 0.15, s); },
+       [](const HiddenEffects& h) { return h.motor_power_factor; }},
+      {"translational_lift",
+       [](HiddenEffects& h, double s) { h.translational_lift = between(0.03, 0.3, s); },
+       [](const HiddenEffects& h) { return h.translational_lift; }},
+      {"extra_mass", [](HiddenEffects& h, double s) { h.extra_mass = between(0.02, 0.4, s); },
+       [](const HiddenEffects& h) { return h.extra_mass; }},
+      {"tether_drag",
+       [](HiddenEffects& h, double s) { h.tether_drag_factor = 1 + between(0.15, 1.5, s); },
+       [](const HiddenEffects& h) { return h.tether_drag_factor; }},
+      {"airframe_drag",
+       [](HiddenEffects& h, double s) { h.airframe_drag_factor = 1 + between(0.25, 2, s); },
+       [](const HiddenEffects& h) { return h.airframe_drag_factor; }},
+  };
+  return effects;
+}
+
+}  // namespace power_truth

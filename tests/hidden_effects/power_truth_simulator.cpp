@@ -1,0 +1,211 @@
+#include "hidden_effects/power_truth_simulator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace power_truth {
+namespace {
+
+// Holybro AIR2216 920 KV, 10 inch, 16 V: gram-force and g/W of the data sheet.
+constexpr std::array<std::array<double, 2>, 15> motor_table{{{210, 9.12},
+                                                             {259, 8.67},
+                                                             {309, 8.45},
+                                                             {373, 8.15},
+                                                             {447, 7.76},
+                                                             {536, 7.39},
+                                                             {628, 7.01},
+                                                             {729, 6.73},
+                                                             {814, 6.44},
+                                                             {906, 6.18},
+                                                             {993, 5.88},
+                                                             {1087, 5.65},
+                                                             {1191, 5.43},
+                                                             {1289, 5.18},
+                                                             {1332, 5.13}}};
+
+double motor_watts(double grams) {
+  double last_g = 0;
+  double last_w = 0;
+  for (const auto& [g, g_per_watt] : motor_table) {
+    const double w = g / g_per_watt;
+    if (grams <= g) return last_w + (w - last_w) * (grams - last_g) / (g - last_g);
+    last_g = g;
+    last_w = w;
+  }
+  return last_w + 0.25 * (grams - last_g);
+}
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double gravity = 9.80665;
+constexpr double air = 1.293;
+constexpr double conductor_area = 1.09e-6;
+constexpr double wall = 0.75e-3;
+const double outer_radius = std::sqrt(conductor_area / pi) + wall;
+constexpr double ohm_per_metre_20C = 2 * 0.0278e-6 / conductor_area;
+constexpr double temperature_coefficient = 0.00403;
+const double kg_per_metre =
+    2 * (2700 * conductor_area + 1360 * (pi * outer_radius * outer_radius - conductor_area));
+
+/// W at the bus for steady flight, without the random deviation.
+double motor_power(const HiddenEffects& hidden, double height, double speed) {
+  const double weight = (1.71 + hidden.extra_mass + kg_per_metre * height) * gravity;
+  const double tether_drag =
+      0.5 * air * hidden.tether_drag_factor * 0.75 * 4 * height * outer_radius * speed * speed;
+  double angle = 0;
+  for (int i = 0; i < 60; ++i) {  // contraction: drag changes little with the angle
+    const double area =
+        hidden.airframe_drag_factor * (0.01451 * std::cos(angle) + 0.01361 * std::sin(angle));
+    const double drag = 0.5 * air * area * (speed * speed + 19.27 * speed);
+    angle = std::atan((drag + tether_drag) / weight);
+  }
+  const double thrust_g = weight / std::cos(angle) / 4 / gravity * 1000;
+  // Glauert's level-flight momentum theory: v_i·√(v² + v_i²) = v_h².
+  double induced = hidden.induced_speed;
+  for (int i = 0; i < 200; ++i) {
+    const double next = hidden.induced_speed * hidden.induced_speed / std::hypot(speed, induced);
+    induced = 0.5 * (induced + next);
+  }
+  const double relief = 1 - hidden.translational_lift * (1 - induced / hidden.induced_speed);
+  return 4 * motor_watts(thrust_g) * hidden.motor_power_factor * relief;
+}
+
+double rounded(double value, double step) { return std::round(value / step) * step; }
+
+/// Readings of a channel stamped `offset` late, linear between samples.
+std::vector<double> stamped_late(const std::vector<double>& x, double offset, double interval) {
+  if (offset == 0) return x;
+  std::vector<double> out(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double at = std::clamp(static_cast<double>(i) - offset / interval, 0.0,
+                                 static_cast<double>(x.size() - 1));
+    const auto k = std::min(static_cast<std::size_t>(at), x.size() - 2);
+    const double f = at - static_cast<double>(k);
+    out[i] = x[k] + f * (x[k + 1] - x[k]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Log simulate(const Scenario& scenario) {
+  const HiddenEffects& hidden = scenario.hidden;
+  std::mt19937_64 engine(scenario.seed * 0x9E3779B97F4A7C15ULL + 17);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const auto pick = [&](int n) { return static_cast<int>(uniform(engine) * n); };
+
+  const double dt = scenario.sample_interval;
+  const double duration = scenario.duration > 0 ? scenario.duration : 1480 + 140 * uniform(engine);
+  const auto n = static_cast<std::size_t>(duration / dt);
+  const double ambient =
+      scenario.ambient_temperature != 0 ? scenario.ambient_temperature : 17 + 5 * uniform(engine);
+
+  // The six plateaus in random order, each held equally long; a new airspeed every 40 s or so.
+  std::array<double, 6> plateau{5, 10, 15, 20, 25, 30};
+  std::shuffle(plateau.begin(), plateau.end(), engine);
+  if (scenario.profile == Profile::one_height) plateau.fill(15);
+  constexpr std::array<double, 4> speeds{0, 3, 6, 9};
+
+  Log log;
+  std::vector<double> height(n), speed(n), supply_current(n), drone_voltage(n), bus_power(n);
+  double h = scenario.profile == Profile::one_height ? 15 : 1;
+  double v = 0;
+  double steady_speed = 0;
+  double gust = 0;
+  double target_speed = 0;
+  double next_change = 0;
+  double deviation = 0.012 * normal(engine);
+  double rise = 0;
+  const double memory = std::pow(0.79, dt);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) * dt;
+    const double share = t / duration;
+    const double goal = plateau[std::min<std::size_t>(5, static_cast<std::size_t>(6 * share))];
+    h += std::clamp(goal - h, -0.8 * dt, 0.8 * dt);
+    if (t >= next_change) {
+      target_speed = speeds[static_cast<std::size_t>(pick(4))];
+      next_change = t + 25 + 30 * uniform(engine);
+    }
+    steady_speed += (target_speed - steady_speed) * (1 - std::exp(-dt / 4));
+    const double gust_memory = std::pow(0.85, dt);
+    gust = gust_memory * gust + 0.3 * std::sqrt(1 - gust_memory * gust_memory) * normal(engine);
+    v = std::max(0.0, steady_speed + gust * std::min(1.0, steady_speed / 3));
+    deviation = memory * deviation + 0.012 * std::sqrt(1 - memory * memory) * normal(engine);
+
+    double power = motor_power(hidden, h, v) * (1 + deviation);
+    if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
+    power *= 1 + hidden.motor_power_per_height * (h / 30) * (h / 30);
+    power *= 1 + hidden.motor_power_swing * std::sin(2 * pi * t / 600);
+
+    const double converter_input =
+        hidden.converter_fixed_loss > 0
+            ? power + hidden.converter_fixed_loss + hidden.converter_square_loss * power * power
+            : power / 0.9;
+    const double input = converter_input + 15 + hidden.auxiliary_power;
+
+    const double cable = hidden.spooled_length >= 0 ? 30 + hidden.spooled_length : h;
+    const double temperature = hidden.heating > 0 ? ambient + rise : 20;
+    const double ohm_per_metre = ohm_per_metre_20C * hidden.resistivity_factor *
+                                 (1 + temperature_coefficient * (temperature - 20));
+    double resistance = ohm_per_metre * cable + hidden.contact_resistance;
+    if (share >= hidden.step_at) resistance += hidden.step_in_resistance;
+    const double current = (75 - std::sqrt(75 * 75 - 4 * resistance * input)) / (2 * resistance);
+    const double settled = hidden.heating * current * current * ohm_per_metre_20C /
+                           (1 + hidden.heating_wind_cooling * std::sqrt(v));
+    rise += (settled - rise) * (1 - std::exp(-dt / hidden.heating_time_constant));
+
+    height[i] = h;
+    speed[i] = v;
+    supply_current[i] = current;
+    drone_voltage[i] = 75 - current * resistance;
+    bus_power[i] = power;
+  }
+
+  height = stamped_late(height, scenario.flight_clock_offset, dt);
+  speed = stamped_late(speed, scenario.flight_clock_offset, dt);
+  bus_power = stamped_late(bus_power, scenario.bus_clock_offset, dt);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double bus_voltage = 16 - 0.004 * bus_power[i] / 16;
+    log.time.push_back(static_cast<double>(i + 1) * dt);
+    log.height.push_back(rounded(height[i] + 0.05 * normal(engine), 0.01));
+    log.airspeed.push_back(rounded(std::max(0.0, speed[i] + 0.15 * normal(engine)), 0.01));
+    log.ambient_temperature.push_back(rounded(ambient + 0.1 * normal(engine), 0.1));
+    log.supply_voltage.push_back(rounded(75 + 0.035 * normal(engine), 0.01));
+    log.supply_current.push_back(
+        rounded(hidden.supply_current_gain * supply_current[i] + 0.015 * normal(engine), 0.001));
+    log.drone_voltage.push_back(rounded(drone_voltage[i] + 0.025 * normal(engine), 0.01));
+    log.bus_voltage.push_back(rounded(bus_voltage + 0.01 * normal(engine), 0.001));
+    log.bus_current.push_back(rounded(bus_power[i] / bus_voltage + 0.06 * normal(engine), 0.01));
+  }
+
+  const std::array<std::pair<const char*, std::vector<double>*>, 8> channels{{
+      {"height_m", &log.height},
+      {"airspeed_m_s", &log.airspeed},
+      {"ambient_temperature_C", &log.ambient_temperature},
+      {"supply_voltage_V", &log.supply_voltage},
+      {"supply_current_A", &log.supply_current},
+      {"drone_voltage_V", &log.drone_voltage},
+      {"bus_voltage_V", &log.bus_voltage},
+      {"bus_current_A", &log.bus_current},
+  }};
+  for (const auto& [name, values] : channels) {
+    std::vector<double>& x = *values;
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    const double spread = *high - *low;
+    for (double& value : x) {
+      if (uniform(engine) < scenario.outlier_share) {
+        value = std::max(
+            0.0, value + (uniform(engine) < 0.5 ? -1 : 1) * (0.5 + 2 * uniform(engine)) * spread);
+      }
+    }
+    if (scenario.stuck_channel == name) {
+      std::fill(x.begin() + static_cast<std::ptrdiff_t>(n / 3),
+                x.begin() + static_cast<std::ptrdiff_t>(2 * n / 3), x[n / 3]);
+    }
+  }
+  return log;
+}
+
+}  // namespace power_truth

@@ -1,0 +1,72 @@
+// A tethered drone that flies with known hidden effects and writes the power log its instruments
+// would. Shares no code with the library: its own motor table, balance of forces, line and
+// converter.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace power_truth {
+
+/// What is hidden from the spec; every default hides nothing. SI units.
+struct HiddenEffects {
+  double resistivity_factor = 1;
+  double heating = 0;  ///< K per W/m of loop in still air, conductor at ambient + rise
+  double heating_time_constant = 200;  ///< s
+  double heating_wind_cooling = 0.2;   ///< rise divided by 1 + c·√(v in m/s)
+  double contact_resistance = 0;       ///< Ω
+  double spooled_length = -1;  ///< m beyond 30 m on a drum that holds all that is not airborne;
+                               ///< negative: no drum
+  double converter_fixed_loss = 0;         ///< W; > 0 replaces the constant efficiency by
+                                           ///< input = output + fixed + ratio·output²
+  double converter_square_loss = 1.55e-4;  ///< 1/W
+  double auxiliary_power = 0;  ///< W at the converter's input, on top of the spec's 15 W
+  double extra_mass = 0;       ///< kg
+  double motor_power_factor = 1;
+  double translational_lift = 0;  ///< share of hover power that is induced and falls off
+  double induced_speed = 6;       ///< m/s, induced velocity in hover
+  double tether_drag_factor = 1;
+  double airframe_drag_factor = 1;
+  double supply_current_gain = 1;  ///< reading over truth
+
+  // Not in anybody's catalogue.
+  double step_in_motor_power = 0;  ///< relative, from `step_at` of the log on
+  double step_at = 0.6;
+  double motor_power_per_height = 0;  ///< relative at 30 m, growing with the square of the height
+  double step_in_resistance = 0;      ///< Ω, from `step_at` on
+  double motor_power_swing = 0;       ///< relative amplitude of a slow wave in time, period 600 s
+};
+
+enum class Profile {
+  plateaus,    ///< 5 … 30 m, airspeed 0 … 9 m/s in steps
+  one_height,  ///< 15 m throughout, airspeed as above
+};
+
+struct Scenario {
+  HiddenEffects hidden;
+  Profile profile = Profile::plateaus;
+  double duration = 0;             ///< s; 0: about 1,550
+  double sample_interval = 1;      ///< s
+  double ambient_temperature = 0;  ///< °C; 0: drawn between 17 and 22
+  std::uint64_t seed = 1;
+
+  // Bad instruments.
+  double bus_clock_offset = 0;     ///< s: bus readings are stamped this much late
+  double flight_clock_offset = 0;  ///< s: height and airspeed are stamped this much late
+  double outlier_share = 0;        ///< of the samples of every channel
+  std::string stuck_channel;       ///< CSV name; holds its value over the middle third
+};
+
+/// Columns of a power log, named as in the CSV without units.
+struct Log {
+  std::vector<double> time, height, airspeed, ambient_temperature, supply_voltage, supply_current,
+      drone_voltage, bus_voltage, bus_current;
+};
+
+/// Deterministic in the scenario. Airspeed gusts by 0.3 m/s (first-order autoregressive, 0.85 at
+/// 1 Hz), motor power deviates by 1.2 % (0.79 at 1 Hz); every instrument adds white noise and
+/// rounds.
+[[nodiscard]] Log simulate(const Scenario& scenario);
+
+}  // namespace power_truth

@@ -1,0 +1,156 @@
+#include "hidden_effects/simulated_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <numbers>
+#include <random>
+
+namespace tethercalc::truth {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double gravity = 9.80665;
+constexpr double step = 0.01;  // s, integration
+constexpr int steps_per_sample = 10;
+constexpr double pitch_rate = 0.6;      // rad/s, as fast as the pilot tilts the drone
+constexpr double response_time = 0.12;  // s, attitude controller
+
+using Random = std::mt19937_64;
+
+double normal(Random& random) { return std::normal_distribution<double>()(random); }
+double uniform(Random& random, double from, double to) {
+  return std::uniform_real_distribution<double>(from, to)(random);
+}
+
+/// First-order Gauss–Markov process sampled at the integration step.
+class Wander {
+ public:
+  Wander(double std, double time) : std_(std), keep_(std::exp(-step / time)) {}
+  double next(Random& random) {
+    value_ = keep_ * value_ + std_ * std::sqrt(1 - keep_ * keep_) * normal(random);
+    return value_;
+  }
+
+ private:
+  double std_;
+  double keep_;
+  double value_ = 0;
+};
+
+/// Forward and backward passes: tilt into the motion, hold, tilt against it, with pauses.
+class Pilot {
+ public:
+  explicit Pilot(double steepest) : steepest_(steepest * degree) {}
+  double tilt(double time, Random& random) {
+    if (time >= until_) {
+      direction_ = -direction_;
+      const bool pause = uniform(random, 0, 1) < 0.1;
+      wanted_ = pause ? 0 : direction_ * uniform(random, 0.2, 1) * steepest_;
+      until_ = time + uniform(random, 2.5, 8);
+    }
+    commanded_ += std::clamp(wanted_ - commanded_, -pitch_rate * step, pitch_rate * step);
+    actual_ += (commanded_ - actual_) * step / response_time;
+    return actual_;
+  }
+
+ private:
+  double steepest_;
+  double direction_ = 1;
+  double until_ = 0;
+  double wanted_ = 0;
+  double commanded_ = 0;
+  double actual_ = 0;
+};
+
+double drag(const HiddenFlight& h, double u, double tilt, double down, double roll, double height,
+            bool late) {
+  const double area = h.front_area * std::cos(tilt) + h.top_area * std::abs(std::sin(tilt));
+  double force = 0.5 * h.air_density * area * (u * std::abs(u) + h.linear * u);
+  force *= u > 0 ? 1 + h.fore_aft_asymmetry : 1 - h.fore_aft_asymmetry;
+  if (u * tilt < 0) force -= h.propwash * u * std::abs(tilt);
+  force += h.vertical_coupling * u * down;
+  force *= std::max(0.2, 1 + h.height_drag * height) + (late ? h.step_drag : 0);
+  force += h.roll_drag * u * (1 - std::cos(roll));
+  return force - (late ? h.step_force : 0);
+}
+
+}  // namespace
+
+FlightLog fly(const HiddenFlight& h) {
+  Random random(h.seed);
+  FlightLog log;
+  Pilot pilot(h.steepest_pitch);
+  Wander gust(h.gust_std, h.gust_time);
+  Wander rolling(h.roll_std * degree, 1.0);
+  Wander sideways(0.35, 2.0);
+  Wander sinking(0.4, 1.5);
+  std::deque<double> pitch_on_its_way;
+  const auto delay_steps =
+      static_cast<std::size_t>(std::max(0.0, std::round(h.attitude_delay / step)));
+
+  double speed = 0;
+  double down = 0;
+  double height = 10;
+  double yaw = uniform(random, 0, 2 * std::numbers::pi);
+  double next_turn = 40;
+  double wanted_yaw = yaw;
+  const auto steps = static_cast<std::size_t>(h.duration / step);
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double time = static_cast<double>(k) * step;
+    const bool late = time > 0.45 * h.duration;
+    if (h.yaw_turns && time >= next_turn) {
+      wanted_yaw += uniform(random, 0.8, 2.2);
+      next_turn += 40;
+    }
+    yaw += std::clamp(wanted_yaw - yaw, -0.5 * step, 0.5 * step);
+    const double tilt = pilot.tilt(time, random);
+    const double roll = rolling.next(random);
+    const double old_down = down;
+    down += (sinking.next(random) - down) * step / 0.6;  // smooth: the drone has inertia
+    const double down_acceleration = (down - old_down) / step;
+    height -= down * step;
+    const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
+                         h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw);
+    const double push =
+        (gravity - down_acceleration) * std::tan(tilt) / std::cos(roll) + gust.next(random);
+    const auto acceleration = [&](double v) {
+      return push - drag(h, v - along, tilt, down, roll, height - 10, late) / h.mass;
+    };
+    const double halfway = speed + acceleration(speed) * step / 2;
+
+    pitch_on_its_way.push_back(-tilt);
+    if (pitch_on_its_way.size() > delay_steps + 1) pitch_on_its_way.pop_front();
+    if (k % steps_per_sample == 0) {
+      const double right = sideways.next(random);
+      const auto hundredth = [](double angle) {
+        return std::round(angle / degree * 100) / 100 * degree;
+      };
+      log.time.push_back(10 + time);
+      log.roll.push_back(hundredth(roll + h.angle_noise * degree * normal(random)));
+      log.pitch.push_back(hundredth(pitch_on_its_way.front() + h.pitch_trim * degree +
+                                    h.angle_noise * degree * normal(random)));
+      log.yaw.push_back(hundredth(yaw));
+      const double forward = speed + h.speed_noise * normal(random);
+      log.north_velocity.push_back(forward * std::cos(yaw) - right * std::sin(yaw));
+      log.east_velocity.push_back(forward * std::sin(yaw) + right * std::cos(yaw));
+      log.down_velocity.push_back(down + h.speed_noise * normal(random));
+    }
+    speed += acceleration(halfway) * step;
+  }
+  return log;
+}
+
+void add_outliers(FlightLog& log, double part, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    if (uniform(random, 0, 1) < part) log.pitch[i] += uniform(random, -0.5, 0.5);
+    if (uniform(random, 0, 1) < part) {
+      const double jump = uniform(random, -5, 5);
+      log.north_velocity[i] += jump * std::cos(log.yaw[i]);
+      log.east_velocity[i] += jump * std::sin(log.yaw[i]);
+    }
+  }
+}
+
+}  // namespace tethercalc::truth

@@ -1,0 +1,55 @@
+// A drone flown through the air by its own equations of motion, and the log it would leave behind:
+// the truth that diagnoses are judged by. Shares no code with the library beyond the log's
+// container.
+#pragma once
+
+#include <cstdint>
+
+#include "tethercalc/identify/flight_log.hpp"
+
+namespace tethercalc::truth {
+
+/// What is true of a flight. Effects that are hidden in it have values other than zero.
+struct HiddenFlight {
+  std::uint64_t seed = 1;
+  double duration = 540;  ///< s
+  double mass = 1.8;      ///< kg
+  double air_density = 1.225;
+  double front_area = 0.017;  ///< m²
+  double top_area = 0.016;
+  double linear = 15;  ///< m/s
+  double wind = -1;    ///< m/s along the forward axis
+
+  /// Gusts: acceleration of a first-order process. These values leave residuals with a standard
+  /// deviation of 0.17 m/s² and a lag-1 correlation of 0.86 at 10 Hz, as the real flight does.
+  double gust_std = 0.17;      ///< m/s²
+  double gust_time = 0.55;     ///< s
+  double speed_noise = 0.004;  ///< m/s, white
+  double angle_noise = 0.15;   ///< deg, white
+  double roll_std = 2.0;       ///< deg
+  bool yaw_turns = false;      ///< a new heading every 40 s
+  double steepest_pitch = 30;  ///< deg
+
+  double attitude_delay = 0;  ///< s, attitude is logged this late
+  double pitch_trim = 0;      ///< deg, logged minus true pitch
+  double wind_north = 0;      ///< m/s, constant over ground
+  double wind_east = 0;
+  double wind_drift = 0;  ///< m/s from begin to end
+  double fore_aft_asymmetry = 0;
+  double propwash = 0;           ///< N·s/(m·rad)
+  double vertical_coupling = 0;  ///< N·s²/m²
+
+  // Effects that no catalogue has.
+  double roll_drag = 0;    ///< N·s/m: drag of u·(1 − cos φ)
+  double step_drag = 0;    ///< drag is larger by this part from 45 % of the flight on
+  double step_force = 0;   ///< N forward from 45 % of the flight on
+  double height_drag = 0;  ///< 1/m: drag grows by this part with each metre
+};
+
+/// 10 Hz from take-off to landing.
+[[nodiscard]] FlightLog fly(const HiddenFlight& hidden);
+
+/// Replaces `part` of all pitch and forward-speed samples by values far off.
+void add_outliers(FlightLog& log, double part, std::uint64_t seed);
+
+}  // namespace tethercalc::truth
