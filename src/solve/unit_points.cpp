@@ -18,7 +18,7 @@ constexpr std::size_t max_dimensions = 1000;
 /// A permutation of 0 … count − 1, chosen by `key`, of which any element is found on its own.
 std::uint64_t permuted(std::uint64_t index, std::uint64_t count, std::uint64_t key) {
   if (count < 2) return index;
-  const int half_bits = (std::bit_width(count - 1) + 1) / 2;
+  const auto half_bits = (static_cast<unsigned>(std::bit_width(count - 1)) + 1) / 2;
   const std::uint64_t mask = (std::uint64_t{1} << half_bits) - 1;
   // Four rounds make a Feistel network a strong pseudorandom permutation (Luby and Rackoff 1988);
   // two more because the halves are small here. The network permutes fewer than 4·count numbers,
