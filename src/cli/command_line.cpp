@@ -11,6 +11,7 @@
 
 #include "cli/design_commands.hpp"
 #include "cli/output.hpp"
+#include "cli/sweep_command.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
 
@@ -73,6 +74,7 @@ class CommandLine {
     add_optimize();
     add_evaluate();
     add_compare();
+    add_sweep();
     add_validate();
     add_schema();
     add_init();
@@ -135,6 +137,28 @@ class CommandLine {
         ->delimiter(',')
         ->allow_extra_args(false);
     add_output(command, output_);
+  }
+
+  void add_sweep() {
+    CLI::App& command =
+        add("sweep", "One row a design, for every combination or a sample of values",
+            [this] { return run_sweep(sweep_); });
+    add_spec(command, sweep_.spec);
+    command
+        .add_option("--vary", sweep_.varied,
+                    "path=from:to:step, path=a,b,c or path=all; in a sample also path=lo..hi "
+                    "(uniform) and path=mean~sd (normal); repeatable, the last changes fastest")
+        ->allow_extra_args(false);
+    command.add_option("--sample", sweep_.sample, "Draw N designs instead of every combination");
+    command.add_option("--method", sweep_.method, "sobol (default) or lhs, a Latin hypercube");
+    command.add_option("--seed", sweep_.seed, "Of the sample (default 0)");
+    command.add_option("--summary", sweep_.summary_file, "Write a sample's summary here as JSON");
+    command.add_option("--format", sweep_.format, "csv (default) or jsonl, JSON Lines");
+    command.add_option("--output", sweep_.file, "Write rows to this file as they are computed");
+    command.add_flag("--resume", sweep_.resume, "Continue what --output holds from an earlier run");
+    command.add_option("--shard", sweep_.shard,
+                       "i/n: only the i-th of n equal parts; joined they are the whole sweep");
+    command.add_option("--jobs", sweep_.jobs, "Threads (default: one a core)");
   }
 
   void add_validate() {
@@ -203,6 +227,7 @@ class CommandLine {
   std::map<std::string, Action> actions_;
   Output output_;
   SpecOptions spec_;
+  SweepOptions sweep_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
   std::vector<std::string> files_;

@@ -1,12 +1,15 @@
 #include "tethercalc/report/sweep_rows.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 #include "tethercalc/report/operating_point_fields.hpp"
+#include "tethercalc/solve/ordered_chunks.hpp"
 
 namespace tethercalc {
 namespace {
@@ -58,20 +61,6 @@ void append_number(std::string& text, double value) {
   text.append(digits, end);
 }
 
-/// A text as one CSV cell.
-void append_cell(std::string& text, std::string_view cell) {
-  if (cell.find_first_of(",\"\r\n") == std::string_view::npos) {
-    text += cell;
-    return;
-  }
-  text += '"';
-  for (const char c : cell) {
-    if (c == '"') text += '"';
-    text += c;
-  }
-  text += '"';
-}
-
 /// Appends the cells of one row.
 class RowText {
  public:
@@ -91,7 +80,7 @@ class RowText {
   void words(std::string_view value) {
     text_ += *opening_++;
     if (csv_) {
-      append_cell(text_, value);
+      text_ += csv_text(std::string(value));
     } else {
       text_ += value.empty() ? "null" : nlohmann::json(value).dump();
     }
@@ -227,6 +216,40 @@ void SweepRows::append(std::string& text, std::span<const double> values,
   append_points(row, outcome);
   row.words(outcome.reason);
   row.end();
+}
+
+bool varies_cross_section(const SweepSpace& space) {
+  const auto axes = space.axes();
+  return std::any_of(axes.begin(), axes.end(),
+                     [](const SweepAxis& axis) { return axis.name == "tether.cross_section_mm2"; });
+}
+
+void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChunk&)>& consume) {
+  // About a millisecond of work and 100 kilobytes of text: long against the handing over, short
+  // enough to stay in a core's cache.
+  constexpr std::uint64_t rows_per_chunk = 256;
+  const RowRange all = job.range;
+  if (all.begin >= all.end) return;
+  const std::uint64_t chunks = (all.end - all.begin + rows_per_chunk - 1) / rows_per_chunk;
+  const bool given_area = varies_cross_section(*job.space);
+
+  const auto make_worker = [&] {
+    return [&, cursor = SweepCursor(*job.space, *job.base)](std::uint64_t index,
+                                                            SweepChunk& chunk) mutable {
+      chunk.range.begin = all.begin + index * rows_per_chunk;
+      chunk.range.end = std::min(chunk.range.begin + rows_per_chunk, all.end);
+      chunk.text.clear();
+      chunk.judged.clear();
+      for (std::uint64_t row = chunk.range.begin; row < chunk.range.end; ++row) {
+        cursor.move_to(row);
+        const SweepOutcome outcome = sweep_outcome(cursor.design(), given_area);
+        chunk.judged.push_back(
+            {outcome.area, judged_power(outcome, cursor.design()), outcome.feasible});
+        if (row >= job.write_from) job.rows->append(chunk.text, cursor.values(), outcome);
+      }
+    };
+  };
+  compute_in_order<SweepChunk>(0, chunks, job.threads, make_worker, consume);
 }
 
 }  // namespace tethercalc

@@ -1,6 +1,8 @@
 // One line of text a design: what a sweep writes.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -58,5 +60,37 @@ class SweepRows {
   std::string header_;
   std::vector<std::string> openings_;  ///< what stands in front of each column's value
 };
+
+/// What to compute of a sweep.
+struct SweepJob {
+  const SweepSpace* space = nullptr;
+  const Design* base = nullptr;
+  const SweepRows* rows = nullptr;
+  RowRange range;                ///< rows to compute
+  std::uint64_t write_from = 0;  ///< rows before this one are computed without a text
+  unsigned threads = 1;
+};
+
+/// What a summary needs of one row. NaN where there is none.
+struct JudgedRow {
+  double area = 0;   ///< m²
+  double power = 0;  ///< W, `judged_power`
+  bool feasible = false;
+};
+
+/// Consecutive rows.
+struct SweepChunk {
+  RowRange range;
+  std::string text;
+  std::vector<JudgedRow> judged;
+};
+
+/// True where a sweep varies the cross-section itself, so that cables are evaluated, not found.
+[[nodiscard]] bool varies_cross_section(const SweepSpace& space);
+
+/// Computes a sweep on several threads and hands its rows over in order, which does not depend on
+/// their number. `consume` is called on this thread and returns false to stop. Holds a few hundred
+/// kilobytes a thread, whatever the number of rows.
+void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChunk&)>& consume);
 
 }  // namespace tethercalc
