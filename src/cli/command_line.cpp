@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/check_command.hpp"
 #include "cli/design_commands.hpp"
 #include "cli/output.hpp"
 #include "cli/sweep_command.hpp"
@@ -75,6 +76,7 @@ class CommandLine {
     add_evaluate();
     add_compare();
     add_sweep();
+    add_check();
     add_validate();
     add_schema();
     add_init();
@@ -161,6 +163,15 @@ class CommandLine {
     command.add_option("--jobs", sweep_.jobs, "Threads (default: one a core)");
   }
 
+  void add_check() {
+    CLI::App& command = add("check", "Reference designs against their recorded results",
+                            [this] { return run_check(check_, output_); });
+    command.add_option("PATH", check_.paths, "Folders of specs, or specs")->required();
+    command.add_flag("--update", check_.update, "Bring the records up to date");
+    command.add_option("--junit", check_.junit_file, "Write a JUnit XML report here");
+    add_output(command, output_);
+  }
+
   void add_validate() {
     CLI::App& command = add("validate", "Check specs without computing anything",
                             [this] { return run_validate(files_, spec_.overrides, output_); });
@@ -228,6 +239,7 @@ class CommandLine {
   Output output_;
   SpecOptions spec_;
   SweepOptions sweep_;
+  CheckOptions check_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
   std::vector<std::string> files_;
