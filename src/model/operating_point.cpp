@@ -18,7 +18,8 @@ double or_nan(double value) {
 OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   const Design& design = flight.design();
   const double radius = conductor_radius(area);
-  const double tangent = or_nan(flight.tan_pitch(radius, flight.tan_pitch_limit()));
+  // An optimum on the tilt's limit is on it to rounding only: a billionth more still counts.
+  const double tangent = or_nan(flight.tan_pitch(radius, flight.tan_pitch_limit() * (1 + 1e-9)));
 
   OperatingPoint point;
   point.cross_section = area;

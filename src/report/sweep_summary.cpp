@@ -166,7 +166,7 @@ double Spread::standard_deviation() const {
 
 void SweepSummary::add(const JudgedRow& row) {
   ++draws;
-  if (!row.feasible) {
+  if (!row.feasible || std::isnan(row.power)) {
     ++infeasible;
     return;
   }
