@@ -310,11 +310,15 @@ int run_sweep(const SweepOptions& options) {
   SweepSummary summary;
   const bool summarised = space.sample() && options.shard.empty();
   interrupting_signal = 0;
+  bool completed = false;
   {
     const InterruptGuard guard;
-    if (!write_rows(sweep, file, first, threads, summarised ? &summary : nullptr)) {
-      return 128 + interrupting_signal;
-    }
+    completed = write_rows(sweep, file, first, threads, summarised ? &summary : nullptr);
+  }
+  if (!completed) {
+    // Die of the signal after all, so that a shell's loop around this command ends as well.
+    std::raise(interrupting_signal);
+    return 128 + interrupting_signal;
   }
   if (summarised) {
     summary.sensitivity = sweep_sensitivity(space, base.design, threads);
