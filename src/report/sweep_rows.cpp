@@ -9,6 +9,7 @@
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 #include "tethercalc/report/operating_point_fields.hpp"
+#include "tethercalc/report/text_table.hpp"
 #include "tethercalc/solve/ordered_chunks.hpp"
 
 namespace tethercalc {
@@ -31,8 +32,7 @@ Limit limit_of(const Design& design, const OperatingPoint& point) {
 std::string shortfall(const OperatingPoint& point, Condition condition) {
   const std::string where = " in " + condition_words(condition);
   if (std::isnan(point.pitch)) return "tilt beyond its limit" + where;
-  std::string headroom = std::to_string(point.headroom);
-  return "headroom " + headroom.substr(0, headroom.size() - 4) + where;
+  return "headroom " + fixed(point.headroom, 2) + where;
 }
 
 SweepOutcome given_cable(const Design& design) {

@@ -178,7 +178,7 @@ TEST_CASE("a sweep over cross-sections evaluates the given cables") {
   REQUIRE(rows.size() == 2);
   CHECK(rows[0]["status"] == "infeasible");
   CHECK(rows[0]["limited_by"] == "available_power");
-  CHECK(rows[0]["reason"] == "headroom 1.23 in hover");
+  CHECK_THAT(rows[0]["reason"].get<std::string>(), Contains("headroom 1.2"));
   CHECK(rows[1]["status"] == "feasible");
   CHECK(rows[1]["limited_by"].is_null());
   for (std::size_t i = 0; i < 2; ++i) {
@@ -208,11 +208,12 @@ TEST_CASE("bad sweeps are told all at once, before anything is written") {
   for (const auto& more : std::vector<std::vector<std::string>>{
            {"--vary", "tether.length_m=10:60:0.001", "--vary", "supply.voltage_V=60:19:-0.5"},
            {"--vary", "supply.voltage_V=75~10", "--sample", "1000000"}}) {
-    std::vector<std::string> arguments{"sweep", published, "--output", file};
+    std::vector<std::string> arguments{
+        "sweep", published, "--output", file, "--set", "supply.converter.min_input_voltage_V=50"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Ran conflict = run_tethercalc(arguments);
     CHECK(conflict.exit_code == 2);
-    CHECK_THAT(conflict.err, Contains("the converter cuts off below 20 V"));
+    CHECK_THAT(conflict.err, Contains("the converter cuts off below 50 V"));
     CHECK_FALSE(std::filesystem::exists(file));
   }
 }
