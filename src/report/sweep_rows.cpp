@@ -1,7 +1,9 @@
 #include "tethercalc/report/sweep_rows.hpp"
 
+#include <fmt/compile.h>
+
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -55,10 +57,11 @@ SweepOutcome given_cable(const Design& design) {
 
 // --- Cells -----------------------------------------------------------------------------------
 
+/// The shortest text that reads back as the same number, as `csv_number` makes it.
 void append_number(std::string& text, double value) {
-  char digits[32];
-  const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
-  text.append(digits, end);
+  std::array<char, 32> digits{};
+  char* const end = fmt::format_to(digits.data(), FMT_COMPILE("{}"), value);
+  text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
 }
 
 /// Appends the cells of one row.
