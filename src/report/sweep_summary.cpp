@@ -101,7 +101,7 @@ std::uint64_t incomplete_points(const SensitivitySample& feasible) {
   return count;
 }
 
-ordered_json estimate_json(const Estimate& estimate) {
+ordered_json estimate_json(const IndexEstimate& estimate) {
   const double half = ci95_factor * estimate.standard_error;
   return {{"value", number_or_null(estimate.value)},
           {"standard_error", number_or_null(estimate.standard_error)},
@@ -133,7 +133,7 @@ ordered_json spread_json(const Spread& spread, double si_factor) {
           {"quantiles", quantiles}};
 }
 
-std::string estimate_words(const Estimate& estimate) {
+std::string estimate_words(const IndexEstimate& estimate) {
   if (std::isnan(estimate.value)) return "-";
   return fmt::format("{} ± {}", fixed(estimate.value, 3),
                      fixed(ci95_factor * estimate.standard_error, 3));

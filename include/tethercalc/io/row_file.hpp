@@ -23,18 +23,23 @@ class RowFile {
   /// reading and writing, or is no regular file.
   [[nodiscard]] static RowFile resume(const std::string& path);
 
+  /// Movable; the one moved from is closed.
   RowFile(RowFile&& other) noexcept;
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
   RowFile& operator=(RowFile&&) = delete;
   ~RowFile();
 
+  /// The path, or "standard output".
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// False for devices, pipes and terminals.
   [[nodiscard]] bool is_regular() const { return regular_; }
 
-  /// What `resume` found, lines without their newlines.
+  /// Number of lines that `resume` found.
   [[nodiscard]] std::uint64_t lines_found() const { return lines_found_; }
+  /// The first of them, without its newline.
   [[nodiscard]] const std::string& first_line() const { return first_line_; }
+  /// The last of them, without its newline.
   [[nodiscard]] const std::string& last_line() const { return last_line_; }
 
   /// Appends `lines`, each with its newline. Throws std::system_error where that fails (no space

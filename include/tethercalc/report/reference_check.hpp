@@ -29,21 +29,23 @@ namespace tethercalc {
 
 /// One recorded result against the computed one.
 struct RecordedResult {
-  std::string name;
-  nlohmann::ordered_json recorded;  ///< number, text or null; null as well without a record
-  nlohmann::ordered_json computed;
+  std::string name;                  ///< of the result, as in the record
+  nlohmann::ordered_json recorded;   ///< number, text or null; null as well without a record
+  nlohmann::ordered_json computed;   ///< likewise
   double tolerance = 0;              ///< allowed difference of numbers, in the result's unit
   std::optional<double> difference;  ///< computed − recorded, where both are numbers
-  bool drifted = false;
+  bool drifted = false;              ///< outside of the tolerance, or not recorded
 };
 
+/// A reference design and how it compares with its record.
 struct ReferenceCheck {
-  std::filesystem::path spec;
+  std::filesystem::path spec;           ///< the design's file
   std::string name;                     ///< of the design
   bool recorded = false;                ///< there is a record
   std::vector<RecordedResult> results;  ///< in the record's order
   std::vector<InputProblem> problems;   ///< of spec or record; then nothing was compared
 
+  /// True where there is a record and nothing drifted.
   [[nodiscard]] bool passed() const;
 };
 
@@ -58,8 +60,10 @@ struct ReferenceCheck {
 /// InputError where it cannot be written.
 bool update_record(const ReferenceCheck& check);
 
+/// One line a design, what drifted below it, and a count at the end.
 [[nodiscard]] std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
                                      const TextStyle& style);
+/// Every recorded result of every design, for programs.
 [[nodiscard]] nlohmann::ordered_json check_json(std::span<const ReferenceCheck> checks);
 
 /// A header and one row a recorded result.

@@ -17,8 +17,10 @@ namespace tethercalc {
 class Spread {
  public:
   void add(double value);  ///< finite and positive
+  /// Mean of the values; 0 where there are none.
   [[nodiscard]] double mean() const { return mean_; }
   [[nodiscard]] double standard_deviation() const;  ///< of the sample; NaN below two values
+  /// The values' quantiles.
   [[nodiscard]] const QuantileHistogram& histogram() const { return histogram_; }
 
  private:
@@ -32,8 +34,8 @@ struct SweepSensitivity {
   std::uint64_t points = 0;       ///< of each of the two samples that were mixed
   std::uint64_t evaluations = 0;  ///< designs computed: points·(axes + 2)
   std::uint64_t incomplete = 0;   ///< points with some infeasible design, left out where it matters
-  std::vector<Sensitivity> area;
-  std::vector<Sensitivity> power;
+  std::vector<Sensitivity> area;  ///< of the optimum
+  std::vector<Sensitivity> power;     ///< of the total power where the design is judged by it
   std::vector<Sensitivity> feasible;  ///< of being feasible, as 1 or 0; empty where all or none are
 };
 
@@ -47,18 +49,22 @@ inline constexpr std::uint64_t most_sensitivity_points = 1 << 16;
 [[nodiscard]] SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
                                                  unsigned threads);
 
+/// What all draws of a sampled sweep say together.
 struct SweepSummary {
-  std::uint64_t draws = 0;
-  std::uint64_t infeasible = 0;
-  Spread area;   ///< m²
-  Spread power;  ///< W, where the design is judged by its power
-  SweepSensitivity sensitivity;
+  std::uint64_t draws = 0;       ///< rows added
+  std::uint64_t infeasible = 0;  ///< those of them without an optimum
+  Spread area;                   ///< m²
+  Spread power;                  ///< W, where the design is judged by its power
+  SweepSensitivity sensitivity;  ///< from `sweep_sensitivity`
 
+  /// Counts one row in.
   void add(const JudgedRow& row);
 };
 
+/// Tables for people.
 [[nodiscard]] std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
                                        const TextStyle& style);
+/// The same for programs, numbers in full.
 [[nodiscard]] nlohmann::ordered_json summary_json(const SweepSummary& summary,
                                                   const SweepSpace& space);
 

@@ -11,12 +11,14 @@ namespace tethercalc {
 /// uncertain, in at most a few megabytes, and does not depend on the order of the numbers.
 class QuantileHistogram {
  public:
+  /// Largest relative error of a quantile.
   static constexpr double relative_error = 1e-5;
 
   /// `value` must be finite and positive; below 1e-30 or above 1e30 it counts as that. Throws
   /// std::invalid_argument otherwise.
   void add(double value);
 
+  /// How many numbers were added.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
   /// The smallest number at which at least a share `p` in [0, 1] of all is reached (Hyndman and Fan

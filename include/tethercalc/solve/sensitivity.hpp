@@ -7,24 +7,25 @@
 
 namespace tethercalc {
 
-struct Estimate {
-  double value = 0;
-  double standard_error = 0;
+/// A Sobol index as estimated from a sample.
+struct IndexEstimate {
+  double value = 0;           ///< in [0, 1] but for the sample's chance
+  double standard_error = 0;  ///< one standard deviation
 };
 
 /// Sobol indices of one input. NaN where the output does not vary.
 struct Sensitivity {
-  Estimate first_order;  ///< share of the variance that knowing this input alone would remove
-  Estimate total;  ///< share that would remain if everything but this input were known; at least
-                   ///< the first order, more where it interacts with other inputs
+  IndexEstimate first_order;  ///< share of the variance that knowing this input alone would remove
+  IndexEstimate total;  ///< share that would remain if everything but this input were known; at
+                        ///< least the first order, more where it interacts with other inputs
 };
 
 /// Outputs of a function at the points of two independent samples A and B and of their mixtures:
 /// point j of mixture i is point j of A with input i taken from B. NaN marks an output that does
 /// not exist.
 struct SensitivitySample {
-  std::vector<double> a;
-  std::vector<double> b;
+  std::vector<double> a;                   ///< outputs at the points of A
+  std::vector<double> b;                   ///< outputs at the points of B
   std::vector<std::vector<double>> mixed;  ///< by input
 };
 

@@ -17,34 +17,39 @@ namespace tethercalc {
 /// Equally spaced decimal numbers: number i is (first + i·step)/10^decimals, rounded once, so that
 /// 0:1:0.1 yields 0.3 and not 0.30000000000000004.
 struct DecimalRange {
-  std::int64_t first = 0;
-  std::int64_t step = 1;
-  std::uint64_t count = 1;
-  int decimals = 0;  ///< 0 … 22, powers of ten that double represents exactly
+  std::int64_t first = 0;   ///< times 10^decimals
+  std::int64_t step = 1;    ///< times 10^decimals, of either sign
+  std::uint64_t count = 1;  ///< how many numbers
+  int decimals = 0;         ///< 0 … 22, powers of ten that double represents exactly
 };
 
 /// Choices without a number, such as motors: a value is the position in this list.
 struct NamedChoices {
-  std::vector<std::string> names;
+  std::vector<std::string> names;  ///< as rows print them
 };
 
-/// What sampled sweeps draw from.
+/// Draws between two ends with equal chance. For sampled sweeps.
 struct Uniform {
-  double lo = 0;
-  double hi = 0;
+  double lo = 0;  ///< lower end
+  double hi = 0;  ///< upper end
 };
-struct UniformInteger {  ///< lo, lo + 1 … hi, with equal chance
-  std::int64_t lo = 0;
-  std::int64_t hi = 0;
+
+/// Draws one of lo, lo + 1 … hi with equal chance. For sampled sweeps.
+struct UniformInteger {
+  std::int64_t lo = 0;  ///< the least
+  std::int64_t hi = 0;  ///< the largest
 };
+
+/// Draws from a normal distribution. For sampled sweeps.
 struct Normal {
-  double mean = 0;
-  double standard_deviation = 0;
+  double mean = 0;                ///< of the distribution
+  double standard_deviation = 0;  ///< likewise, > 0
 };
 
 /// One varied quantity of a design.
 struct SweepAxis {
   std::string name;  ///< dot path of the field: "tether.length_m"
+  /// What it takes, or is drawn from.
   std::variant<DecimalRange, std::vector<double>, NamedChoices, Uniform, UniformInteger, Normal>
       values;
   /// Puts a value, in the field's practical unit or the position of a named choice, into a design.
@@ -64,8 +69,8 @@ struct SweepAxis {
 
 /// Rows [begin, end).
 struct RowRange {
-  std::uint64_t begin = 0;
-  std::uint64_t end = 0;
+  std::uint64_t begin = 0;  ///< the first row, counted from 0
+  std::uint64_t end = 0;    ///< the row after the last
 };
 
 /// The rows of part `part` of `parts` (1 ≤ part ≤ parts): consecutive, so that the parts one after
@@ -82,8 +87,11 @@ class SweepSpace {
   /// `plan.count` draws.
   SweepSpace(std::vector<SweepAxis> axes, const SamplePlan& plan);
 
+  /// Number of combinations or draws.
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
+  /// What varies, in the order of the columns.
   [[nodiscard]] std::span<const SweepAxis> axes() const { return axes_; }
+  /// The plan of a sampled space; nothing for every combination.
   [[nodiscard]] const std::optional<SamplePlan>& sample() const { return plan_; }
 
  private:
@@ -98,6 +106,7 @@ class SweepCursor {
   /// Starts at row 0 of a space with at least one row. `space` must outlive the cursor.
   SweepCursor(const SweepSpace& space, const Design& base);
 
+  /// Goes to `row` (< the space's rows).
   void move_to(std::uint64_t row);
 
   /// The varied values of this row, one an axis, in the axes' order.

@@ -7,15 +7,17 @@
 
 namespace tethercalc {
 
+/// How points are spread.
 enum class SampleMethod {
   sobol,           ///< low-discrepancy sequence with a random digital shift
   latin_hypercube  ///< one point in each of `count` equal slices of every dimension
 };
 
+/// Which points to draw.
 struct SamplePlan {
-  std::uint64_t count = 0;  ///< number of points, > 0
-  SampleMethod method = SampleMethod::sobol;
-  std::uint64_t seed = 0;
+  std::uint64_t count = 0;                    ///< number of points, > 0
+  SampleMethod method = SampleMethod::sobol;  ///< how they are spread
+  std::uint64_t seed = 0;                     ///< other seeds, other points
 };
 
 /// The points of a plan in any order: each depends on the plan and its own index alone, so that
@@ -33,7 +35,9 @@ class UnitPoints {
   /// Throws std::invalid_argument for no points, no dimensions, or more than 1000 dimensions.
   UnitPoints(const SamplePlan& plan, std::size_t dimensions);
   ~UnitPoints();
+  /// Movable, so that each thread can be given its own.
   UnitPoints(UnitPoints&&) noexcept;
+  /// Likewise.
   UnitPoints& operator=(UnitPoints&&) noexcept;
 
   /// Writes point `index` (< count) to `point`, one number in (0, 1) a dimension. A few ns a
