@@ -44,6 +44,9 @@ class InterruptGuard {
     noting.sa_flags = static_cast<int>(SA_RESETHAND);
     ::sigaction(SIGINT, &noting, &old_int_);
     ::sigaction(SIGTERM, &noting, &old_term_);
+    // Who started this program deaf to a signal, as shells do in the background, meant it.
+    if (old_int_.sa_handler == SIG_IGN) ::sigaction(SIGINT, &old_int_, nullptr);
+    if (old_term_.sa_handler == SIG_IGN) ::sigaction(SIGTERM, &old_term_, nullptr);
   }
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
