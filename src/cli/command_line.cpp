@@ -9,9 +9,11 @@
 #include <map>
 #include <memory>
 
+#include "cli/check_command.hpp"
 #include "cli/design_commands.hpp"
 #include "cli/log_commands.hpp"
 #include "cli/output.hpp"
+#include "cli/sweep_command.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
 
@@ -89,6 +91,8 @@ class CommandLine {
     add_optimize();
     add_evaluate();
     add_compare();
+    add_sweep();
+    add_check();
     add_validate();
     add_schema();
     add_init();
@@ -152,6 +156,37 @@ class CommandLine {
                     "all, or names of the library and files, separated by commas (default: all)")
         ->delimiter(',')
         ->allow_extra_args(false);
+    add_output(command, output_);
+  }
+
+  void add_sweep() {
+    CLI::App& command =
+        add("sweep", "One row a design, for every combination or a sample of values",
+            [this] { return run_sweep(sweep_); });
+    add_spec(command, sweep_.spec);
+    command
+        .add_option("--vary", sweep_.varied,
+                    "path=from:to:step, path=a,b,c or path=all; in a sample also path=lo..hi "
+                    "(uniform) and path=mean~sd (normal); repeatable, the last changes fastest")
+        ->allow_extra_args(false);
+    command.add_option("--sample", sweep_.sample, "Draw N designs instead of every combination");
+    command.add_option("--method", sweep_.method, "sobol (default) or lhs, a Latin hypercube");
+    command.add_option("--seed", sweep_.seed, "Of the sample (default 0)");
+    command.add_option("--summary", sweep_.summary_file, "Write a sample's summary here as JSON");
+    command.add_option("--format", sweep_.format, "csv (default) or jsonl, JSON Lines");
+    command.add_option("--output", sweep_.file, "Write rows to this file as they are computed");
+    command.add_flag("--resume", sweep_.resume, "Continue what --output holds from an earlier run");
+    command.add_option("--shard", sweep_.shard,
+                       "i/n: only the i-th of n equal parts; joined they are the whole sweep");
+    command.add_option("--jobs", sweep_.jobs, "Threads (default: one a core)");
+  }
+
+  void add_check() {
+    CLI::App& command = add("check", "Reference designs against their recorded results",
+                            [this] { return run_check(check_, output_); });
+    command.add_option("PATH", check_.paths, "Folders of specs, or specs")->required();
+    command.add_flag("--update", check_.update, "Bring the records up to date");
+    command.add_option("--junit", check_.junit_file, "Write a JUnit XML report here");
     add_output(command, output_);
   }
 
@@ -239,6 +274,8 @@ class CommandLine {
   std::map<std::string, Action> actions_;
   Output output_;
   SpecOptions spec_;
+  SweepOptions sweep_;
+  CheckOptions check_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
   std::vector<std::string> files_;

@@ -272,11 +272,11 @@ bool is_numeric(const SpecField& field) {
 }
 
 void set_field(Design& design, const SpecField& field, double value) {
-  const std::string path = dot_path(field.pointer);
-  if (!is_numeric(field)) throw std::invalid_argument(path + " takes no number");
+  // Sweeps come here millions of times: texts are made only for messages.
+  if (!is_numeric(field)) throw std::invalid_argument(dot_path(field.pointer) + " takes no number");
   if (!field.range.contains(value)) {
-    throw std::invalid_argument(
-        fmt::format("{} = {} is not allowed: it must be {}", path, value, describe_range(field)));
+    throw std::invalid_argument(fmt::format("{} = {} is not allowed: it must be {}",
+                                            dot_path(field.pointer), value, describe_range(field)));
   }
   const double si = value * field.si_factor;
   if (const auto* number = std::get_if<double& (*)(Design&)>(&field.access)) {
@@ -286,8 +286,8 @@ void set_field(Design& design, const SpecField& field, double value) {
     (*optional)(design) = si;
   } else if (const auto* integer = std::get_if<int& (*)(Design&)>(&field.access)) {
     if (value != std::floor(value)) {
-      throw std::invalid_argument(
-          fmt::format("{} = {} is not allowed: it must be a whole number", path, value));
+      throw std::invalid_argument(fmt::format("{} = {} is not allowed: it must be a whole number",
+                                              dot_path(field.pointer), value));
     }
     (*integer)(design) = static_cast<int>(value);
   } else if (const auto* converter = std::get_if<Converter& (*)(Design&)>(&field.access)) {

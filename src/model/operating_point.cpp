@@ -13,12 +13,22 @@ double or_nan(double value) {
   return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Optima may lie on a limit, and are beyond it by rounding then: this much more still counts.
+constexpr double rounding = 1e-9;
+
+/// The thrust, or the motors' last where it exceeds that by rounding only.
+double within_reach(double thrust, const Design& design) {
+  const double most = design.drone.motor.max_thrust();
+  return thrust > most && thrust <= most * (1 + rounding) ? most : thrust;
+}
+
 }  // namespace
 
 OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   const Design& design = flight.design();
   const double radius = conductor_radius(area);
-  const double tangent = or_nan(flight.tan_pitch(radius, flight.tan_pitch_limit()));
+  const double tangent =
+      or_nan(flight.tan_pitch(radius, flight.tan_pitch_limit() * (1 + rounding)));
 
   OperatingPoint point;
   point.cross_section = area;
@@ -30,7 +40,7 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   point.available_thrust = flight.available_thrust(point.available_power);
   point.necessary_thrust = flight.necessary_thrust(radius, tangent);
   point.headroom = point.available_thrust / point.necessary_thrust;
-  point.drone_power = or_nan(flight.drone_power(point.necessary_thrust));
+  point.drone_power = or_nan(flight.drone_power(within_reach(point.necessary_thrust, design)));
   point.total_power =
       supplied_power(design.supply.voltage, point.tether_resistance, point.drone_power);
   point.tether_loss = point.total_power - point.drone_power;

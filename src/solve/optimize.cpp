@@ -53,11 +53,7 @@ bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
 void name_limit(Optimization& result, const Flights& flights) {
   const Design& design = flights.hover.design();
   const double area = result.area;
-  if (area == result.minimum_power.area) {
-    result.limited_by = Limit::minimum_power;
-    result.limiting_condition = design.requirements.power_at;
-    return;
-  }
+  // Before the least power, which is looked for within the tilt limit and may lie on it.
   for (const Condition condition : {Condition::hover, Condition::forward}) {
     const OperatingPoint& point = condition == Condition::hover ? result.hover : result.forward;
     if (at_tilt_limit(point, design)) {
@@ -65,6 +61,11 @@ void name_limit(Optimization& result, const Flights& flights) {
       result.limiting_condition = condition;
       return;
     }
+  }
+  if (area == result.minimum_power.area) {
+    result.limited_by = Limit::minimum_power;
+    result.limiting_condition = design.requirements.power_at;
+    return;
   }
   const bool by_headroom =
       std::any_of(result.headroom_areas.begin(), result.headroom_areas.end(),

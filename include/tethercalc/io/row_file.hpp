@@ -1,0 +1,71 @@
+// A text file that grows by whole lines and is usable whenever writing stops.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace tethercalc {
+
+/// Lines written one after the other. Whatever ends the writing, the file holds a prefix of them:
+/// where a write fails, what it left of a line is cut off again, and where the process is killed
+/// within one, `resume` cuts it off.
+class RowFile {
+ public:
+  /// Standard output; `name()` is "standard output".
+  [[nodiscard]] static RowFile standard_output();
+
+  /// The file at `path`, emptied. Throws InputError where it cannot be opened for writing.
+  [[nodiscard]] static RowFile create(const std::string& path);
+
+  /// The file at `path` with what it holds, less what follows its last newline; an empty one where
+  /// there is none. Takes the time to read it once. Throws InputError where it cannot be opened for
+  /// reading and writing, or is no regular file.
+  [[nodiscard]] static RowFile resume(const std::string& path);
+
+  /// Movable; the one moved from is closed.
+  RowFile(RowFile&& other) noexcept;
+  RowFile(const RowFile&) = delete;
+  RowFile& operator=(const RowFile&) = delete;
+  RowFile& operator=(RowFile&&) = delete;
+  ~RowFile();
+
+  /// The path, or "standard output".
+  [[nodiscard]] const std::string& name() const { return name_; }
+  /// False for devices, pipes and terminals.
+  [[nodiscard]] bool is_regular() const { return regular_; }
+
+  /// Number of lines that `resume` found.
+  [[nodiscard]] std::uint64_t lines_found() const { return lines_found_; }
+  /// The first of them, without its newline.
+  [[nodiscard]] const std::string& first_line() const { return first_line_; }
+  /// The last of them, without its newline.
+  [[nodiscard]] const std::string& last_line() const { return last_line_; }
+
+  /// Appends `lines`, each with its newline. Throws std::system_error where that fails (no space
+  /// left, reader gone); a regular file then ends with the last line that was written whole.
+  void append(std::string_view lines);
+
+  /// Number of lines appended, also where `append` failed.
+  [[nodiscard]] std::uint64_t lines_appended() const { return lines_appended_; }
+
+  /// Closes the file; throws std::system_error where the system reports only now that it could not
+  /// be written.
+  void close();
+
+ private:
+  RowFile(int file, std::string name, bool owned);
+  void read_what_is_there();
+
+  int file_ = -1;
+  bool owned_ = false;
+  bool regular_ = false;
+  std::string name_;
+  std::uint64_t size_ = 0;  ///< bytes up to the end of the last whole line
+  std::uint64_t lines_found_ = 0;
+  std::uint64_t lines_appended_ = 0;
+  std::string first_line_;
+  std::string last_line_;
+};
+
+}  // namespace tethercalc

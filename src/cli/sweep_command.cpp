@@ -1,0 +1,333 @@
+#include "cli/sweep_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/row_file.hpp"
+#include "tethercalc/io/sweep_axes.hpp"
+#include "tethercalc/io/whole_file.hpp"
+#include "tethercalc/report/sweep_summary.hpp"
+#include "tethercalc/solve/ordered_chunks.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+  throw InputError({{where, message}});
+}
+
+// --- Interruption ----------------------------------------------------------------------------
+
+volatile std::sig_atomic_t interrupting_signal = 0;
+
+/// While it lives, the first SIGINT or SIGTERM is noted instead of obeyed; a second one ends the
+/// program as usual.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    struct sigaction noting {};
+    noting.sa_handler = [](int signal) { interrupting_signal = signal; };
+    noting.sa_flags = static_cast<int>(SA_RESETHAND);
+    ::sigaction(SIGINT, &noting, &old_int_);
+    ::sigaction(SIGTERM, &noting, &old_term_);
+    // Who started this program deaf to a signal, as shells do in the background, meant it.
+    if (old_int_.sa_handler == SIG_IGN) ::sigaction(SIGINT, &old_int_, nullptr);
+    if (old_term_.sa_handler == SIG_IGN) ::sigaction(SIGTERM, &old_term_, nullptr);
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+  ~InterruptGuard() {
+    ::sigaction(SIGINT, &old_int_, nullptr);
+    ::sigaction(SIGTERM, &old_term_, nullptr);
+  }
+
+ private:
+  struct sigaction old_int_ {};
+  struct sigaction old_term_ {};
+};
+
+// --- Progress ----------------------------------------------------------------------------------
+
+std::string duration_words(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+/// A line on the terminal, where standard error is one and rows do not go there too.
+class Progress {
+ public:
+  Progress(RowRange range, bool rows_on_terminal) : range_(range) {
+    const char* terminal = std::getenv("TERM");
+    shown_ = !rows_on_terminal && ::isatty(STDERR_FILENO) == 1 && terminal != nullptr &&
+             std::string_view(terminal) != "dumb";
+  }
+
+  void reached(std::uint64_t row) {
+    const Clock::time_point now = Clock::now();
+    if (!shown_ || now < next_) return;
+    next_ = now + std::chrono::milliseconds(200);
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const auto done = static_cast<double>(row - range_.begin);
+    const auto all = static_cast<double>(range_.end - range_.begin);
+    const double rate = done / seconds;
+    std::fprintf(stderr, "\r\x1b[K%s",
+                 fmt::format("{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done, all,
+                             100 * done / all, rate, duration_words((all - done) / rate))
+                     .c_str());
+    std::fflush(stderr);
+    drawn_ = true;
+  }
+
+  void clear() {
+    if (std::exchange(drawn_, false)) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  RowRange range_;
+  bool shown_ = false;
+  bool drawn_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_ + std::chrono::milliseconds(200);
+};
+
+// --- Options -----------------------------------------------------------------------------------
+
+RowFormat row_format(const std::string& format) {
+  if (format == "csv") return RowFormat::csv;
+  if (format == "jsonl" || format == "json") return RowFormat::json_lines;
+  refuse("--format",
+         fmt::format("\"{}\" is no format of a sweep; allowed are csv and jsonl", format));
+}
+
+SampleMethod sample_method(const std::string& method) {
+  if (method == "sobol") return SampleMethod::sobol;
+  if (method == "lhs") return SampleMethod::latin_hypercube;
+  refuse("--method",
+         fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
+}
+
+/// 0 where the text is no whole number.
+std::uint64_t positive_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stopped == end ? value : 0;
+}
+
+/// The part of the sweep to compute, counted from 1, and the number of parts.
+struct Shard {
+  std::uint64_t part = 1;
+  std::uint64_t parts = 1;
+};
+
+Shard parsed_shard(const std::string& text) {
+  if (text.empty()) return {};
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string_view before = std::string_view(text).substr(0, slash);
+  const std::string_view after = std::string_view(text).substr(slash);
+  const Shard shard{positive_number(before), positive_number(after.substr(after.empty() ? 0 : 1))};
+  if (shard.part < 1 || shard.part > shard.parts) {
+    refuse("--shard", fmt::format("\"{}\" is not i/n with i from 1 to n, such as 2/8", text));
+  }
+  return shard;
+}
+
+bool to_standard_output(const SweepOptions& options) {
+  return options.file.empty() || options.file == "-";
+}
+
+void check_options(const SweepOptions& options) {
+  if (options.varied.empty()) {
+    refuse("tethercalc sweep",
+           "nothing varies: give --vary path=values, such as --vary supply.voltage_V=40:100:5");
+  }
+  if (options.resume && to_standard_output(options)) {
+    refuse("--resume", "needs --output FILE: only a file can be continued");
+  }
+  if (options.sample && *options.sample == 0) refuse("--sample", "must be at least 1");
+  if (!options.summary_file.empty() && !options.sample) {
+    refuse("--summary", "needs --sample N: only a sample has a summary");
+  }
+  if (!options.summary_file.empty() && !options.shard.empty()) {
+    refuse("--summary", "needs every draw, so it does not go with --shard");
+  }
+}
+
+SweepSpace make_space(const SweepOptions& options, const DesignFile& base) {
+  std::vector<SweepAxis> axes = read_sweep_axes(options.varied, base, options.sample.has_value());
+  try {
+    SweepSpace space =
+        options.sample
+            ? SweepSpace(std::move(axes),
+                         SamplePlan{*options.sample, sample_method(options.method), options.seed})
+            : SweepSpace(std::move(axes));
+    check_sweep_rows(space, base);
+    return space;
+  } catch (const std::invalid_argument& error) {
+    refuse("--vary", error.what());
+  }
+}
+
+// --- Resuming ----------------------------------------------------------------------------------
+
+/// One run's rows: which they are, and how they read.
+struct Sweep {
+  const SweepSpace& space;
+  const Design& base;
+  SweepRows rows;
+  RowRange range;
+  bool header = false;  ///< the rows follow a line of column names
+
+  [[nodiscard]] std::string line(std::uint64_t row) const {
+    SweepCursor cursor(space, base);
+    cursor.move_to(row);
+    std::string text;
+    rows.append(text, cursor.values(), sweep_outcome(cursor.design(), varies_cross_section(space)));
+    text.pop_back();
+    return text;
+  }
+};
+
+[[noreturn]] void refuse_to_resume(const RowFile& file, std::uint64_t line,
+                                   const std::string& found, const std::string& expected) {
+  refuse(fmt::format("{}:{}", file.name(), line),
+         fmt::format("does not belong to this sweep, so it cannot be continued: the spec, the "
+                     "options or the program differ\n  found    {}\n  expected {}",
+                     found.substr(0, 200), expected.substr(0, 200)));
+}
+
+/// Number of rows of the sweep that `file` already holds. Its first and last line are compared with
+/// what this run would have written there.
+std::uint64_t rows_done(const Sweep& sweep, const RowFile& file) {
+  std::uint64_t lines = file.lines_found();
+  if (lines == 0) return 0;
+  if (sweep.header) {
+    std::string header = sweep.rows.header();
+    header.pop_back();
+    if (file.first_line() != header) refuse_to_resume(file, 1, file.first_line(), header);
+    if (--lines == 0) return 0;
+  } else {
+    const std::string first =
+        sweep.range.begin < sweep.range.end ? sweep.line(sweep.range.begin) : "";
+    if (file.first_line() != first) refuse_to_resume(file, 1, file.first_line(), first);
+  }
+  if (lines > sweep.range.end - sweep.range.begin) {
+    refuse(file.name(), fmt::format("holds {} rows, more than the {} of this sweep", lines,
+                                    sweep.range.end - sweep.range.begin));
+  }
+  const std::string last = sweep.line(sweep.range.begin + lines - 1);
+  if (file.last_line() != last) {
+    refuse_to_resume(file, file.lines_found(), file.last_line(), last);
+  }
+  return lines;
+}
+
+std::string how_to_continue(const RowFile& file) {
+  return file.is_regular() && file.name() != "standard output"
+             ? fmt::format("{} ends with a whole row; the same command with --resume continues it",
+                           file.name())
+             : std::string("with --output FILE, --resume could continue");
+}
+
+// --- Running -----------------------------------------------------------------------------------
+
+/// Writes all rows from `first` on. Returns false where it was interrupted.
+bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, unsigned threads,
+                SweepSummary* summary) {
+  SweepJob job{&sweep.space, &sweep.base, &sweep.rows, {first, sweep.range.end}, first, threads};
+  if (summary != nullptr) job.range.begin = sweep.range.begin;  // it needs the earlier rows as well
+  Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
+  std::uint64_t written = first;
+  try {
+    const bool fresh = first == sweep.range.begin && file.lines_found() == 0;
+    if (fresh && sweep.header) file.append(sweep.rows.header());
+    compute_sweep(job, [&](const SweepChunk& chunk) {
+      if (interrupting_signal != 0) return false;
+      file.append(chunk.text);
+      written = std::max(first, chunk.range.end);
+      if (summary != nullptr) {
+        for (const JudgedRow& row : chunk.judged) summary->add(row);
+      }
+      progress.reached(chunk.range.end);
+      return true;
+    });
+    file.close();
+  } catch (const std::system_error& error) {
+    progress.clear();
+    refuse(file.name(),
+           fmt::format("cannot be written: {}; {}", error.code().message(), how_to_continue(file)));
+  }
+  progress.clear();
+  if (interrupting_signal == 0) return true;
+  std::fprintf(
+      stderr, "%s\n",
+      fmt::format("tethercalc: interrupted after {} of {} designs; {}", written - sweep.range.begin,
+                  sweep.range.end - sweep.range.begin, how_to_continue(file))
+          .c_str());
+  return false;
+}
+
+void tell_summary(const SweepOptions& options, const SweepSummary& summary,
+                  const SweepSpace& space) {
+  if (!options.summary_file.empty()) {
+    write_whole_file(options.summary_file, json_text(summary_json(summary, space)));
+  }
+  std::fputs(summary_text(summary, space, {}).c_str(), stderr);
+}
+
+}  // namespace
+
+int run_sweep(const SweepOptions& options) {
+  check_options(options);
+  const RowFormat format = row_format(options.format);
+  const Shard shard = parsed_shard(options.shard);
+  const DesignFile base = read_design(options.spec.file, options.spec.overrides);
+  const SweepSpace space = make_space(options, base);
+  const unsigned threads = options.jobs > 0 ? options.jobs : all_cores();
+
+  const Sweep sweep{space, base.design, SweepRows(space.axes(), format),
+                    shard_rows(space.rows(), shard.part, shard.parts),
+                    format == RowFormat::csv && shard.part == 1};
+  RowFile file = to_standard_output(options) ? RowFile::standard_output()
+                 : options.resume            ? RowFile::resume(options.file)
+                                             : RowFile::create(options.file);
+  const std::uint64_t first = sweep.range.begin + rows_done(sweep, file);
+
+  SweepSummary summary;
+  const bool summarised = space.sample() && options.shard.empty();
+  interrupting_signal = 0;
+  bool completed = false;
+  {
+    const InterruptGuard guard;
+    completed = write_rows(sweep, file, first, threads, summarised ? &summary : nullptr);
+  }
+  if (!completed) {
+    // Die of the signal after all, so that a shell's loop around this command ends as well.
+    std::raise(interrupting_signal);
+    return 128 + interrupting_signal;
+  }
+  if (summarised) {
+    summary.sensitivity = sweep_sensitivity(space, base.design, threads);
+    tell_summary(options, summary, space);
+  }
+  return done;
+}
+
+}  // namespace tethercalc::cli

@@ -1,0 +1,128 @@
+#include "tethercalc/io/row_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "tethercalc/io/input_error.hpp"
+
+namespace tethercalc {
+namespace {
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+bool is_regular_file(int file) {
+  struct stat status {};
+  return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+int open_or_refuse(const std::string& path, int flags, const char* purpose) {
+  const int file = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) {
+    throw InputError(
+        {{path, std::string("cannot be opened for ") + purpose + ": " + reason(errno)}});
+  }
+  return file;
+}
+
+}  // namespace
+
+RowFile::RowFile(int file, std::string name, bool owned)
+    : file_(file), owned_(owned), regular_(is_regular_file(file)), name_(std::move(name)) {}
+
+RowFile::RowFile(RowFile&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      owned_(other.owned_),
+      regular_(other.regular_),
+      name_(std::move(other.name_)),
+      size_(other.size_),
+      lines_found_(other.lines_found_),
+      lines_appended_(other.lines_appended_),
+      first_line_(std::move(other.first_line_)),
+      last_line_(std::move(other.last_line_)) {}
+
+RowFile::~RowFile() {
+  if (owned_ && file_ >= 0) ::close(file_);
+}
+
+RowFile RowFile::standard_output() {
+  RowFile rows(STDOUT_FILENO, "standard output", false);
+  // Redirected to a file that others have written to before, as in (a; b) > file.
+  const off_t offset = rows.regular_ ? ::lseek(STDOUT_FILENO, 0, SEEK_CUR) : 0;
+  rows.size_ = offset > 0 ? static_cast<std::uint64_t>(offset) : 0;
+  return rows;
+}
+
+RowFile RowFile::create(const std::string& path) {
+  return {open_or_refuse(path, O_WRONLY | O_TRUNC, "writing"), path, true};
+}
+
+RowFile RowFile::resume(const std::string& path) {
+  RowFile rows(open_or_refuse(path, O_RDWR, "reading and writing"), path, true);
+  if (!rows.regular_) throw InputError({{path, "is no regular file, so it cannot be continued"}});
+  rows.read_what_is_there();
+  const auto size = static_cast<off_t>(rows.size_);
+  if (::ftruncate(rows.file_, size) != 0 || ::lseek(rows.file_, size, SEEK_SET) != size) {
+    throw InputError({{path, "cannot be continued: " + reason(errno)}});
+  }
+  return rows;
+}
+
+void RowFile::read_what_is_there() {
+  std::vector<char> buffer(std::size_t{1} << 20);
+  std::string line;  // since the last newline
+  while (true) {
+    const ssize_t count = ::read(file_, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw InputError({{name_, "cannot be read: " + reason(errno)}});
+    if (count == 0) return;
+    std::string_view rest(buffer.data(), static_cast<std::size_t>(count));
+    for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n')) {
+      line += rest.substr(0, end);
+      rest.remove_prefix(end + 1);
+      size_ += line.size() + 1;
+      if (lines_found_++ == 0) first_line_ = line;
+      std::swap(last_line_, line);
+      line.clear();
+    }
+    line += rest;
+  }
+}
+
+void RowFile::append(std::string_view lines) {
+  std::string_view rest = lines;
+  int error = 0;
+  while (!rest.empty() && error == 0) {
+    const ssize_t count = ::write(file_, rest.data(), rest.size());
+    if (count >= 0) {
+      rest.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      error = errno;
+    }
+  }
+  const std::string_view written = lines.substr(0, lines.size() - rest.size());
+  const std::string_view whole = written.substr(0, written.rfind('\n') + 1);
+  size_ += whole.size();
+  lines_appended_ += static_cast<std::uint64_t>(std::count(whole.begin(), whole.end(), '\n'));
+  if (error == 0) return;
+  if (regular_ && whole.size() < written.size()) {
+    // Nothing better can be done where even this fails; `resume` will cut then.
+    [[maybe_unused]] const int ignored = ::ftruncate(file_, static_cast<off_t>(size_));
+  }
+  throw std::system_error(error, std::generic_category());
+}
+
+void RowFile::close() {
+  if (!owned_ || file_ < 0) return;
+  if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) {
+    throw std::system_error(errno, std::generic_category());
+  }
+}
+
+}  // namespace tethercalc

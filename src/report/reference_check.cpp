@@ -1,0 +1,398 @@
+#include "tethercalc/report/reference_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+
+#include "io/checked_values.hpp"
+#include "io/closest_name.hpp"
+#include "io/json_document.hpp"
+#include "io/text_file.hpp"
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/io/whole_file.hpp"
+#include "tethercalc/report/csv_cell.hpp"
+#include "tethercalc/report/json_results.hpp"
+#include "tethercalc/report/sweep_rows.hpp"
+#include "tethercalc/solve/headroom.hpp"
+
+namespace tethercalc {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+constexpr std::string_view record_suffix = ".expected.json";
+constexpr double default_relative_tolerance = 1e-6;
+
+/// What a new record holds, as far as it exists.
+constexpr std::array main_results{"status",
+                                  "limited_by",
+                                  "limiting_condition",
+                                  "cross_section_mm2",
+                                  "hover.tether_mass_g",
+                                  "hover.headroom",
+                                  "hover.total_power_W",
+                                  "hover.received_voltage_V",
+                                  "forward.pitch_deg",
+                                  "forward.headroom",
+                                  "forward.total_power_W",
+                                  "forward.received_voltage_V",
+                                  "headroom.best",
+                                  "minimum_power.cross_section_mm2",
+                                  "minimum_power.total_power_W"};
+
+/// Every result of a design by its name.
+ordered_json results_of(const Design& design) {
+  std::string row;
+  SweepRows({}, RowFormat::json_lines).append(row, {}, sweep_outcome(design));
+  ordered_json results = ordered_json::parse(row);
+  results.erase("reason");  // a sentence for people, which may be put better at any time
+  const BestHeadroom best = best_headroom(SteadyFlight(design, design.requirements.headroom_at));
+  const MinimumPower least = optimize(design).minimum_power;
+  results["headroom.best"] = number_or_null(best.value);
+  results["headroom.best_at_mm2"] = number_or_null(best.area / unit::square_millimetre);
+  results["minimum_power.cross_section_mm2"] = number_or_null(least.area / unit::square_millimetre);
+  results["minimum_power.total_power_W"] = number_or_null(least.power);
+  return results;
+}
+
+/// A tolerance of a recorded number; 0 where the record names none.
+double tolerance_at(const JsonDocument& document, const ordered_json& entry,
+                    const std::string& pointer, const char* key, Problems& problems) {
+  if (!entry.contains(key)) return 0;
+  const ordered_json& value = entry[key];
+  if (value.is_number() && value.get<double>() >= 0) return value.get<double>();
+  problems.add(document.where(child_pointer(pointer, key)),
+               "a tolerance is a number of at least 0, found " + shown(value));
+  return 0;
+}
+
+void check_keys(const JsonDocument& document, const ordered_json& entry, const std::string& pointer,
+                Problems& problems) {
+  const std::vector<std::string> known{"value", "relative_tolerance", "absolute_tolerance"};
+  for (const auto& [key, value] : entry.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      problems.add(document.where(child_pointer(pointer, key)),
+                   fmt::format("unknown key {}{}", shown(key), did_you_mean(key, known)));
+    }
+  }
+}
+
+/// Compares one entry of a record.
+std::optional<RecordedResult> compared(const JsonDocument& document, const std::string& name,
+                                       const ordered_json& computed, Problems& problems) {
+  const std::string pointer = child_pointer("", name);
+  const ordered_json& entry = document.root[name];
+  if (!entry.is_object() || !entry.contains("value")) {
+    problems.add(document.where(pointer), "expected an object with \"value\" and a tolerance");
+    return std::nullopt;
+  }
+  check_keys(document, entry, pointer, problems);
+  RecordedResult result{name, entry["value"], computed, 0, std::nullopt, false};
+  const double relative = tolerance_at(document, entry, pointer, "relative_tolerance", problems);
+  const double absolute = tolerance_at(document, entry, pointer, "absolute_tolerance", problems);
+  if (result.recorded.is_number()) {
+    if (!entry.contains("relative_tolerance") && !entry.contains("absolute_tolerance")) {
+      problems.add(document.where(pointer),
+                   "a number needs \"relative_tolerance\" or \"absolute_tolerance\"");
+    }
+    const double recorded = result.recorded.get<double>();
+    result.tolerance = std::max(absolute, relative * std::abs(recorded));
+    if (computed.is_number()) result.difference = computed.get<double>() - recorded;
+  }
+  result.drifted = result.difference ? !(std::abs(*result.difference) <= result.tolerance)
+                                     : result.recorded != result.computed;
+  return result;
+}
+
+std::vector<RecordedResult> compared(const JsonDocument& document, const ordered_json& results) {
+  Problems problems;
+  problems.add(document.problems);
+  std::vector<RecordedResult> all;
+  if (!document.root.is_object()) {
+    problems.add(document.where(""), "a record is an object, found " + type_name(document.root));
+    problems.throw_if_any();
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, value] : results.items()) names.push_back(name);
+  for (const auto& [name, entry] : document.root.items()) {
+    if (!results.contains(name)) {
+      problems.add(document.where(child_pointer("", name)),
+                   fmt::format("no result {}{}", shown(name), did_you_mean(name, names)));
+    } else if (auto result = compared(document, name, results[name], problems)) {
+      all.push_back(std::move(*result));
+    }
+  }
+  problems.throw_if_any();
+  return all;
+}
+
+std::vector<RecordedResult> unrecorded(const ordered_json& results) {
+  std::vector<RecordedResult> all;
+  for (const char* name : main_results) {
+    const ordered_json& value = results.at(name);
+    if (!value.is_null()) all.push_back({name, nullptr, value, 0, std::nullopt, true});
+  }
+  return all;
+}
+
+std::vector<fs::path> specs_of_folder(const fs::path& folder) {
+  std::vector<fs::path> specs;
+  std::vector<InputProblem> problems;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const std::string name = path.filename().string();
+    if (name.ends_with(record_suffix)) {
+      const fs::path spec = folder / (name.substr(0, name.size() - record_suffix.size()) + ".json");
+      if (!fs::exists(spec)) {
+        problems.push_back({path.string(), "there is no spec " + spec.filename().string() +
+                                               " beside this record"});
+      }
+    } else if (name.ends_with(".json")) {
+      specs.push_back(path);
+    }
+  }
+  if (specs.empty()) problems.push_back({folder.string(), "holds no design specs (.json)"});
+  if (!problems.empty()) throw InputError(std::move(problems));
+  std::sort(specs.begin(), specs.end());
+  return specs;
+}
+
+/// Number, text or null as people read it.
+std::string value_words(const ordered_json& value) {
+  if (value.is_null()) return "none";
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+std::string drift_words(const RecordedResult& result) {
+  if (!result.difference) return "";
+  const double recorded = result.recorded.get<double>();
+  std::string words = fmt::format("{:+.3g}", *result.difference);
+  if (recorded != 0) words += fmt::format(" ({:+.3g} %)", 100 * *result.difference / recorded);
+  return words + fmt::format(", allowed ±{:.3g}", result.tolerance);
+}
+
+/// One line a drifted result.
+std::string drift_lines(const ReferenceCheck& check) {
+  if (!check.recorded) return "no record; --update makes one\n";
+  std::string lines;
+  for (const RecordedResult& result : check.results) {
+    if (!result.drifted) continue;
+    lines += fmt::format("{}: recorded {}, now {}", result.name, value_words(result.recorded),
+                         value_words(result.computed));
+    const std::string words = drift_words(result);
+    lines += (words.empty() ? "" : ": " + words) + "\n";
+  }
+  return lines;
+}
+
+std::string problem_lines(const ReferenceCheck& check) {
+  std::string lines;
+  for (const InputProblem& problem : check.problems) {
+    lines += problem.where + ": " + problem.message + "\n";
+  }
+  return lines;
+}
+
+std::string_view status_of(const ReferenceCheck& check) {
+  return !check.problems.empty() ? "error"
+         : !check.recorded       ? "unrecorded"
+         : check.passed()        ? "ok"
+                                 : "drifted";
+}
+
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':
+        out += "&#10;";
+        break;
+      default:
+        // XML 1.0 has no other control characters.
+        out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    }
+  }
+  return out;
+}
+
+std::size_t count_status(std::span<const ReferenceCheck> checks, std::string_view status) {
+  return static_cast<std::size_t>(
+      std::count_if(checks.begin(), checks.end(),
+                    [&](const ReferenceCheck& check) { return status_of(check) == status; }));
+}
+
+}  // namespace
+
+fs::path record_path(const fs::path& spec) {
+  fs::path record = spec;
+  record.replace_extension();
+  record += record_suffix;
+  return record;
+}
+
+std::vector<fs::path> reference_specs(std::span<const std::string> paths) {
+  std::vector<fs::path> specs;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+      const std::vector<fs::path> found = specs_of_folder(path);
+      specs.insert(specs.end(), found.begin(), found.end());
+    } else if (path.ends_with(record_suffix)) {
+      specs.emplace_back(path.substr(0, path.size() - record_suffix.size()) + ".json");
+    } else {
+      specs.emplace_back(path);
+    }
+  }
+  return specs;
+}
+
+bool ReferenceCheck::passed() const {
+  return recorded && problems.empty() &&
+         std::none_of(results.begin(), results.end(),
+                      [](const RecordedResult& result) { return result.drifted; });
+}
+
+ReferenceCheck check_reference(const fs::path& spec) {
+  ReferenceCheck check;
+  check.spec = spec;
+  try {
+    const DesignFile file = read_design(spec.string());
+    check.name = file.name;
+    const ordered_json results = results_of(file.design);
+    const fs::path record = record_path(spec);
+    check.recorded = fs::exists(record);
+    if (check.recorded) {
+      const TextFile text = read_text_file(record.string());
+      check.results = compared(parse_json(text.text, text.name), results);
+    } else {
+      check.results = unrecorded(results);
+    }
+  } catch (const InputError& error) {
+    check.problems = error.problems();
+  }
+  return check;
+}
+
+bool update_record(const ReferenceCheck& check) {
+  if (!check.problems.empty() || check.passed()) return false;
+  const fs::path path = record_path(check.spec);
+  ordered_json record = ordered_json::object();
+  if (check.recorded) record = ordered_json::parse(read_text_file(path.string()).text);
+  for (const RecordedResult& result : check.results) {
+    if (!result.drifted) continue;
+    ordered_json& entry = record[result.name];
+    entry["value"] = result.computed;
+    const bool number = result.computed.is_number();
+    if (number && !entry.contains("relative_tolerance") && !entry.contains("absolute_tolerance")) {
+      entry["relative_tolerance"] = default_relative_tolerance;
+    }
+  }
+  write_whole_file(path, record.dump(2) + "\n");
+  return true;
+}
+
+std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
+                       const TextStyle& style) {
+  std::string out;
+  for (const ReferenceCheck& check : checks) {
+    const std::string status(status_of(check));
+    const std::string shown_status = check.passed() ? style.good(status) : style.bad(status);
+    out += fmt::format("{}{}  {}  {}\n", shown_status, std::string(10 - status.size(), ' '),
+                       check.spec.string(), style.subdued(check.name));
+    if (check.passed()) continue;
+    std::string lines = problem_lines(check) + (check.problems.empty() ? drift_lines(check) : "");
+    for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n')) {
+      out += "    " + lines.substr(0, end + 1);
+      lines.erase(0, end + 1);
+    }
+  }
+  out += fmt::format("{} designs: {} as recorded, {} drifted, {} without a record", checks.size(),
+                     count_status(checks, "ok"), count_status(checks, "drifted"),
+                     count_status(checks, "unrecorded"));
+  return out + (updated ? "; records brought up to date\n" : "\n");
+}
+
+ordered_json check_json(std::span<const ReferenceCheck> checks) {
+  ordered_json designs = ordered_json::array();
+  for (const ReferenceCheck& check : checks) {
+    ordered_json results = ordered_json::array();
+    for (const RecordedResult& result : check.results) {
+      results.push_back({{"result", result.name},
+                         {"recorded", result.recorded},
+                         {"computed", result.computed},
+                         {"difference", result.difference ? ordered_json(*result.difference)
+                                                          : ordered_json(nullptr)},
+                         {"tolerance", result.tolerance},
+                         {"drifted", result.drifted}});
+    }
+    designs.push_back({{"spec", check.spec.string()},
+                       {"name", check.name},
+                       {"status", status_of(check)},
+                       {"results", results}});
+  }
+  return {{"designs", designs},
+          {"ok", count_status(checks, "ok")},
+          {"drifted", count_status(checks, "drifted")},
+          {"unrecorded", count_status(checks, "unrecorded")}};
+}
+
+std::string check_csv(std::span<const ReferenceCheck> checks) {
+  std::string out = "spec,status,result,recorded,computed,difference,tolerance,drifted\n";
+  const auto cell = [](const ordered_json& value) {
+    return value.is_null() ? std::string() : csv_text(value_words(value));
+  };
+  for (const ReferenceCheck& check : checks) {
+    for (const RecordedResult& result : check.results) {
+      out +=
+          fmt::format("{},{},{},{},{},{},{},{}\n", csv_text(check.spec.string()), status_of(check),
+                      result.name, cell(result.recorded), cell(result.computed),
+                      result.difference ? csv_number(*result.difference) : "",
+                      csv_number(result.tolerance), result.drifted);
+    }
+  }
+  return out;
+}
+
+std::string check_junit(std::span<const ReferenceCheck> checks) {
+  const std::size_t errors = count_status(checks, "error");
+  const std::size_t failures = checks.size() - errors - count_status(checks, "ok");
+  const std::string counts =
+      fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"", checks.size(), failures, errors);
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  out +=
+      fmt::format("<testsuites {}>\n  <testsuite name=\"tethercalc check\" {}>\n", counts, counts);
+  for (const ReferenceCheck& check : checks) {
+    const std::string opening = fmt::format("    <testcase classname=\"{}\" name=\"{}\"",
+                                            xml_text(check.spec.parent_path().string()),
+                                            xml_text(check.spec.filename().string()));
+    if (check.passed()) {
+      out += opening + "/>\n";
+      continue;
+    }
+    const bool error = !check.problems.empty();
+    const std::string message = error ? problem_lines(check) : drift_lines(check);
+    const char* const element = error ? "error" : "failure";
+    out += fmt::format("{}>\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n", opening,
+                       element, status_of(check), xml_text(message.substr(0, message.rfind('\n'))));
+  }
+  return out + "  </testsuite>\n</testsuites>\n";
+}
+
+}  // namespace tethercalc

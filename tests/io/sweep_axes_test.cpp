@@ -1,0 +1,137 @@
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "tethercalc/io/library.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/io/sweep_axes.hpp"
+
+using namespace tethercalc;
+using Catch::Contains;
+
+namespace {
+
+const DesignFile& base() {
+  static const DesignFile file = parse_design(starting_spec(), "starting spec");
+  return file;
+}
+
+SweepAxis axis_of(const std::string& text, bool sampled = false) {
+  const std::vector<std::string> varied{text};
+  auto axes = read_sweep_axes(varied, base(), sampled);
+  REQUIRE(axes.size() == 1);
+  return std::move(axes.front());
+}
+
+std::vector<double> values_of(const std::string& text) {
+  const SweepAxis axis = axis_of(text);
+  std::vector<double> values;
+  for (std::uint64_t i = 0; i < value_count(axis).value(); ++i) {
+    values.push_back(value_at(axis, i));
+  }
+  return values;
+}
+
+std::string refusal_of(const std::string& text, bool sampled = false) {
+  const std::vector<std::string> varied{text};
+  try {
+    (void)read_sweep_axes(varied, base(), sampled);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+}  // namespace
+
+TEST_CASE("ranges hold the decimal numbers between their ends") {
+  using Values = std::vector<double>;
+  CHECK(values_of("supply.voltage_V=40:100:30") == Values{40, 70, 100});
+  CHECK(values_of("supply.voltage_V=40:99:30") == Values{40, 70});
+  CHECK(values_of("supply.voltage_V=60:59:-0.5") == Values{60, 59.5, 59});
+  CHECK(values_of("supply.voltage_V=60:60:1") == Values{60});
+  CHECK(values_of("flight.headwind_m_s=-0.2:0.2:0.1") == Values{-0.2, -0.1, 0, 0.1, 0.2});
+  CHECK(values_of("tether.contact_resistance_ohm=1e-3:5e-3:2E-3") == Values{0.001, 0.003, 0.005});
+  CHECK(values_of("supply.voltage_V=1e2:3e+2:100") == Values{100, 200, 300});
+  CHECK(values_of("drone.motor_count=4:8:2") == Values{4, 6, 8});
+  CHECK(values_of("flight.headwind_m_s=0.30,-1,2e0") == Values{0.3, -1, 2});
+  // A million steps on, the last one is still the number one would write.
+  CHECK(values_of("tether.length_m=10:110:0.0001").back() == 110);
+  CHECK(values_of("tether.length_m=10:110:0.0001")[333333] == 43.3333);
+}
+
+TEST_CASE("what cannot be stepped through is refused with the reason") {
+  CHECK_THAT(refusal_of("supply.voltage_V=40:100:0"), Contains("do not lead"));
+  CHECK_THAT(refusal_of("supply.voltage_V=40:100:-5"), Contains("do not lead"));
+  CHECK_THAT(refusal_of("supply.voltage_V=40:100"), Contains("from:to:step"));
+  CHECK_THAT(refusal_of("supply.voltage_V=40:1oo:5"), Contains("\"1oo\" is not a number"));
+  CHECK_THAT(refusal_of("supply.voltage_V=40:inf:5"), Contains("not a number"));
+  CHECK_THAT(refusal_of("supply.voltage_V=40,,60"), Contains("is not a number"));
+  CHECK_THAT(refusal_of("supply.voltage_V=1:2:0.12345678901234567890"), Contains("more digits"));
+  CHECK_THAT(refusal_of("supply.voltage_V=1:2:1e-300"), Contains("more digits"));
+  CHECK_THAT(refusal_of("drone.motor_count=4:6:0.5"), Contains("whole number"));
+  CHECK_THAT(refusal_of("drone.motor_count=2:80:2"), Contains("at most 64"));
+  CHECK_THAT(refusal_of("supply.voltage_V"), Contains("path=values"));
+  CHECK_THAT(refusal_of("supply.voltage_V="), Contains("no values"));
+}
+
+TEST_CASE("distributions are read for samples only") {
+  CHECK(std::get<Uniform>(axis_of("tether.length_m=10..60.5", true).values).hi == 60.5);
+  CHECK(std::get<Uniform>(axis_of("flight.headwind_m_s=-5..-1", true).values).lo == -5);
+  CHECK(std::get<UniformInteger>(axis_of("drone.motor_count=4..8", true).values).hi == 8);
+  const SweepAxis axis = axis_of("flight.headwind_m_s=-1~.5", true);
+  CHECK(std::get<Normal>(axis.values).mean == -1);
+  CHECK(std::get<Normal>(axis.values).standard_deviation == 0.5);
+  CHECK_THAT(refusal_of("tether.length_m=10..60"), Contains("--sample"));
+  CHECK_THAT(refusal_of("tether.length_m=10~1"), Contains("--sample"));
+  CHECK_THAT(refusal_of("tether.length_m=60..10", true), Contains("must be below"));
+  CHECK_THAT(refusal_of("tether.length_m=30~0", true), Contains("must be positive"));
+  CHECK_THAT(refusal_of("tether.length_m=-3..10", true), Contains("at least 0.1"));
+  CHECK_THAT(refusal_of("drone.motor_count=4~1", true), Contains("whole numbers"));
+}
+
+TEST_CASE("every field of a spec that changes the result can vary") {
+  Design design = base().design;
+  for (const SpecField& field : spec_fields()) {
+    const std::string path = dot_path(field.pointer);
+    INFO(path);
+    switch (field.kind) {
+      case FieldKind::text:
+        CHECK_THAT(refusal_of(path + "=a"), Contains("does not change the result"));
+        break;
+      case FieldKind::boolean:
+        CHECK(value_count(axis_of(path + "=true,false")) == 2U);
+        CHECK_THAT(refusal_of(path + "=tru"), Contains("did you mean \"true\""));
+        break;
+      case FieldKind::condition:
+        CHECK(value_count(axis_of(path + "=hover,forward")) == 2U);
+        break;
+      case FieldKind::motor:
+        CHECK(value_count(axis_of(path + "=all")) == library_motors().size());
+        break;
+      case FieldKind::conductor:
+        CHECK(value_count(axis_of(path + "=all")) == library_conductors().size());
+        break;
+      case FieldKind::insulation_material:
+        CHECK(value_count(axis_of(path + "=all")) == library_insulation().size());
+        break;
+      default: {
+        const double value = field.range.contains(1) ? 1 : 0.5;
+        const SweepAxis axis = axis_of(path + "=" + std::to_string(value));
+        axis.apply(design, value);
+        CHECK(field_value(design, field).value() == Approx(value));
+      }
+    }
+  }
+}
+
+TEST_CASE("numbers of a material vary whatever the material") {
+  Design design = base().design;
+  axis_of("tether.conductor.density_g_cm3=5").apply(design, 5);
+  CHECK(design.tether.conductor.density == 5000);
+  axis_of("tether.conductor.resistivity_20C_ohm_mm2_per_m=0.03").apply(design, 0.03);
+  CHECK(design.tether.conductor.resistivity_20C == Approx(0.03e-6));
+  axis_of("tether.insulation.material.density_g_cm3=2").apply(design, 2);
+  CHECK(design.tether.insulation.density == 2000);
+  CHECK_THAT(refusal_of("tether.conductor.density_g_cm3=-1"), Contains("at least"));
+}
