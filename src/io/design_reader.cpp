@@ -43,9 +43,8 @@ std::optional<StrengthMaterial> checked_strength_material(const JsonPlace& place
   if (text == "aramid") return StrengthMaterial::aramid;
   if (text == "uhmwpe") return StrengthMaterial::uhmwpe;
   const std::array<std::string, 3> known{"none", "aramid", "uhmwpe"};
-  problems.add(place.where(),
-               fmt::format("expected \"none\", \"aramid\" or \"uhmwpe\", found {}{}",
-                           type_name(*place.value), did_you_mean(text, known)));
+  problems.add(place.where(), fmt::format("expected \"none\", \"aramid\" or \"uhmwpe\", found {}{}",
+                                          type_name(*place.value), did_you_mean(text, known)));
   return std::nullopt;
 }
 

@@ -82,13 +82,12 @@ const std::array all_spec_fields{
               "where dielectric_safety_factor asks for more.",
               unit::millimetre,
               Number([](Design& d) -> double& { return d.tether.insulation.thickness; })},
-    SpecField{"/tether/insulation/dielectric_safety_factor", FieldKind::number, "",
-              between(0, 1000), "0",
-              "How many times the supply voltage the wall stands by the material's breakdown "
-              "strength; the wall grows with the voltage accordingly. 0: it does not.",
-              1, Number([](Design& d) -> double& {
-                return d.tether.insulation.dielectric_safety_factor;
-              })},
+    SpecField{
+        "/tether/insulation/dielectric_safety_factor", FieldKind::number, "", between(0, 1000), "0",
+        "How many times the supply voltage the wall stands by the material's breakdown "
+        "strength; the wall grows with the voltage accordingly. 0: it does not.",
+        1,
+        Number([](Design& d) -> double& { return d.tether.insulation.dielectric_safety_factor; })},
     SpecField{"/tether/contact_resistance_ohm", FieldKind::number, "Ω", between(0, 1000), "0",
               "Resistance of plugs and slip rings in the whole loop.", 1,
               Number([](Design& d) -> double& { return d.tether.contact_resistance; })},
@@ -104,27 +103,27 @@ const std::array all_spec_fields{
               unit::square_millimetre,
               static_cast<std::optional<double>& (*)(Design&)>(
                   [](Design& d) -> std::optional<double>& { return d.tether.cross_section; })},
-    SpecField{"/tether/ambient_temperature_C", FieldKind::optional_number, "°C", between(-60, 90),
-              "null",
-              "Temperature of the air. Set, the conductor's temperature is that of a heat balance, "
-              "and conductor_temperature_C is not used.",
-              1, static_cast<std::optional<double>& (*)(Design&)>(
-                     [](Design& d) -> std::optional<double>& {
-                       return d.tether.ambient_temperature_C;
-                     })},
+    SpecField{
+        "/tether/ambient_temperature_C", FieldKind::optional_number, "°C", between(-60, 90), "null",
+        "Temperature of the air. Set, the conductor's temperature is that of a heat balance, "
+        "and conductor_temperature_C is not used.",
+        1,
+        static_cast<std::optional<double>& (*)(Design&)>(
+            [](Design& d) -> std::optional<double>& { return d.tether.ambient_temperature_C; })},
     SpecField{"/tether/sun_W_m2", FieldKind::number, "W/m²", between(0, 1500), "0",
               "Sunlight across the tether in the air; matters with ambient_temperature_C.", 1,
               Number([](Design& d) -> double& { return d.tether.sun; })},
-    SpecField{"/tether/drum/layers", FieldKind::integer, "", between(0, 4), "0",
-              "Layers of tether on a ventilated cylindrical drum, which set its current derating; "
-              "0: not stated.",
-              1, static_cast<int& (*)(Design&)>(
-                     [](Design& d) -> int& { return d.tether.drum.layers; })},
+    SpecField{
+        "/tether/drum/layers", FieldKind::integer, "", between(0, 4), "0",
+        "Layers of tether on a ventilated cylindrical drum, which set its current derating; "
+        "0: not stated.",
+        1, static_cast<int& (*)(Design&)>([](Design& d) -> int& { return d.tether.drum.layers; })},
     SpecField{"/tether/drum/derating", FieldKind::optional_number, "", positive_fraction, "null",
               "Current that the tether may carry on the drum over what it may laid out, where that "
               "is known; goes before layers.",
-              1, static_cast<std::optional<double>& (*)(Design&)>(
-                     [](Design& d) -> std::optional<double>& { return d.tether.drum.derating; })},
+              1,
+              static_cast<std::optional<double>& (*)(Design&)>(
+                  [](Design& d) -> std::optional<double>& { return d.tether.drum.derating; })},
     SpecField{"/tether/strength_member/material", FieldKind::strength_material, "", any_number,
               "\"none\"", "Fibres that carry the pull.", 1,
               static_cast<StrengthMaterial& (*)(Design&)>([](Design& d) -> StrengthMaterial& {
@@ -148,34 +147,30 @@ const std::array all_spec_fields{
     SpecField{"/supply/converter/min_input_voltage_V", FieldKind::number, "V", between(0, 1e4), "",
               "Voltage at its input below which the converter cuts off.", 1,
               Number([](Design& d) -> double& { return d.supply.converter.min_input_voltage; })},
-    SpecField{"/supply/converter/max_input_voltage_V", FieldKind::optional_number, "V",
-              above(0, 1e4), "null", "Highest voltage that the converter's input stands.", 1,
-              static_cast<std::optional<double>& (*)(Design&)>(
-                  [](Design& d) -> std::optional<double>& {
-                    return d.supply.converter.max_input_voltage;
-                  })},
-    SpecField{"/supply/converter/rated_output_W", FieldKind::optional_number, "W", above(0, 1e6),
-              "null", "Power that the converter gives continuously, at most.", 1,
-              static_cast<std::optional<double>& (*)(Design&)>(
-                  [](Design& d) -> std::optional<double>& {
-                    return d.supply.converter.rated_output_power;
-                  })},
+    SpecField{
+        "/supply/converter/max_input_voltage_V", FieldKind::optional_number, "V", above(0, 1e4),
+        "null", "Highest voltage that the converter's input stands.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
+          return d.supply.converter.max_input_voltage;
+        })},
+    SpecField{
+        "/supply/converter/rated_output_W", FieldKind::optional_number, "W", above(0, 1e6), "null",
+        "Power that the converter gives continuously, at most.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
+          return d.supply.converter.rated_output_power;
+        })},
     SpecField{"/supply/converter/specific_mass_kg_per_kW", FieldKind::number, "kg/kW",
               between(0, 100), "0",
               "Mass of the converter per rated output, which the drone carries beside its own.",
               1e-3, Number([](Design& d) -> double& { return d.supply.converter.specific_mass; })},
-    SpecField{"/supply/converter/fixed_ratio", FieldKind::optional_number, "", above(0, 100),
-              "null",
-              "Output over input voltage of a converter whose output follows its input.", 1,
-              static_cast<std::optional<double>& (*)(Design&)>(
-                  [](Design& d) -> std::optional<double>& {
-                    return d.supply.converter.fixed_ratio;
-                  })},
+    SpecField{
+        "/supply/converter/fixed_ratio", FieldKind::optional_number, "", above(0, 100), "null",
+        "Output over input voltage of a converter whose output follows its input.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>(
+            [](Design& d) -> std::optional<double>& { return d.supply.converter.fixed_ratio; })},
     SpecField{"/supply/converter/min_output_voltage_V", FieldKind::number, "V", between(0, 1e4),
               "0", "Voltage that the motors need behind a converter of fixed ratio.", 1,
-              Number([](Design& d) -> double& {
-                return d.supply.converter.min_output_voltage;
-              })},
+              Number([](Design& d) -> double& { return d.supply.converter.min_output_voltage; })},
     SpecField{"/flight/airspeed_m_s", FieldKind::number, "m/s", between(0, 200), "",
               "Airspeed in forward flight.", 1,
               Number([](Design& d) -> double& { return d.flight.airspeed; })},
@@ -209,9 +204,8 @@ const std::array all_spec_fields{
     SpecField{"/requirements/strength_safety_factor", FieldKind::number, "", between(0, 1000), "0",
               "Breaking load of the tether over its tension at the drone, at least; 0: not asked "
               "for.",
-              1, Number([](Design& d) -> double& {
-                return d.requirements.strength_safety_factor;
-              })},
+              1,
+              Number([](Design& d) -> double& { return d.requirements.strength_safety_factor; })},
 };
 
 const SpecField id_field{"/id", FieldKind::text, "", any_number, "\"\"", "Name in the library."};

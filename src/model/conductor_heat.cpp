@@ -81,9 +81,8 @@ double churchill_bernstein(double reynolds, double prandtl) {
 }
 
 double churchill_chu(double rayleigh, double prandtl) {
-  const double root =
-      0.6 + 0.387 * std::pow(rayleigh, 1.0 / 6) /
-                std::pow(1 + std::pow(0.559 / prandtl, 9.0 / 16), 8.0 / 27);
+  const double root = 0.6 + 0.387 * std::pow(rayleigh, 1.0 / 6) /
+                                std::pow(1 + std::pow(0.559 / prandtl, 9.0 / 16), 8.0 / 27);
   return root * root;
 }
 

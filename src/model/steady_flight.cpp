@@ -50,8 +50,8 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
   tether_drag_0_ = tether_drag_1_ * (wall_ + 0.25 * member.diameter);
   pitch_sign_ = speed < 0 ? -1 : 1;
 
-  deliverable_ = tethercalc::available_power(
-      design.supply.voltage, lowest_input_voltage(design.supply.converter), 1.0);
+  deliverable_ = tethercalc::available_power(design.supply.voltage,
+                                             lowest_input_voltage(design.supply.converter), 1.0);
 }
 
 double SteadyFlight::resistance(double radius, double temperature_C) const {
@@ -116,7 +116,7 @@ SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
 
 double SteadyFlight::available_thrust(double available_power) const {
   double output = converter_output_power(design_->supply.converter,
-                                               available_power - design_->drone.auxiliary_power);
+                                         available_power - design_->drone.auxiliary_power);
   const Converter& converter = design_->supply.converter;
   if (converter.rated_output_power) output = std::min(output, *converter.rated_output_power);
   return design_->drone.motor.thrust(output / power_scale_);

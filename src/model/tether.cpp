@@ -9,8 +9,7 @@
 namespace tethercalc {
 
 double resistivity(const Conductor& conductor, double temperature_C) {
-  return conductor.resistivity_20C *
-         (1 + conductor.temperature_coefficient * (temperature_C - 20));
+  return conductor.resistivity_20C * (1 + conductor.temperature_coefficient * (temperature_C - 20));
 }
 
 double resistivity(const Tether& tether) {

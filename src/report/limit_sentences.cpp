@@ -55,14 +55,15 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
       break;
     case Limit::conductor_temperature:
       sentence = fmt::format(
-          "Limited by heat: any thinner, and the conductor is hotter in {} than the {} °C for which "
+          "Limited by heat: any thinner, and the conductor is hotter in {} than the {} °C for "
+          "which "
           "its insulation is rated.",
           where, significant(*design.tether.insulation.rated_temperature_C, 3));
       break;
     case Limit::tether_strength:
-      sentence = fmt::format(
-          "Limited by strength: the tether would not hold {} times its tension in {}.",
-          significant(design.requirements.strength_safety_factor, 3), where);
+      sentence =
+          fmt::format("Limited by strength: the tether would not hold {} times its tension in {}.",
+                      significant(design.requirements.strength_safety_factor, 3), where);
       break;
     case Limit::converter_rating:
       sentence = fmt::format(

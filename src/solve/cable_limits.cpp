@@ -48,9 +48,8 @@ class BothFlights {
       return {Limit::available_power, need.headroom_at, ratio >= 0 ? ratio - 1 : -1};
     }
     const std::vector<Margin> all = requirement_margins(design_, points.hover, points.forward);
-    return *std::min_element(all.begin(), all.end(), [](const Margin& a, const Margin& b) {
-      return a.value < b.value;
-    });
+    return *std::min_element(all.begin(), all.end(),
+                             [](const Margin& a, const Margin& b) { return a.value < b.value; });
   }
 
   /// Power where it is priced; infinite where it does not exist.
@@ -87,8 +86,7 @@ double argmax(const Function& value, const std::vector<double>& points) {
   const double lo = points[best > 0 ? best - 1 : 0];
   const double hi = points[std::min(best + 1, points.size() - 1)];
   const auto minus = [&](double x) { return -std::max(value(x), -1e300); };
-  const double refined =
-      boost::math::tools::brent_find_minima(minus, lo, hi, half_the_bits).first;
+  const double refined = boost::math::tools::brent_find_minima(minus, lo, hi, half_the_bits).first;
   return value(refined) > most ? refined : points[best];
 }
 
@@ -125,8 +123,8 @@ IntervalSet in_square_metres(IntervalSet logarithms) {
   return logarithms;
 }
 
-/// The design as cold as it can be, without limits: whatever is feasible with them is feasible here,
-/// since resistance only rises with temperature.
+/// The design as cold as it can be, without limits: whatever is feasible with them is feasible
+/// here, since resistance only rises with temperature.
 Design without_limits(Design design) {
   Tether& tether = design.tether;
   if (tether.ambient_temperature_C) {
@@ -170,10 +168,10 @@ void add_flight_margins(const Design& design, const OperatingPoint& point, Condi
   }
   const Converter& converter = design.supply.converter;
   if (converter.rated_output_power) {
-    const double output = converter_output_power(
-        converter, point.drone_power - design.drone.auxiliary_power);
-    margins.push_back({Limit::converter_rating, condition,
-                       margin_of(*converter.rated_output_power, output)});
+    const double output =
+        converter_output_power(converter, point.drone_power - design.drone.auxiliary_power);
+    margins.push_back(
+        {Limit::converter_rating, condition, margin_of(*converter.rated_output_power, output)});
   }
 }
 
@@ -197,8 +195,7 @@ Optimization optimize_within_cable_limits(const Design& design) {
   const Design cold = without_limits(design);
   Optimization result = optimize_without_cable_limits(cold);
   IntervalSet possible = headroom_areas(SteadyFlight(cold, Condition::hover), 1);
-  possible =
-      intersection(possible, headroom_areas(SteadyFlight(cold, Condition::forward), 1));
+  possible = intersection(possible, headroom_areas(SteadyFlight(cold, Condition::forward), 1));
   if (!design.requirements.buffer_battery) {
     possible = intersection(possible, result.headroom_areas);
   }
@@ -259,11 +256,11 @@ Optimization optimize_within_cable_limits(const Design& design) {
   result.limited_by = Limit::minimum_power;
   result.limiting_condition = design.requirements.power_at;
   const Margin binding = flights.worst(best_x);
-  const bool on_edge = std::any_of(
-      result.feasible_areas.begin(), result.feasible_areas.end(), [&](const Interval& range) {
-        return std::abs(result.area / range.lo - 1) < 1e-6 ||
-               std::abs(result.area / range.hi - 1) < 1e-6;
-      });
+  const bool on_edge = std::any_of(result.feasible_areas.begin(), result.feasible_areas.end(),
+                                   [&](const Interval& range) {
+                                     return std::abs(result.area / range.lo - 1) < 1e-6 ||
+                                            std::abs(result.area / range.hi - 1) < 1e-6;
+                                   });
   if (on_edge) {
     const std::vector<Margin> all = requirement_margins(design, points.hover, points.forward);
     Margin tightest = binding;
@@ -272,11 +269,14 @@ Optimization optimize_within_cable_limits(const Design& design) {
       // A tilt within its limit has no distance from it.
       if (margin.limit != Limit::max_pitch && margin.value < tightest.value) tightest = margin;
     }
-    const bool tilt = !(tightest.value < 1e-6);
-    result.limited_by = tilt ? Limit::max_pitch : tightest.limit;
+    result.limited_by = tightest.limit;
     result.limiting_condition = tightest.condition;
-    if (result.limited_by == Limit::available_power &&
-        !(result.area > result.minimum_power.area)) {
+    for (const OperatingPoint* point : {&result.hover, &result.forward}) {
+      if (std::abs(point->pitch) < design.requirements.max_pitch * (1 - 1e-6)) continue;
+      result.limited_by = Limit::max_pitch;
+      result.limiting_condition = point == &result.hover ? Condition::hover : Condition::forward;
+    }
+    if (result.limited_by == Limit::available_power && !(result.area > result.minimum_power.area)) {
       result.limited_by = Limit::takeoff_mass;
     }
   }

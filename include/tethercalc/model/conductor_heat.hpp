@@ -1,4 +1,5 @@
-// The temperature at which a conductor gives off as much heat as its current and the sun make in it.
+// The temperature at which a conductor gives off as much heat as its current and the sun make in
+// it.
 #pragma once
 
 #include <optional>
@@ -30,8 +31,8 @@ inline constexpr double standard_air_density_0C = 1.293;
 /// Transfer 18, 1049–1053); Rayleigh number 1e-5 to 1e12.
 [[nodiscard]] double churchill_chu(double rayleigh, double prandtl);
 
-/// Nusselt number of a stranded conductor across the wind, CIGRE TB 601 table 5; Reynolds number 100
-/// to 50 000. `roughness` is d/(2(D − d)) with strand diameter d and conductor diameter D.
+/// Nusselt number of a stranded conductor across the wind, CIGRE TB 601 table 5; Reynolds number
+/// 100 to 50 000. `roughness` is d/(2(D − d)) with strand diameter d and conductor diameter D.
 [[nodiscard]] double cigre601_stranded(double reynolds, double roughness);
 
 /// Share of it left where the wind meets a stranded conductor at `attack_angle` (rad, 0 to π/2; π/2
@@ -53,12 +54,12 @@ inline constexpr double standard_air_density_0C = 1.293;
 
 /// What a conductor of the tether is surrounded by.
 struct Surroundings {
-  double temperature_C = 20;  ///< of the air
-  double air_density = 1.293; ///< kg/m³ at that temperature
-  double wind = 0;            ///< m/s across the conductor, ≥ 0
-  double sun = 0;             ///< W/m² across it
-  double gravity = 9.80665;   ///< m/s²
-  double cooling = 1;         ///< in (0, 1]: share of the heat that a wound conductor gives off
+  double temperature_C = 20;   ///< of the air
+  double air_density = 1.293;  ///< kg/m³ at that temperature
+  double wind = 0;             ///< m/s across the conductor, ≥ 0
+  double sun = 0;              ///< W/m² across it
+  double gravity = 9.80665;    ///< m/s²
+  double cooling = 1;          ///< in (0, 1]: share of the heat that a wound conductor gives off
 };
 
 /// Temperatures above this are not looked at: no insulation stands them.
@@ -69,8 +70,8 @@ inline constexpr double highest_conductor_temperature_C = 400;
 /// Heat flows through the insulation, T_c − T_s = q·ln((r + s)/r)/(2πλ), and off its surface by
 /// convection, forced or natural, whichever is more (as in CIGRE TB 601), and by radiation with an
 /// emissivity of 0.9. The tether hangs: natural convection is that of a horizontal cylinder times
-/// the least that CIGRE TB 601 leaves of it, at 60°. The two conductors touch: of the surface of two
-/// cylinders only that of their convex hull, (π + 2)/(2π), takes part. The sun, of which a dark
+/// the least that CIGRE TB 601 leaves of it, at 60°. The two conductors touch: of the surface of
+/// two cylinders only that of their convex hull, (π + 2)/(2π), takes part. The sun, of which a dark
 /// sheath takes 0.9, shines on both broadside. Where the insulation's conductivity is unknown it is
 /// taken as 0.17 W/(m·K), the least of common materials (PVC).
 class ConductorHeat {
@@ -107,8 +108,8 @@ class ConductorHeat {
 
 /// The steady state of a tether under its own current, with a load of constant power at its end.
 struct TetherHeatState {
-  bool steady = false;  ///< false: no steady state, or the power cannot be delivered
-  double current = 0;   ///< A
+  bool steady = false;                 ///< false: no steady state, or the power cannot be delivered
+  double current = 0;                  ///< A
   double resistance = 0;               ///< Ω, loop
   double conductor_temperature_C = 0;  ///< in the air
   std::optional<double> drum_temperature_C;  ///< of the wound part, where there is one whose
@@ -122,8 +123,8 @@ struct TetherHeatState {
 /// that the states visited from a cold start on rise towards it; the map is convex, so that secants
 /// through two of them never overshoot it, and a secant that points away from it proves that there
 /// is none: the tether runs away. `tether.ambient_temperature_C` must be set. `load_power` in W at
-/// the drone; `in_the_air` is what surrounds the airborne part. The wound part lies in the shade, in
-/// still air, and gives off the square of its current derating of what it would laid out.
+/// the drone; `in_the_air` is what surrounds the airborne part. The wound part lies in the shade,
+/// in still air, and gives off the square of its current derating of what it would laid out.
 [[nodiscard]] TetherHeatState steady_tether(const Tether& tether, double radius, double wall,
                                             double supply_voltage, double load_power,
                                             const Surroundings& in_the_air);

@@ -8,8 +8,8 @@ namespace tethercalc {
 /// Everything that steady flight needs as a function of the conductor's radius r, with what does
 /// not depend on r computed once. The tether's mass is a quadratic in r, its drag linear in r, its
 /// resistance linear in 1/r², at the tether's `conductor_temperature_C`: the heat balance, where
-/// one is asked for, is `evaluate`'s. `evaluate` and the solvers share these functions, so they cannot
-/// disagree. Refers to the design's motor and converter: the design must outlive it.
+/// one is asked for, is `evaluate`'s. `evaluate` and the solvers share these functions, so they
+/// cannot disagree. Refers to the design's motor and converter: the design must outlive it.
 ///
 /// Radii are in m and positive; thrusts are in N per motor; powers in W; masses in kg.
 class SteadyFlight {
@@ -21,8 +21,8 @@ class SteadyFlight {
   [[nodiscard]] double tether_mass(double radius) const {
     return mass_0_ + radius * (mass_1_ + radius * mass_2_);
   }
-  /// Mass of drone and airborne tether, and the mass whose weight is the pull of the winch: what the
-  /// motors lift.
+  /// Mass of drone and airborne tether, and the mass whose weight is the pull of the winch: what
+  /// the motors lift.
   [[nodiscard]] double takeoff_mass(double radius) const {
     return drone_mass_ + tether_mass(radius);
   }

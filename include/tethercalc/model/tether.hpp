@@ -113,7 +113,8 @@ struct Tether {
 [[nodiscard]] double tether_drag_area(const Tether& tether, double area);
 
 /// Breaking load in N: that of the strength member where there is one, which is stiffer than metal
-/// and takes the load, else that of both conductors of `area` m²; 0 where their strength is unknown.
+/// and takes the load, else that of both conductors of `area` m²; 0 where their strength is
+/// unknown.
 [[nodiscard]] double breaking_load(const Tether& tether, double area);
 
 }  // namespace tethercalc

@@ -9,11 +9,11 @@ namespace tethercalc {
 
 /// What keeps the optimum, or an infeasible design, from being better.
 enum class Limit {
-  minimum_power,    ///< nothing: the least power lies inside the feasible set
-  available_power,  ///< a thinner conductor would starve the motors of power
-  takeoff_mass,     ///< a thicker conductor would be too heavy
-  motor_thrust,     ///< the motors' last data-sheet point is below the thrust asked for
-  max_pitch,        ///< the tilt limit
+  minimum_power,          ///< nothing: the least power lies inside the feasible set
+  available_power,        ///< a thinner conductor would starve the motors of power
+  takeoff_mass,           ///< a thicker conductor would be too heavy
+  motor_thrust,           ///< the motors' last data-sheet point is below the thrust asked for
+  max_pitch,              ///< the tilt limit
   conductor_temperature,  ///< the rated temperature of the insulation, in the air or on the drum
   tether_strength,        ///< the breaking load that the tether's tension asks for
   converter_rating,       ///< the rated output of the converter
