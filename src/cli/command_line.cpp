@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "cli/design_commands.hpp"
+#include "cli/design_search_commands.hpp"
 #include "cli/output.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -73,6 +74,7 @@ class CommandLine {
     add_optimize();
     add_evaluate();
     add_compare();
+    add_design();
     add_validate();
     add_schema();
     add_init();
@@ -134,6 +136,29 @@ class CommandLine {
                     "all, or names of the library and files, separated by commas (default: all)")
         ->delimiter(',')
         ->allow_extra_args(false);
+    add_output(command, output_);
+  }
+
+  void add_design() {
+    CLI::App& command = add("design", "The best whole design among those that free fields allow",
+                            [this] { return run_design(spec_, request_, output_); });
+    add_spec(command, spec_);
+    command
+        .add_option("--free", request_.free,
+                    "A field the search may change: PATH=lo..hi or PATH=a,b,c; repeatable")
+        ->allow_extra_args(false);
+    command.add_option("--minimize", request_.minimize,
+                       "Key of a result or path of a field (default: total_power_W)");
+    command
+        .add_option("--subject-to", request_.subject_to,
+                    "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable")
+        ->allow_extra_args(false);
+    command.add_option("--standard", request_.standard,
+                       "awg or iec: the cross-section is one of these sizes");
+    command.add_option("--pareto", request_.pareto, "KEY,KEY: the front of two quantities")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--seed", request_.seed, "Of the points from which the search starts");
     add_output(command, output_);
   }
 
@@ -205,6 +230,7 @@ class CommandLine {
   SpecOptions spec_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
+  DesignRequest request_;
   std::vector<std::string> files_;
   std::string what_;
 };

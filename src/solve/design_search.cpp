@@ -1,10 +1,12 @@
 #include "tethercalc/solve/design_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
 #include "solve/cable_limits.hpp"
+#include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
 namespace tethercalc {
@@ -28,45 +30,42 @@ const char* demand_name(Limit limit) {
   }
 }
 
-/// Demands in a fixed number and order: for each condition headroom, tilt, temperature, strength,
-/// rating, and that the converter stands the supply; then the user's.
-std::vector<DemandState> all_demands(const Candidate& candidate,
-                                     const std::vector<UserLimit>& limits) {
-  std::vector<DemandState> states;
-  const Design& design = candidate.design;
+constexpr std::array requirement_order{Limit::available_power, Limit::max_pitch,
+                                       Limit::conductor_temperature, Limit::tether_strength,
+                                       Limit::converter_rating};
+/// The requirements in both conditions, and the range of the converter's input.
+constexpr std::size_t fixed_demands = 2 * requirement_order.size() + 1;
+
+std::size_t demand_index(const Margin& margin) {
+  const auto found = std::find(requirement_order.begin(), requirement_order.end(), margin.limit);
+  const auto first = margin.condition == Condition::hover ? 0 : requirement_order.size();
+  return first + static_cast<std::size_t>(found - requirement_order.begin());
+}
+
+/// How far every demand is violated: fixed_demands of them, then the user's.
+void fill_violations(const Candidate& candidate, const std::vector<UserLimit>& limits,
+                     std::span<double> violations) {
   const bool exists = std::isfinite(candidate.area);
-  for (const Condition condition : {Condition::hover, Condition::forward}) {
-    for (const Limit limit :
-         {Limit::available_power, Limit::max_pitch, Limit::conductor_temperature,
-          Limit::tether_strength, Limit::converter_rating}) {
-      states.push_back({std::string(demand_name(limit)) +
-                            (condition == Condition::hover ? " in hover" : " in forward flight"),
-                        exists ? -1.0 : 1.0});
-    }
-  }
+  std::fill(violations.begin(), violations.end(), exists ? -1.0 : 1.0);
   if (exists) {
-    for (const Margin& margin : requirement_margins(design, candidate.hover, candidate.forward)) {
-      const std::string name =
-          std::string(demand_name(margin.limit)) +
-          (margin.condition == Condition::hover ? " in hover" : " in forward flight");
-      const auto state = std::find_if(states.begin(), states.end(),
-                                      [&](const DemandState& s) { return s.name == name; });
-      state->violation = -margin.value;
+    for (const Margin& margin :
+         requirement_margins(candidate.design, candidate.hover, candidate.forward)) {
+      violations[demand_index(margin)] = -margin.value;
     }
   }
-  const Converter& converter = design.supply.converter;
-  const double voltage = design.supply.voltage;
-  states.push_back(
-      {"converter input voltage",
-       std::max(converter.max_input_voltage ? voltage / *converter.max_input_voltage - 1 : -1,
-                converter.min_input_voltage / voltage - 1)});
-  for (const UserLimit& limit : limits) {
+  const Converter& converter = candidate.design.supply.converter;
+  const double voltage = candidate.design.supply.voltage;
+  violations[fixed_demands - 1] =
+      std::max(converter.max_input_voltage ? voltage / *converter.max_input_voltage - 1 : -1,
+               lowest_input_voltage(converter) / voltage - 1);
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const UserLimit& limit = limits[i];
     const double value = exists ? limit.quantity(candidate) : nan;
     const double scale = std::max(std::abs(limit.bound), 1e-3);
-    const double violation = limit.sign * (value - limit.bound) / scale;
-    states.push_back({limit.name, std::isfinite(violation) ? violation : 1.0});
+    // Shifted by the tolerance, so that what counts as kept is kept to the last digit.
+    const double violation = limit.sign * (value - limit.bound) / scale + constraint_tolerance;
+    violations[fixed_demands + i] = std::isfinite(violation) ? violation : 1.0;
   }
-  return states;
 }
 
 /// Every combination of alternatives.
@@ -101,11 +100,10 @@ Design with_ranges(const DesignProblem& problem, Design design, std::span<const 
 MinimumProblem minimum_problem(const DesignProblem& problem, const Design& chosen) {
   MinimumProblem result;
   for (const FreeRange& free : problem.ranges) result.variables.push_back(free.range);
-  result.constraint_count = 11 + problem.limits.size();
+  result.constraint_count = fixed_demands + problem.limits.size();
   result.evaluate = [&problem, &chosen](std::span<const double> x, std::span<double> constraints) {
     const Candidate candidate = candidate_of(with_ranges(problem, chosen, x));
-    const std::vector<DemandState> states = all_demands(candidate, problem.limits);
-    for (std::size_t i = 0; i < constraints.size(); ++i) constraints[i] = states[i].violation;
+    fill_violations(candidate, problem.limits, constraints);
     return std::isfinite(candidate.area) ? problem.objective(candidate) : nan;
   };
   return result;
@@ -131,9 +129,18 @@ Candidate candidate_of(Design design) {
     candidate.forward = evaluate(design, candidate.area, Condition::forward);
   } else {
     const Optimization optimum = optimize(design);
-    candidate.area = optimum.feasible ? optimum.area : nan;
-    candidate.hover = optimum.hover;
-    candidate.forward = optimum.forward;
+    if (optimum.feasible) {
+      candidate.area = optimum.area;
+      candidate.hover = optimum.hover;
+      candidate.forward = optimum.forward;
+    } else {
+      // Nearest to feasible, so that it can be told by how much the demands are missed.
+      candidate.area = best_headroom(SteadyFlight(design, design.requirements.headroom_at)).area;
+      if (std::isfinite(candidate.area)) {
+        candidate.hover = evaluate(design, candidate.area, Condition::hover);
+        candidate.forward = evaluate(design, candidate.area, Condition::forward);
+      }
+    }
   }
   candidate.design = std::move(design);
   return candidate;
@@ -141,7 +148,18 @@ Candidate candidate_of(Design design) {
 
 std::vector<DemandState> demand_states(const Candidate& candidate,
                                        const std::vector<UserLimit>& limits) {
-  return all_demands(candidate, limits);
+  std::vector<double> violations(fixed_demands + limits.size());
+  fill_violations(candidate, limits, violations);
+  std::vector<DemandState> states;
+  for (const char* condition : {" in hover", " in forward flight"}) {
+    for (const Limit limit : requirement_order) {
+      states.push_back({std::string(demand_name(limit)) + condition, 0});
+    }
+  }
+  states.push_back({"converter input voltage", 0});
+  for (const UserLimit& limit : limits) states.push_back({limit.name, 0});
+  for (std::size_t i = 0; i < states.size(); ++i) states[i].violation = violations[i];
+  return states;
 }
 
 DesignAnswer search_design(const DesignProblem& problem, const MinimumOptions& options) {
@@ -179,7 +197,7 @@ DesignAnswer search_design(const DesignProblem& problem, const MinimumOptions& o
   answer.feasible = is_feasible(answer.minimum);
   answer.best =
       candidate_of(with_ranges(problem, with_choice(problem, answer.choice), answer.minimum.x));
-  const std::vector<DemandState> states = all_demands(answer.best, problem.limits);
+  const std::vector<DemandState> states = demand_states(answer.best, problem.limits);
   const auto worst = std::max_element(
       states.begin(), states.end(),
       [](const DemandState& a, const DemandState& b) { return a.violation < b.violation; });

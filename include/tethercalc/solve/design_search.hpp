@@ -82,7 +82,8 @@ struct DesignAnswer {
 };
 
 /// The candidate that `base` becomes. With a cross-section in `tether.cross_section` it is that
-/// cable; without, the conductor of least power that meets the requirements.
+/// cable; without, the conductor of least power that meets the requirements or, where none does,
+/// the one with the best headroom.
 [[nodiscard]] Candidate candidate_of(Design design);
 
 /// A demand on a candidate and how far it is kept.

@@ -1,0 +1,12 @@
+// The commands that look for whole designs and for what a design can do at most.
+#pragma once
+
+#include "cli/design_commands.hpp"
+#include "tethercalc/report/design_study.hpp"
+
+namespace tethercalc::cli {
+
+/// Returns its exit code and throws InputError for bad input.
+int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output);
+
+}  // namespace tethercalc::cli
