@@ -75,6 +75,7 @@ class CommandLine {
     add_evaluate();
     add_compare();
     add_design();
+    add_envelope();
     add_validate();
     add_schema();
     add_init();
@@ -159,6 +160,21 @@ class CommandLine {
         ->delimiter(',')
         ->allow_extra_args(false);
     command.add_option("--seed", request_.seed, "Of the points from which the search starts");
+    add_output(command, output_);
+  }
+
+  void add_envelope() {
+    CLI::App& command =
+        add("envelope", "How high, how heavy, how fast and in how much wind a given cable flies",
+            [this] {
+              const std::vector<double> areas = parse_areas(areas_);
+              return run_envelope({spec_, areas}, output_);
+            });
+    add_spec(command, spec_);
+    command
+        .add_option("--area-mm2", areas_,
+                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
+        ->allow_extra_args(false);
     add_output(command, output_);
   }
 

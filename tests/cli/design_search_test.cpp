@@ -102,3 +102,21 @@ TEST_CASE("a mistyped study is refused with everything that is wrong") {
   CHECK_THAT(run.err, Contains("expected KEY<=VALUE"));
   CHECK_THAT(run.err, Contains("allowed are awg and iec"));
 }
+
+TEST_CASE("an envelope names what ends it, and needs a cable") {
+  CHECK(run_tethercalc({"envelope", published}).exit_code == 2);
+  const Ran run = run_tethercalc({"envelope", published, "--area-mm2", "1.5", "--format", "json"});
+  CHECK(run.exit_code == 0);
+  const json answer = json::parse(run.out);
+  const double height = answer["greatest"]["height_m"]["value"];
+  CHECK(answer["greatest"]["height_m"]["limited_by"] == "available_power");
+  const auto at = [&](double length) {
+    const json points = json::parse(
+        run_tethercalc({"evaluate", published, "--area-mm2", "1.5", "--set",
+                        "tether.length_m=" + std::to_string(length), "--format", "json"})
+            .out);
+    return points["table"][0]["hover"]["headroom"].get<double>();
+  };
+  CHECK(at(height) == Approx(2).epsilon(1e-5));
+  CHECK(answer["curves"].size() == 3);
+}
