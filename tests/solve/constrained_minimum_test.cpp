@@ -151,14 +151,16 @@ TEST_CASE("a design search is never worse than brute force over its fields") {
       if (answer.feasible) CHECK(state.violation <= constraint_tolerance);
     }
     double best = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < 1000; ++k) {
       Design design = problem.base;
-      design.supply.voltage = 20 + 380 * k / 299.0;
+      design.supply.voltage = 20 + 380 * k / 999.0;
       if (design.supply.voltage > most) break;
       const SteadyFlight hover(design, Condition::hover), forward(design, Condition::forward);
-      for (int l = 0; l < 300; ++l) {
-        const double area = 0.1e-6 * std::pow(100, l / 299.0);
-        const OperatingPoint h = evaluate(hover, area), f = evaluate(forward, area);
+      for (int l = 0; l < 1000; ++l) {
+        const double area = 0.1e-6 * std::pow(100, l / 999.0);
+        const OperatingPoint f = evaluate(forward, area);
+        if (!(f.total_power < best) || !f.flyable) continue;
+        const OperatingPoint h = evaluate(hover, area);
         const Requirements& need = design.requirements;
         const OperatingPoint& judged = need.headroom_at == Condition::hover ? h : f;
         const bool met = h.flyable && f.flyable &&

@@ -43,7 +43,7 @@ struct Drum {
 /// Current that a cable may carry wound on a drum, over what it may laid out, at the same conductor
 /// temperature: the user's own factor, else that of the layers on a ventilated cylindrical drum,
 /// 0.85, 0.65, 0.45 and 0.35 for 1 to 4 (IEC 60204-1, "derating factors for cables wound on
-/// drums"). Nothing where neither is stated.
+/// drums", as commonly quoted). Nothing where neither is stated.
 [[nodiscard]] std::optional<double> drum_derating(const Drum& drum);
 
 /// Fibres that carry the pull, beside the conductors.

@@ -13,20 +13,20 @@ namespace tethercalc {
 
 /// One reach and its end.
 struct ReachResult {
-  Reach reach = Reach::height;
+  Reach reach = Reach::height;  ///< which
   std::optional<ReachEnd> end;  ///< nothing: the cable flies at no value of it
 };
 
 /// The greatest of one reach against another.
 struct EnvelopeCurve {
-  Reach of = Reach::payload;
-  Reach against = Reach::height;
-  std::vector<EnvelopePoint> points;
+  Reach of = Reach::payload;          ///< what is pushed as far as it goes
+  Reach against = Reach::height;      ///< at values of this
+  std::vector<EnvelopePoint> points;  ///< by rising `against`
 };
 
 /// Everything `envelope` says.
 struct EnvelopeStudy {
-  DesignFile file;
+  DesignFile file;                    ///< what was asked about
   std::vector<ReachResult> greatest;  ///< each with the others as the spec has them
   std::vector<EnvelopeCurve> curves;  ///< payload and wind against height, payload against wind
 
@@ -37,6 +37,7 @@ struct EnvelopeStudy {
 /// For a design with a cross-section.
 [[nodiscard]] EnvelopeStudy study_envelope(DesignFile file);
 
+/// A sentence a reach, then a table a curve.
 [[nodiscard]] std::string envelope_text(const EnvelopeStudy& study, const TextStyle& style);
 
 /// `greatest` {`height_m`, `payload_g`, `headwind_m_s`, `airspeed_m_s`: {`value`, `limited_by`,

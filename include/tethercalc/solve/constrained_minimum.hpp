@@ -11,8 +11,8 @@ namespace tethercalc {
 /// One variable's range, both ends finite, lo ≤ hi. Where lo > 0 and hi ≥ 10·lo it is searched on a
 /// logarithmic scale.
 struct VariableRange {
-  double lo = 0;
-  double hi = 1;
+  double lo = 0;  ///< the least
+  double hi = 1;  ///< the greatest
 };
 
 /// What is to be minimised. `evaluate` fills `constraints` with values that must be at most 0, each
@@ -20,7 +20,8 @@ struct VariableRange {
 /// it may return or fill in what is not finite: that counts as violated, never as an answer.
 struct MinimumProblem {
   std::vector<VariableRange> variables;  ///< at most 8
-  std::size_t constraint_count = 0;
+  std::size_t constraint_count = 0;      ///< how many `evaluate` fills in
+  /// The objective at `x`.
   std::function<double(std::span<const double> x, std::span<double> constraints)> evaluate;
 };
 
@@ -43,7 +44,7 @@ enum class MinimumOutcome {
 
 /// What was found.
 struct Minimum {
-  MinimumOutcome outcome = MinimumOutcome::undefined;
+  MinimumOutcome outcome = MinimumOutcome::undefined;  ///< how it ended
   std::vector<double> x;            ///< the best point, or the least infeasible one
   double value = 0;                 ///< the objective there; NaN where undefined
   std::vector<double> constraints;  ///< there, from a last evaluation of its own

@@ -14,10 +14,10 @@ namespace tethercalc {
 
 /// A design with its conductor and what it does.
 struct Candidate {
-  Design design;
-  double area = 0;  ///< m²; NaN where no conductor meets the demands
-  OperatingPoint hover;
-  OperatingPoint forward;
+  Design design;           ///< what it is
+  double area = 0;         ///< m²; NaN where no conductor meets the demands
+  OperatingPoint hover;    ///< at that area
+  OperatingPoint forward;  ///< at that area
 };
 
 /// A number that a candidate has, in the unit in which it is asked for.
@@ -25,36 +25,37 @@ using CandidateQuantity = std::function<double(const Candidate&)>;
 
 /// A field free within a range.
 struct FreeRange {
-  std::string name;
-  VariableRange range;
-  std::function<void(Design&, double)> set;
+  std::string name;                          ///< for messages
+  VariableRange range;                       ///< in the unit that `set` takes
+  std::function<void(Design&, double)> set;  ///< puts a value into a design
 };
 
 /// A field free among alternatives.
 struct FreeChoice {
+  /// One of them.
   struct Alternative {
-    std::string label;
-    std::function<void(Design&)> apply;
+    std::string label;                   ///< for messages
+    std::function<void(Design&)> apply;  ///< puts it into a design
   };
-  std::string name;
-  std::vector<Alternative> alternatives;
+  std::string name;                       ///< for messages
+  std::vector<Alternative> alternatives;  ///< one at least
 };
 
 /// A demand of the user: `sign`·(quantity − bound) ≤ 0.
 struct UserLimit {
-  std::string name;
-  CandidateQuantity quantity;
-  double bound = 0;
-  int sign = 1;  ///< 1: at most the bound, −1: at least
+  std::string name;            ///< as written
+  CandidateQuantity quantity;  ///< what is bounded
+  double bound = 0;            ///< in the unit of the quantity
+  int sign = 1;                ///< 1: at most the bound, −1: at least
 };
 
 /// What is searched.
 struct DesignProblem {
-  Design base;
-  std::vector<FreeRange> ranges;
-  std::vector<FreeChoice> choices;
-  CandidateQuantity objective;
-  std::vector<UserLimit> limits;
+  Design base;                      ///< what is not free
+  std::vector<FreeRange> ranges;    ///< searched
+  std::vector<FreeChoice> choices;  ///< enumerated
+  CandidateQuantity objective;      ///< to be minimised
+  std::vector<UserLimit> limits;    ///< beside the requirements of the design
 
   /// A lower bound of the objective for a design whose ranges are not yet chosen, by which choices
   /// are discarded unsearched; none: nothing is discarded.
@@ -65,20 +66,20 @@ struct DesignProblem {
 struct ChoiceResult {
   std::vector<std::size_t> choice;  ///< index of the alternative, in the order of `choices`
   bool pruned = false;              ///< its lower bound is above the best known: not searched
-  Minimum minimum;
+  Minimum minimum;                  ///< of its ranges
 };
 
 /// The answer.
 struct DesignAnswer {
-  bool feasible = false;
-  Candidate best;  ///< or the one that violates the demands least
-  std::vector<std::size_t> choice;
-  Minimum minimum;                ///< of that choice
-  std::string most_violated;      ///< where infeasible: the demand
-  double most_violation = 0;      ///< relative
-  std::vector<ChoiceResult> all;  ///< every combination
-  int pruned = 0;
-  int evaluations = 0;
+  bool feasible = false;            ///< whether any design meets all demands
+  Candidate best;                   ///< or the one that violates the demands least
+  std::vector<std::size_t> choice;  ///< index of the alternative, in the order of `choices`
+  Minimum minimum;                  ///< of that choice
+  std::string most_violated;        ///< where infeasible: the demand
+  double most_violation = 0;        ///< relative
+  std::vector<ChoiceResult> all;    ///< every combination
+  int pruned = 0;                   ///< combinations not searched
+  int evaluations = 0;              ///< of designs
 };
 
 /// The candidate that `base` becomes. With a cross-section in `tether.cross_section` it is that
@@ -88,7 +89,7 @@ struct DesignAnswer {
 
 /// A demand on a candidate and how far it is kept.
 struct DemandState {
-  std::string name;
+  std::string name;      ///< "thrust_headroom in hover", or as the user wrote it
   double violation = 0;  ///< ≤ 0 where kept, relative to what is demanded
 };
 
