@@ -12,6 +12,7 @@
 #include "cli/check_command.hpp"
 #include "cli/design_commands.hpp"
 #include "cli/log_commands.hpp"
+#include "cli/design_search_commands.hpp"
 #include "cli/output.hpp"
 #include "cli/sweep_command.hpp"
 #include "io/closest_name.hpp"
@@ -93,6 +94,8 @@ class CommandLine {
     add_compare();
     add_sweep();
     add_check();
+    add_design();
+    add_envelope();
     add_validate();
     add_schema();
     add_init();
@@ -190,6 +193,44 @@ class CommandLine {
     add_output(command, output_);
   }
 
+  void add_design() {
+    CLI::App& command = add("design", "The best whole design among those that free fields allow",
+                            [this] { return run_design(spec_, request_, output_); });
+    add_spec(command, spec_);
+    command
+        .add_option("--free", request_.free,
+                    "A field the search may change: PATH=lo..hi or PATH=a,b,c; repeatable")
+        ->allow_extra_args(false);
+    command.add_option("--minimize", request_.minimize,
+                       "Key of a result or path of a field (default: total_power_W)");
+    command
+        .add_option("--subject-to", request_.subject_to,
+                    "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable")
+        ->allow_extra_args(false);
+    command.add_option("--standard", request_.standard,
+                       "awg or iec: the cross-section is one of these sizes");
+    command.add_option("--pareto", request_.pareto, "KEY,KEY: the front of two quantities")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--seed", request_.seed, "Of the points from which the search starts");
+    add_output(command, output_);
+  }
+
+  void add_envelope() {
+    CLI::App& command =
+        add("envelope", "How high, how heavy, how fast and in how much wind a given cable flies",
+            [this] {
+              const std::vector<double> areas = parse_areas(areas_);
+              return run_envelope({spec_, areas}, output_);
+            });
+    add_spec(command, spec_);
+    command
+        .add_option("--area-mm2", areas_,
+                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
+        ->allow_extra_args(false);
+    add_output(command, output_);
+  }
+
   void add_validate() {
     CLI::App& command = add("validate", "Check specs without computing anything",
                             [this] { return run_validate(files_, spec_.overrides, output_); });
@@ -278,6 +319,7 @@ class CommandLine {
   CheckOptions check_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
+  DesignRequest request_;
   std::vector<std::string> files_;
   std::string what_;
   DragOptions drag_;

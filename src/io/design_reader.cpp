@@ -36,6 +36,18 @@ std::optional<Condition> checked_condition(const JsonPlace& place, Problems& pro
   return std::nullopt;
 }
 
+std::optional<StrengthMaterial> checked_strength_material(const JsonPlace& place,
+                                                          Problems& problems) {
+  const std::string text = place.value->is_string() ? place.value->get<std::string>() : "";
+  if (text == "none") return StrengthMaterial::none;
+  if (text == "aramid") return StrengthMaterial::aramid;
+  if (text == "uhmwpe") return StrengthMaterial::uhmwpe;
+  const std::array<std::string, 3> known{"none", "aramid", "uhmwpe"};
+  problems.add(place.where(), fmt::format("expected \"none\", \"aramid\" or \"uhmwpe\", found {}{}",
+                                          type_name(*place.value), did_you_mean(text, known)));
+  return std::nullopt;
+}
+
 std::vector<EfficiencyPoint> checked_efficiency_points(const JsonPlace& place, Problems& problems) {
   const auto fields = efficiency_point_fields();
   std::vector<EfficiencyPoint> points;
@@ -126,6 +138,11 @@ class SpecReader {
           std::get<Condition& (*)(Design&)>(field.access)(design) = *value;
         }
         return;
+      case FieldKind::strength_material:
+        if (const auto value = checked_strength_material(place, problems_)) {
+          std::get<StrengthMaterial& (*)(Design&)>(field.access)(design) = *value;
+        }
+        return;
       case FieldKind::text:
         read_text(place, field);
         return;
@@ -160,7 +177,11 @@ class SpecReader {
     } else if (field.kind == FieldKind::insulation_material) {
       auto insulation = read_insulation(place, result_.folder, problems_);
       if (!insulation) return;
-      std::get<double& (*)(Design&)>(field.access)(design) = insulation->density;
+      Insulation& sheath = std::get<Insulation& (*)(Design&)>(field.access)(design);
+      sheath.density = insulation->density;
+      sheath.rated_temperature_C = insulation->rated_temperature_C;
+      sheath.thermal_conductivity = insulation->thermal_conductivity.value_or(0);
+      sheath.breakdown_strength = insulation->breakdown_strength.value_or(0);
       result_.insulation = std::move(*insulation);
     }
   }

@@ -157,8 +157,9 @@ std::optional<ConductorEntry> conductor_from_object(const JsonPlace& object, Pro
   const auto resistivity = entry_object.number("/resistivity_20C_ohm_mm2_per_m");
   const auto coefficient = entry_object.number("/temperature_coefficient_per_K");
   const auto density = entry_object.number("/density_g_cm3");
+  const auto strength = entry_object.number("/tensile_strength_MPa");
   if (entry_object.faulty()) return std::nullopt;
-  entry.conductor = {*resistivity, *coefficient, *density};
+  entry.conductor = {*resistivity, *coefficient, *density, strength.value_or(0)};
   return entry;
 }
 
@@ -167,6 +168,9 @@ std::optional<InsulationEntry> insulation_from_object(const JsonPlace& object, P
   InsulationEntry entry;
   entry_object.set_texts(entry);
   const auto density = entry_object.number("/density_g_cm3");
+  entry.rated_temperature_C = entry_object.number("/rated_temperature_C");
+  entry.thermal_conductivity = entry_object.number("/thermal_conductivity_W_mK");
+  entry.breakdown_strength = entry_object.number("/breakdown_kV_mm");
   if (entry_object.faulty()) return std::nullopt;
   entry.density = *density;
   return entry;

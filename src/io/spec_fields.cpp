@@ -84,10 +84,19 @@ const std::array all_spec_fields{
               Number([](Design& d) -> double& { return d.tether.conductor_temperature_C; })},
     SpecField{"/tether/insulation/material", FieldKind::insulation_material, "", any_number, "",
               "Insulation material: a name in the library, a file, or an object.", 1,
-              Number([](Design& d) -> double& { return d.tether.insulation.density; })},
+              static_cast<Insulation& (*)(Design&)>(
+                  [](Design& d) -> Insulation& { return d.tether.insulation; })},
     SpecField{"/tether/insulation/thickness_mm", FieldKind::number, "mm", between(0, 100), "",
-              "Wall thickness of the insulation of each conductor.", unit::millimetre,
+              "Wall thickness of the insulation of each conductor; the least one, for handling, "
+              "where dielectric_safety_factor asks for more.",
+              unit::millimetre,
               Number([](Design& d) -> double& { return d.tether.insulation.thickness; })},
+    SpecField{
+        "/tether/insulation/dielectric_safety_factor", FieldKind::number, "", between(0, 1000), "0",
+        "How many times the supply voltage the wall stands by the material's breakdown "
+        "strength; the wall grows with the voltage accordingly. 0: it does not.",
+        1,
+        Number([](Design& d) -> double& { return d.tether.insulation.dielectric_safety_factor; })},
     SpecField{"/tether/contact_resistance_ohm", FieldKind::number, "Ω", between(0, 1000), "0",
               "Resistance of plugs and slip rings in the whole loop.", 1,
               Number([](Design& d) -> double& { return d.tether.contact_resistance; })},
@@ -103,6 +112,38 @@ const std::array all_spec_fields{
               unit::square_millimetre,
               static_cast<std::optional<double>& (*)(Design&)>(
                   [](Design& d) -> std::optional<double>& { return d.tether.cross_section; })},
+    SpecField{
+        "/tether/ambient_temperature_C", FieldKind::optional_number, "°C", between(-60, 90), "null",
+        "Temperature of the air. Set, the conductor's temperature is that of a heat balance, "
+        "and conductor_temperature_C is not used.",
+        1,
+        static_cast<std::optional<double>& (*)(Design&)>(
+            [](Design& d) -> std::optional<double>& { return d.tether.ambient_temperature_C; })},
+    SpecField{"/tether/sun_W_m2", FieldKind::number, "W/m²", between(0, 1500), "0",
+              "Sunlight across the tether in the air; matters with ambient_temperature_C.", 1,
+              Number([](Design& d) -> double& { return d.tether.sun; })},
+    SpecField{
+        "/tether/drum/layers", FieldKind::integer, "", between(0, 4), "0",
+        "Layers of tether on a ventilated cylindrical drum, which set its current derating; "
+        "0: not stated.",
+        1, static_cast<int& (*)(Design&)>([](Design& d) -> int& { return d.tether.drum.layers; })},
+    SpecField{"/tether/drum/derating", FieldKind::optional_number, "", positive_fraction, "null",
+              "Current that the tether may carry on the drum over what it may laid out, where that "
+              "is known; goes before layers.",
+              1,
+              static_cast<std::optional<double>& (*)(Design&)>(
+                  [](Design& d) -> std::optional<double>& { return d.tether.drum.derating; })},
+    SpecField{"/tether/strength_member/material", FieldKind::strength_material, "", any_number,
+              "\"none\"", "Fibres that carry the pull.", 1,
+              static_cast<StrengthMaterial& (*)(Design&)>([](Design& d) -> StrengthMaterial& {
+                return d.tether.strength_member.material;
+              })},
+    SpecField{"/tether/strength_member/cross_section_mm2", FieldKind::number, "mm²",
+              between(0, 1000), "0", "Cross-section of the fibres.", unit::square_millimetre,
+              Number([](Design& d) -> double& { return d.tether.strength_member.cross_section; })},
+    SpecField{"/tether/winch_pull_N", FieldKind::number, "N", between(0, 1e5), "0",
+              "Pull of the winch on the tether, which the drone holds up.", 1,
+              Number([](Design& d) -> double& { return d.tether.winch_pull; })},
     SpecField{"/supply/voltage_V", FieldKind::number, "V", between(1, 1e4), "",
               "Voltage of the supply at the ground end of the tether.", 1,
               Number([](Design& d) -> double& { return d.supply.voltage; })},
@@ -115,6 +156,30 @@ const std::array all_spec_fields{
     SpecField{"/supply/converter/min_input_voltage_V", FieldKind::number, "V", between(0, 1e4), "",
               "Voltage at its input below which the converter cuts off.", 1,
               Number([](Design& d) -> double& { return d.supply.converter.min_input_voltage; })},
+    SpecField{
+        "/supply/converter/max_input_voltage_V", FieldKind::optional_number, "V", above(0, 1e4),
+        "null", "Highest voltage that the converter's input stands.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
+          return d.supply.converter.max_input_voltage;
+        })},
+    SpecField{
+        "/supply/converter/rated_output_W", FieldKind::optional_number, "W", above(0, 1e6), "null",
+        "Power that the converter gives continuously, at most.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
+          return d.supply.converter.rated_output_power;
+        })},
+    SpecField{"/supply/converter/specific_mass_kg_per_kW", FieldKind::number, "kg/kW",
+              between(0, 100), "0",
+              "Mass of the converter per rated output, which the drone carries beside its own.",
+              1e-3, Number([](Design& d) -> double& { return d.supply.converter.specific_mass; })},
+    SpecField{
+        "/supply/converter/fixed_ratio", FieldKind::optional_number, "", above(0, 100), "null",
+        "Output over input voltage of a converter whose output follows its input.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>(
+            [](Design& d) -> std::optional<double>& { return d.supply.converter.fixed_ratio; })},
+    SpecField{"/supply/converter/min_output_voltage_V", FieldKind::number, "V", between(0, 1e4),
+              "0", "Voltage that the motors need behind a converter of fixed ratio.", 1,
+              Number([](Design& d) -> double& { return d.supply.converter.min_output_voltage; })},
     SpecField{"/flight/airspeed_m_s", FieldKind::number, "m/s", between(0, 200), "",
               "Airspeed in forward flight.", 1,
               Number([](Design& d) -> double& { return d.flight.airspeed; })},
@@ -145,6 +210,11 @@ const std::array all_spec_fields{
               "A battery on board covers peaks of thrust: headroom is reported, not enforced.", 1,
               static_cast<bool& (*)(Design&)>(
                   [](Design& d) -> bool& { return d.requirements.buffer_battery; })},
+    SpecField{"/requirements/strength_safety_factor", FieldKind::number, "", between(0, 1000), "0",
+              "Breaking load of the tether over its tension at the drone, at least; 0: not asked "
+              "for.",
+              1,
+              Number([](Design& d) -> double& { return d.requirements.strength_safety_factor; })},
 };
 
 const SpecField id_field{"/id", FieldKind::text, "", any_number, "\"\"", "Name in the library."};
@@ -188,9 +258,22 @@ const std::array all_conductor_fields{
     // With the temperatures allowed above, the resistivity stays positive.
     SpecField{"/temperature_coefficient_per_K", FieldKind::number, "1/K", between(0, 0.01), "",
               "Temperature coefficient of the resistivity, relative to 20 °C."},
-    density_field};
+    density_field,
+    SpecField{"/tensile_strength_MPa", FieldKind::optional_number, "MPa", above(0, 1e4), "null",
+              "Tensile strength; where unknown, no load is hung on the conductors.",
+              unit::megapascal}};
 
-const std::array all_insulation_fields{id_field, name_field, source_field, density_field};
+const std::array all_insulation_fields{
+    id_field,
+    name_field,
+    source_field,
+    density_field,
+    SpecField{"/rated_temperature_C", FieldKind::optional_number, "°C", between(0, 400), "null",
+              "Highest continuous conductor temperature."},
+    SpecField{"/thermal_conductivity_W_mK", FieldKind::optional_number, "W/(m·K)",
+              between(0.01, 10), "null", "Thermal conductivity; 0.17 is taken where unknown."},
+    SpecField{"/breakdown_kV_mm", FieldKind::optional_number, "kV/mm", between(0.1, 1000), "null",
+              "Breakdown strength of a short test.", unit::kilovolt_per_millimetre}};
 
 const std::array all_efficiency_point_fields{
     SpecField{"/output_W", FieldKind::number, "W", between(0, 1e6), "", "Output power."},
@@ -315,6 +398,13 @@ std::optional<double> field_value(const Design& design, const SpecField& field) 
 std::vector<FieldConflict> find_conflicts(const Design& design) {
   std::vector<FieldConflict> conflicts;
   const Converter& converter = design.supply.converter;
+  if (converter.max_input_voltage && *converter.max_input_voltage < design.supply.voltage) {
+    conflicts.push_back(
+        {"/supply/converter/max_input_voltage_V",
+         fmt::format("the converter stands {} V at its input, but the supply gives {} V, which is "
+                     "what arrives when no current flows",
+                     *converter.max_input_voltage, design.supply.voltage)});
+  }
   if (converter.min_input_voltage >= design.supply.voltage) {
     conflicts.push_back(
         {"/supply/converter/min_input_voltage_V",
@@ -322,6 +412,13 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
              "the converter cuts off below {} V, but the supply gives only {} V; the supply "
              "voltage must be the higher one",
              converter.min_input_voltage, design.supply.voltage)});
+  }
+  const Insulation& insulation = design.tether.insulation;
+  if (insulation.dielectric_safety_factor > 0 && !(insulation.breakdown_strength > 0)) {
+    conflicts.push_back(
+        {"/tether/insulation/dielectric_safety_factor",
+         "asks for a wall by the voltage, but the breakdown strength of the insulation material is "
+         "not known; give a material that has breakdown_kV_mm"});
   }
   try {
     validate(converter);

@@ -17,6 +17,8 @@ std::string allowed(const SpecField& field) {
       return "text";
     case FieldKind::condition:
       return "`\"hover\"` or `\"forward\"`";
+    case FieldKind::strength_material:
+      return "`\"none\"`, `\"aramid\"` or `\"uhmwpe\"`";
     case FieldKind::motor:
       return "name, `.json` or `.csv` file, [motor](#motor)";
     case FieldKind::conductor:

@@ -48,6 +48,8 @@ Json schema_of_kind(FieldKind kind) {
       return {{"type", "string"}};
     case FieldKind::condition:
       return {{"enum", {"hover", "forward"}}};
+    case FieldKind::strength_material:
+      return {{"enum", {"none", "aramid", "uhmwpe"}}};
     case FieldKind::motor:
       return name_or_object("motor", "name in the library, or path of a .json or .csv file");
     case FieldKind::conductor:

@@ -58,6 +58,16 @@ void validate(const Converter& converter) {
   }
 }
 
+double converter_mass(const Converter& converter) {
+  return converter.specific_mass * converter.rated_output_power.value_or(0);
+}
+
+double lowest_input_voltage(const Converter& converter) {
+  if (!converter.fixed_ratio) return converter.min_input_voltage;
+  return std::max(converter.min_input_voltage,
+                  converter.min_output_voltage / *converter.fixed_ratio);
+}
+
 double efficiency_at(const Converter& converter, double output_power) {
   const EfficiencyPiece piece =
       piece_at(converter, output_power, [](const EfficiencyPoint& p) { return p.output_power; });

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tethercalc/model/conductor_heat.hpp"
 #include "tethercalc/model/power_line.hpp"
 #include "tethercalc/model/steady_flight.hpp"
 
@@ -22,6 +23,37 @@ double within_reach(double thrust, const Design& design) {
   return thrust > most && thrust <= most * (1 + rounding) ? most : thrust;
 }
 
+/// What surrounds the tether in the air: the flight's air and wind.
+Surroundings surroundings(const SteadyFlight& flight) {
+  const Design& design = flight.design();
+  Surroundings around;
+  around.temperature_C = *design.tether.ambient_temperature_C;
+  around.air_density = design.flight.air_density;
+  around.wind = std::abs(flight.airspeed());
+  around.sun = design.tether.sun;
+  around.gravity = design.flight.gravity;
+  return around;
+}
+
+/// Replaces the resistance by that of the steady state that the drone's power leads to.
+void warm_up(const SteadyFlight& flight, double radius, OperatingPoint& point) {
+  const Design& design = flight.design();
+  const double ambient = *design.tether.ambient_temperature_C;
+  const double cold = flight.resistance(radius, ambient);
+  point.tether_resistance = cold;
+  if (std::isnan(point.drone_power)) return;
+  const double voltage = design.supply.voltage;
+  const TetherHeatState state = steady_tether(design.tether, radius, flight.wall(), voltage,
+                                              point.drone_power, surroundings(flight));
+  if (!state.steady) {
+    point.thermal_runaway = supplied_power(voltage, cold, point.drone_power) > 0;
+    return;
+  }
+  point.tether_resistance = state.resistance;
+  point.conductor_temperature = state.conductor_temperature_C;
+  if (state.drum_temperature_C) point.drum_temperature = *state.drum_temperature_C;
+}
+
 }  // namespace
 
 OperatingPoint evaluate(const SteadyFlight& flight, double area) {
@@ -32,21 +64,28 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
 
   OperatingPoint point;
   point.cross_section = area;
-  point.tether_resistance = flight.resistance(radius);
   point.tether_mass = flight.tether_mass(radius);
-  point.takeoff_mass = flight.takeoff_mass(radius);
+  point.takeoff_mass =
+      design.drone.mass + converter_mass(design.supply.converter) + point.tether_mass;
   point.pitch = flight.pitch_sign() * std::atan(tangent);
+  point.necessary_thrust = flight.necessary_thrust(radius, tangent);
+  point.drone_power = or_nan(flight.drone_power(within_reach(point.necessary_thrust, design)));
+  point.tether_tension =
+      std::hypot(point.tether_mass * design.flight.gravity + design.tether.winch_pull,
+                 flight.tether_drag(radius));
+  point.tether_resistance = flight.resistance(radius);
+  if (design.tether.ambient_temperature_C) warm_up(flight, radius, point);
   point.available_power = flight.available_power(point.tether_resistance);
   point.available_thrust = flight.available_thrust(point.available_power);
-  point.necessary_thrust = flight.necessary_thrust(radius, tangent);
   point.headroom = point.available_thrust / point.necessary_thrust;
-  point.drone_power = or_nan(flight.drone_power(within_reach(point.necessary_thrust, design)));
   point.total_power =
-      supplied_power(design.supply.voltage, point.tether_resistance, point.drone_power);
+      point.thermal_runaway
+          ? std::numeric_limits<double>::quiet_NaN()
+          : supplied_power(design.supply.voltage, point.tether_resistance, point.drone_power);
   point.tether_loss = point.total_power - point.drone_power;
   point.current = point.total_power / design.supply.voltage;
   point.received_voltage = design.supply.voltage - point.current * point.tether_resistance;
-  point.flyable = point.headroom >= 1;
+  point.flyable = point.headroom >= 1 && !point.thermal_runaway;
   return point;
 }
 

@@ -25,31 +25,41 @@ double airspeed(const Design& design, Condition condition) {
 
 SteadyFlight::SteadyFlight(const Design& design, Condition condition)
     : design_(&design),
-      drone_mass_(design.drone.mass),
+      drone_mass_(design.drone.mass + converter_mass(design.supply.converter) +
+                  design.tether.winch_pull / design.flight.gravity),
+      wall_(insulation_wall(design.tether.insulation, design.supply.voltage)),
+      airspeed_(tethercalc::airspeed(design, condition)),
       contact_resistance_(design.tether.contact_resistance),
       weight_per_mass_(design.flight.gravity),
       tan_pitch_limit_(std::tan(design.requirements.max_pitch)),
       motors_(design.drone.motor_count),
       power_scale_(motors_ * design.drone.motor_power_factor) {
   const Tether& tether = design.tether;
-  const double wall = tether.insulation.thickness;
-  const double insulation = 2 * tether.length * tether.insulation.density * pi * wall;
-  mass_0_ = insulation * wall;
+  const StrengthMemberData member = strength_member_data(tether.strength_member);
+  const double insulation = 2 * tether.length * tether.insulation.density * pi * wall_;
+  mass_0_ = insulation * wall_ + tether.length * member.mass_per_metre;
   mass_1_ = 2 * insulation;
   mass_2_ = 2 * tether.length * tether.conductor.density * pi;
   resistance_area_ = 2 * (tether.length + tether.spooled_length) * resistivity(tether) / pi;
 
-  const double speed = airspeed(design, condition);
+  const double speed = airspeed_;
   power_scale_ *= translational_lift_factor(design.drone.translational_lift, speed);
   area_force_factor_ = area_force_factor(design.drone.drag, design.flight.air_density, speed);
   const double dynamic_pressure = 0.5 * design.flight.air_density * speed * speed;
   tether_drag_1_ =
       dynamic_pressure * tether.drag_coefficient * tether.projection_factor * 4 * tether.length;
-  tether_drag_0_ = tether_drag_1_ * wall;
+  tether_drag_0_ = tether_drag_1_ * (wall_ + 0.25 * member.diameter);
   pitch_sign_ = speed < 0 ? -1 : 1;
 
   deliverable_ = tethercalc::available_power(design.supply.voltage,
-                                             design.supply.converter.min_input_voltage, 1.0);
+                                             lowest_input_voltage(design.supply.converter), 1.0);
+}
+
+double SteadyFlight::resistance(double radius, double temperature_C) const {
+  const Tether& tether = design_->tether;
+  return contact_resistance_ + 2 * (tether.length + tether.spooled_length) *
+                                   resistivity(tether.conductor, temperature_C) /
+                                   (pi * radius * radius);
 }
 
 double SteadyFlight::radius_of_mass(double mass) const {
@@ -106,8 +116,10 @@ SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
 }
 
 double SteadyFlight::available_thrust(double available_power) const {
-  const double output = converter_output_power(design_->supply.converter,
-                                               available_power - design_->drone.auxiliary_power);
+  double output = converter_output_power(design_->supply.converter,
+                                         available_power - design_->drone.auxiliary_power);
+  const Converter& converter = design_->supply.converter;
+  if (converter.rated_output_power) output = std::min(output, *converter.rated_output_power);
   return design_->drone.motor.thrust(output / power_scale_);
 }
 

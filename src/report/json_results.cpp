@@ -36,6 +36,12 @@ std::string_view limit_name(Limit limit) {
       return "motor_thrust";
     case Limit::max_pitch:
       return "max_pitch";
+    case Limit::conductor_temperature:
+      return "conductor_temperature";
+    case Limit::tether_strength:
+      return "tether_strength";
+    case Limit::converter_rating:
+      return "converter_rating";
   }
   return "";
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tethercalc/model/conductor_heat.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
@@ -52,6 +53,24 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
     case Limit::motor_thrust:
       sentence = fmt::format("Limited by the motors: they make no more thrust for {}.", demand);
       break;
+    case Limit::conductor_temperature:
+      sentence = fmt::format(
+          "Limited by heat: any thinner, and the conductor is hotter in {} than the {} °C for "
+          "which "
+          "its insulation is rated.",
+          where, significant(*design.tether.insulation.rated_temperature_C, 3));
+      break;
+    case Limit::tether_strength:
+      sentence =
+          fmt::format("Limited by strength: the tether would not hold {} times its tension in {}.",
+                      significant(design.requirements.strength_safety_factor, 3), where);
+      break;
+    case Limit::converter_rating:
+      sentence = fmt::format(
+          "Limited by the converter: any thicker, and lifting the tether in {} takes more than its "
+          "rated {} W.",
+          where, significant(*design.supply.converter.rated_output_power, 4));
+      break;
   }
   const MinimumPower& least = result.minimum_power;
   if (least.power > 0) {
@@ -62,7 +81,37 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
   return sentence;
 }
 
+/// Why no area keeps a limit of the cable or the converter; empty for the other limits.
+std::string broken_limit_sentence(const Design& design, const Optimization& result) {
+  const std::string where = condition_words(result.limiting_condition);
+  switch (result.limited_by) {
+    case Limit::conductor_temperature:
+      return fmt::format(
+          "No cross-section that meets the other demands stays below the insulation's rated {} °C "
+          "in {}, or none has a steady temperature at all.",
+          significant(design.tether.insulation.rated_temperature_C.value_or(
+                          highest_conductor_temperature_C),
+                      3),
+          where);
+    case Limit::tether_strength:
+      return fmt::format(
+          "No cross-section that meets the other demands holds {} times the tension in {}; a "
+          "strength member would.",
+          significant(design.requirements.strength_safety_factor, 3), where);
+    case Limit::converter_rating:
+      return fmt::format(
+          "No cross-section that meets the other demands leaves the converter within its rated {} "
+          "W in {}.",
+          significant(design.supply.converter.rated_output_power.value_or(0), 4), where);
+    default:
+      return "";
+  }
+}
+
 std::string infeasible_words(const Design& design, const Optimization& result) {
+  if (result.limited_by == Limit::conductor_temperature) return "conductor too hot";
+  if (result.limited_by == Limit::tether_strength) return "tether too weak";
+  if (result.limited_by == Limit::converter_rating) return "converter too small";
   const Condition where = result.limiting_condition;
   const BestHeadroom best = best_headroom(SteadyFlight(design, where));
   const double demanded = demanded_headroom(design, where);
@@ -83,6 +132,9 @@ std::string infeasible_words(const Design& design, const Optimization& result) {
 }
 
 std::string infeasible_sentence(const Design& design, const Optimization& result) {
+  if (const std::string broken = broken_limit_sentence(design, result); !broken.empty()) {
+    return broken;
+  }
   const Condition where = result.limiting_condition;
   const BestHeadroom best = best_headroom(SteadyFlight(design, where));
   const double demanded = demanded_headroom(design, where);

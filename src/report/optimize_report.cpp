@@ -7,6 +7,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
@@ -105,6 +106,9 @@ std::string answer_text(const OptimizeStudy& study, const TextStyle& style) {
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",
       significant(design.tether.length, 3), fixed(hover.tether_mass / unit::gram, 1),
       significant(hover.tether_resistance, 4), fixed(hover.takeoff_mass / unit::gram, 0)));
+  for (const std::string& sentence : cable_sentences(design, hover, result.forward)) {
+    out += wrapped(sentence);
+  }
   const double speed = airspeed(design, Condition::forward);
   out +=
       wrapped(fmt::format("It draws {} W in hover and {} W in forward flight at {} m/s ({} km/h).",
@@ -317,6 +321,22 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
       return fmt::format("headroom {} < {}", fixed(point->headroom, 2), fixed(demanded, 2));
     }
     if (point->headroom < 1 - 1e-9) return fmt::format("cannot hold {}", name);
+    if (point->thermal_runaway) return fmt::format("overheats without end in {}", name);
+    const double hottest = std::fmax(point->conductor_temperature, point->drum_temperature);
+    const auto rated = design.tether.insulation.rated_temperature_C;
+    if (rated && hottest > *rated + 1e-6) {
+      return fmt::format("{} °C in {}, rated for {}", fixed(hottest, 0), name, fixed(*rated, 0));
+    }
+    if (breaking_load(design.tether, points.area) <
+        need.strength_safety_factor * point->tether_tension * (1 - 1e-9)) {
+      return "too weak for its tension";
+    }
+    const Converter& converter = design.supply.converter;
+    if (converter.rated_output_power &&
+        converter_output_power(converter, point->drone_power - design.drone.auxiliary_power) >
+            *converter.rated_output_power * (1 + 1e-9)) {
+      return fmt::format("more than the converter's rating in {}", name);
+    }
   }
   return "";
 }
@@ -330,6 +350,8 @@ OptimizeStudy study(DesignFile file) {
   study.sizes =
       sizes_near(file, study.result.feasible ? study.result.area : study.best_headroom.area);
   if (!study.result.feasible) study.remedies = remedies(design);
+  const std::vector<std::string> warnings = cable_warnings(design);
+  file.warnings.insert(file.warnings.end(), warnings.begin(), warnings.end());
   study.file = std::move(file);
   return study;
 }
@@ -378,6 +400,12 @@ ordered_json optimize_json(const OptimizeStudy& study) {
         {"total_power_W", number_or_null(result.minimum_power.power)}}},
       {"standard_sizes", sizes},
       {"table", table_json(study.table)}};
+  const Design& design = study.file.design;
+  out["voltage_class"] = voltage_class_json(design.supply.voltage);
+  if (result.feasible) {
+    out["thermal"] = thermal_json(design, result.hover, result.forward);
+    out["cable"] = cable_json(design, result.hover, result.forward);
+  }
   if (!result.feasible) {
     out["reason"] = infeasible_sentence(study.file.design, result);
     out["remedies"] = remedies_json(study.remedies);
@@ -419,6 +447,17 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
     }
     out += text.text(style);
   }
+  if (file.design.tether.ambient_temperature_C) {
+    for (const AreaPoints& row : table) {
+      out += "\n" + style.bold(area_words(row.area)) + "\n";
+      for (const std::string& sentence : cable_sentences(file.design, row.hover, row.forward)) {
+        out += wrapped(sentence);
+      }
+    }
+    for (const std::string& warning : cable_warnings(file.design)) {
+      out += style.subdued(wrapped("Note: " + warning));
+    }
+  }
   for (const AreaPoints& row : table) {
     const std::string fault = shortcoming(file.design, row);
     if (!fault.empty()) {
@@ -430,7 +469,17 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
 }
 
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
-  return {{"name", file.name}, {"table", table_json(table)}, {"warnings", file.warnings}};
+  ordered_json thermal = ordered_json::array();
+  for (const AreaPoints& row : table) {
+    thermal.push_back(thermal_json(file.design, row.hover, row.forward));
+  }
+  std::vector<std::string> warnings = file.warnings;
+  for (std::string& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+  return {{"name", file.name},
+          {"table", table_json(table)},
+          {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
+          {"voltage_class", voltage_class_json(file.design.supply.voltage)},
+          {"warnings", warnings}};
 }
 
 std::string evaluate_csv(std::span<const AreaPoints> table) {

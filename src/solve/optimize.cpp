@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/cable_limits.hpp"
 #include "tethercalc/solve/headroom.hpp"
 
 namespace tethercalc {
@@ -112,6 +113,11 @@ void name_obstacle(Optimization& result, const Flights& flights) {
 }  // namespace
 
 Optimization optimize(const Design& design) {
+  if (has_cable_limits(design)) return optimize_within_cable_limits(design);
+  return optimize_without_cable_limits(design);
+}
+
+Optimization optimize_without_cable_limits(const Design& design) {
   const Flights flights{SteadyFlight(design, Condition::hover),
                         SteadyFlight(design, Condition::forward)};
   const Requirements& need = design.requirements;

@@ -33,10 +33,13 @@ struct ConductorEntry {
 
 /// An insulation material. Texts are empty where the file gives none.
 struct InsulationEntry {
-  std::string id;      ///< what specs and options call it
-  std::string name;    ///< what people call it
-  std::string source;  ///< where its numbers come from
-  double density = 0;  ///< kg/m³
+  std::string id;                                ///< what specs and options call it
+  std::string name;                              ///< what people call it
+  std::string source;                            ///< where its numbers come from
+  double density = 0;                            ///< kg/m³
+  std::optional<double> rated_temperature_C{};   ///< highest continuous conductor temperature
+  std::optional<double> thermal_conductivity{};  ///< W/(m·K)
+  std::optional<double> breakdown_strength{};    ///< V/m, of a short test
 };
 
 /// All motors of the library, by id. They are part of the program, which needs no files for them.

@@ -24,6 +24,7 @@ enum class FieldKind {
   boolean,              ///< true or false
   text,                 ///< any text
   condition,            ///< "hover" or "forward"
+  strength_material,    ///< "none", "aramid" or "uhmwpe"
   motor,                ///< name in the library, path of a .json or .csv file, or an object
   conductor,            ///< name in the library, path of a .json file, or an object
   insulation_material,  ///< likewise
@@ -45,7 +46,8 @@ struct FieldRange {
 using FieldAccess =
     std::variant<std::monostate, double& (*)(Design&), std::optional<double>& (*)(Design&),
                  int& (*)(Design&), bool& (*)(Design&), Condition& (*)(Design&),
-                 MotorCurve& (*)(Design&), Conductor& (*)(Design&), Converter& (*)(Design&)>;
+                 MotorCurve& (*)(Design&), Conductor& (*)(Design&), Insulation& (*)(Design&),
+                 Converter& (*)(Design&), StrengthMaterial& (*)(Design&)>;
 
 /// One field: how a spec writes it, what it may hold, and where it goes.
 struct SpecField {

@@ -1,6 +1,7 @@
 // The step-down converter on the drone, between the tether and the motors.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace tethercalc {
@@ -19,7 +20,21 @@ struct EfficiencyPoint {
 struct Converter {
   std::vector<EfficiencyPoint> efficiency{{0.0, 1.0}};  ///< by rising output power, never empty
   double min_input_voltage = 0;                         ///< V, the cut-off U_minDC of the paper
+
+  std::optional<double> max_input_voltage{};   ///< V, the most it stands
+  std::optional<double> rated_output_power{};  ///< W, the most it gives continuously
+  double specific_mass = 0;                    ///< kg per W of rated output
+  std::optional<double> fixed_ratio{};  ///< output over input voltage, where that does not vary
+  double min_output_voltage = 0;        ///< V that the motors need of a fixed-ratio converter
 };
+
+/// Mass in kg: specific mass times rated output; 0 where either is not stated.
+[[nodiscard]] double converter_mass(const Converter& converter);
+
+/// Input voltage in V below which the converter does not serve: its cut-off, or where its ratio is
+/// fixed, the output following the input, the voltage at which the output sinks to what the motors
+/// need, if that is higher.
+[[nodiscard]] double lowest_input_voltage(const Converter& converter);
 
 /// Throws std::invalid_argument where the curve is empty, not by strictly rising output power, has
 /// an efficiency outside (0, 1], or would draw less power at a higher load.

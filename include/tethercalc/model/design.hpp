@@ -49,6 +49,8 @@ struct Requirements {
   double max_pitch = std::numbers::pi / 4;   ///< rad, in (0, π/2)
   bool buffer_battery =
       false;  ///< true: headroom is reported but not enforced (paper section III-A)
+  double strength_safety_factor =
+      0;  ///< breaking load over tension of the tether, at least; 0: not asked for
 };
 
 /// All that decides an operating point, but for the cross-section and the flight condition.

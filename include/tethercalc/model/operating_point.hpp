@@ -1,6 +1,8 @@
 // What a design does with a given conductor in steady hover or forward flight.
 #pragma once
 
+#include <limits>
+
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
@@ -25,6 +27,17 @@ struct OperatingPoint {
   double current = 0;            ///< A
   double received_voltage = 0;   ///< V at the converter input
 
+  double tether_tension = 0;  ///< N at the drone: weight, drag and winch pull of the tether
+
+  /// °C in the air and on the drum, where the tether has an ambient temperature; NaN otherwise, and
+  /// where there is no steady state. On the drum NaN also where its cooling is not known; the
+  /// resistance of that part is then taken at the temperature of the part in the air.
+  double conductor_temperature = std::numeric_limits<double>::quiet_NaN();
+  double drum_temperature = std::numeric_limits<double>::quiet_NaN();  ///< see above
+  /// True where current and temperature drive each other up without end: the power could be
+  /// delivered over the cold cable, and no steady state over the warm one exists.
+  bool thermal_runaway = false;
+
   /// True where the tilt is within its limit and the headroom at least 1: the motors make the
   /// thrust, from power that arrives at no less than the lowest received voltage.
   bool flyable = false;
@@ -35,7 +48,10 @@ struct OperatingPoint {
 /// Paper section III-A with the neutral-valued parameters of `Design` in place:
 /// T_nec = (m_d + m_t)g/(n cosθ); P_drone = converter(n·f·P_motor(T_nec)) + P_aux;
 /// T_avail = motor(converter⁻¹(P_avail − P_aux)/(n·f)); U·I = P_drone + I²R.
-/// The auxiliary power is drawn at the converter's input.
+/// The auxiliary power is drawn at the converter's input. Where the tether has an ambient
+/// temperature, resistance, current and conductor temperature agree with each other (see
+/// conductor_heat.hpp), and everything that depends on the resistance with them; where they cannot
+/// (`thermal_runaway`), the resistance is that of the cable at the temperature of the air.
 [[nodiscard]] OperatingPoint evaluate(const Design& design, double area, Condition condition);
 
 class SteadyFlight;

@@ -7,8 +7,9 @@ namespace tethercalc {
 
 /// Everything that steady flight needs as a function of the conductor's radius r, with what does
 /// not depend on r computed once. The tether's mass is a quadratic in r, its drag linear in r, its
-/// resistance linear in 1/r². `evaluate` and the solvers share these functions, so they cannot
-/// disagree. Refers to the design's motor and converter: the design must outlive it.
+/// resistance linear in 1/r², at the tether's `conductor_temperature_C`: the heat balance, where
+/// one is asked for, is `evaluate`'s. `evaluate` and the solvers share these functions, so they
+/// cannot disagree. Refers to the design's motor and converter: the design must outlive it.
 ///
 /// Radii are in m and positive; thrusts are in N per motor; powers in W; masses in kg.
 class SteadyFlight {
@@ -20,7 +21,8 @@ class SteadyFlight {
   [[nodiscard]] double tether_mass(double radius) const {
     return mass_0_ + radius * (mass_1_ + radius * mass_2_);
   }
-  /// Mass of drone and airborne tether, all of which the motors lift.
+  /// Mass of drone and airborne tether, and the mass whose weight is the pull of the winch: what
+  /// the motors lift.
   [[nodiscard]] double takeoff_mass(double radius) const {
     return drone_mass_ + tether_mass(radius);
   }
@@ -31,10 +33,20 @@ class SteadyFlight {
   /// heavier.
   [[nodiscard]] double radius_of_mass(double mass) const;
 
+  /// Drag of the airborne tether in N, along the motion.
+  [[nodiscard]] double tether_drag(double radius) const {
+    return tether_drag_0_ + tether_drag_1_ * radius;
+  }
+
+  /// Wall of the insulation in m, as the supply voltage asks for.
+  [[nodiscard]] double wall() const { return wall_; }
+
   /// Resistance of the loop in Ω: both conductors, the part on the drum, and the contacts.
   [[nodiscard]] double resistance(double radius) const {
     return contact_resistance_ + resistance_area_ / (radius * radius);
   }
+  /// The same with the whole tether at `temperature_C`.
+  [[nodiscard]] double resistance(double radius, double temperature_C) const;
   /// Derivative of the resistance by the radius, Ω/m.
   [[nodiscard]] double resistance_slope(double radius) const {
     return -2 * resistance_area_ / (radius * radius * radius);
@@ -44,6 +56,9 @@ class SteadyFlight {
 
   /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
   [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const;
+
+  /// Airspeed in m/s in this condition.
+  [[nodiscard]] double airspeed() const { return airspeed_; }
 
   /// Sign of the tilt: −1 flying backward through the air, else +1.
   [[nodiscard]] double pitch_sign() const { return pitch_sign_; }
@@ -96,7 +111,9 @@ class SteadyFlight {
 
  private:
   const Design* design_;
-  double drone_mass_;
+  double drone_mass_;  ///< with the winch's pull as mass
+  double wall_;
+  double airspeed_;
   double mass_0_, mass_1_, mass_2_;  ///< tether mass = mass_0 + mass_1·r + mass_2·r²
   double contact_resistance_;
   double resistance_area_;  ///< Ω·m², (R − R_contact)·r²

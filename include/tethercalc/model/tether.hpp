@@ -10,13 +10,62 @@ struct Conductor {
   double resistivity_20C = 0;          ///< Ω·m at 20 °C
   double temperature_coefficient = 0;  ///< 1/K, relative to 20 °C
   double density = 0;                  ///< kg/m³
+  double tensile_strength = 0;         ///< Pa; 0: unknown, and nothing is hung on it
 };
 
 /// Sheath of each conductor, with the same wall all round.
 struct Insulation {
   double density = 0;    ///< kg/m³
-  double thickness = 0;  ///< m, wall thickness s
+  double thickness = 0;  ///< m, wall thickness s; the least one where the voltage asks for more
+
+  double thermal_conductivity = 0;              ///< W/(m·K); 0: unknown
+  std::optional<double> rated_temperature_C{};  ///< °C, highest continuous conductor temperature
+  double breakdown_strength = 0;                ///< V/m, short-time; 0: unknown
+
+  /// How many times the supply voltage a wall must stand by its breakdown strength; 0: the wall is
+  /// as thick as `thickness` says, whatever the voltage.
+  double dielectric_safety_factor = 0;
 };
+
+/// Wall in m that stands `voltage` (V, ≥ 0): max(thickness, factor·voltage/breakdown strength).
+/// The whole voltage across one wall in an even field; concentration of the field at a thin
+/// conductor, ageing and damage are for the safety factor. `thickness` where either the factor or
+/// the breakdown strength is 0.
+[[nodiscard]] double insulation_wall(const Insulation& insulation, double voltage);
+
+/// How the part of the tether on the drum is cooled: by its number of layers, or by a factor that
+/// its user knows. Neither: nothing is known.
+struct Drum {
+  int layers = 0;                    ///< 1 to 4; 0: not stated
+  std::optional<double> derating{};  ///< in (0, 1], current wound up over current laid out
+};
+
+/// Current that a cable may carry wound on a drum, over what it may laid out, at the same conductor
+/// temperature: the user's own factor, else that of the layers on a ventilated cylindrical drum,
+/// 0.85, 0.65, 0.45 and 0.35 for 1 to 4 (IEC 60204-1, "derating factors for cables wound on
+/// drums", as commonly quoted). Nothing where neither is stated.
+[[nodiscard]] std::optional<double> drum_derating(const Drum& drum);
+
+/// Fibres that carry the pull, beside the conductors.
+enum class StrengthMaterial { none, aramid, uhmwpe };
+
+/// A strength member: a bundle of parallel fibres.
+struct StrengthMember {
+  StrengthMaterial material = StrengthMaterial::none;  ///< none: no member, whatever its size
+  double cross_section = 0;                            ///< m² of fibre
+};
+
+/// Mass per length, thickness and strength of a strength member.
+struct StrengthMemberData {
+  double mass_per_metre = 0;  ///< kg/m
+  double diameter = 0;        ///< m, of the bundle
+  double strength = 0;        ///< N, breaking load
+};
+
+/// Aramid: 1450 kg/m³ and 2740 MPa (Kevlar 49 yarn, lower end, DuPont data manual). UHMWPE: 990
+/// kg/m³ and 3090 MPa (Dyneema, the published tether model of Bauer et al. 2018). Fibres fill 72 %
+/// of the bundle (a 4 mm SK90 rope has 711.5 kg/m³). All 0 for no member.
+[[nodiscard]] StrengthMemberData strength_member_data(const StrengthMember& member);
 
 /// The cable as bought and laid, but for its cross-section where that is still to be found.
 struct Tether {
@@ -29,11 +78,22 @@ struct Tether {
   double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
   double projection_factor = 0.75;      ///< k, mean projected width of the turning pair over 4(r+s)
   std::optional<double> cross_section;  ///< m² of one conductor, where the cable is already chosen
+
+  /// °C of the air. Set, the conductor's temperature is that of a steady heat balance, and
+  /// `conductor_temperature_C` is not used; unset, it is what that says.
+  std::optional<double> ambient_temperature_C{};
+  double sun = 0;                    ///< W/m² of sunlight across the tether in the air
+  Drum drum;                         ///< of the length on it
+  StrengthMember strength_member{};  ///< beside the conductors
+  double winch_pull = 0;             ///< N, with which the ground end is pulled down
 };
 
 /// Resistivity in Ω·m at the tether's conductor temperature: ρ = ρ20·(1 + α(T − 20 °C))
 /// (IEC 60287-1-1, 2.1.1).
 [[nodiscard]] double resistivity(const Tether& tether);
+
+/// The same at `temperature` in °C.
+[[nodiscard]] double resistivity(const Conductor& conductor, double temperature_C);
 
 /// Radius in m of a round conductor of `area` m².
 [[nodiscard]] double conductor_radius(double area);
@@ -43,12 +103,18 @@ struct Tether {
 [[nodiscard]] double loop_resistance(const Tether& tether, double area);
 
 /// Mass in kg of the airborne tether for conductors of `area` m² (≥ 0):
-/// m_t = 2h(ρ_c·A + ρ_i·π((r + s)² − r²)) (paper section III-A).
+/// m_t = 2h(ρ_c·A + ρ_i·π((r + s)² − r²)) (paper section III-A), with the strength member. The wall
+/// is `insulation.thickness`; one that grows with the voltage is `SteadyFlight`'s.
 [[nodiscard]] double airborne_mass(const Tether& tether, double area);
 
 /// Drag area in m² of the airborne tether, coefficient included, so that its drag is
 /// ½·ρ_air·drag_area·v²: C·k·4h(r + s) (paper section V-B: two independent cylinders, all of it
-/// taken by the drone).
+/// taken by the drone), and the strength member as a third.
 [[nodiscard]] double tether_drag_area(const Tether& tether, double area);
+
+/// Breaking load in N: that of the strength member where there is one, which is stiffer than metal
+/// and takes the load, else that of both conductors of `area` m²; 0 where their strength is
+/// unknown.
+[[nodiscard]] double breaking_load(const Tether& tether, double area);
 
 }  // namespace tethercalc

@@ -20,6 +20,8 @@ inline constexpr double square_millimetre = 1e-6;                ///< m²
 inline constexpr double gram_force = 1e-3 * standard_gravity;    ///< N
 inline constexpr double degree = std::numbers::pi / 180.0;       ///< rad
 inline constexpr double gram_per_cubic_centimetre = 1e3;         ///< kg/m³
+inline constexpr double megapascal = 1e6;                        ///< Pa
+inline constexpr double kilovolt_per_millimetre = 1e6;           ///< V/m
 inline constexpr double ohm_square_millimetre_per_metre = 1e-6;  ///< Ω·m
 }  // namespace unit
 

@@ -9,11 +9,14 @@ namespace tethercalc {
 
 /// What keeps the optimum, or an infeasible design, from being better.
 enum class Limit {
-  minimum_power,    ///< nothing: the least power lies inside the feasible set
-  available_power,  ///< a thinner conductor would starve the motors of power
-  takeoff_mass,     ///< a thicker conductor would be too heavy
-  motor_thrust,     ///< the motors' last data-sheet point is below the thrust asked for
-  max_pitch,        ///< the tilt limit
+  minimum_power,          ///< nothing: the least power lies inside the feasible set
+  available_power,        ///< a thinner conductor would starve the motors of power
+  takeoff_mass,           ///< a thicker conductor would be too heavy
+  motor_thrust,           ///< the motors' last data-sheet point is below the thrust asked for
+  max_pitch,              ///< the tilt limit
+  conductor_temperature,  ///< the rated temperature of the insulation, in the air or on the drum
+  tether_strength,        ///< the breaking load that the tether's tension asks for
+  converter_rating,       ///< the rated output of the converter
 };
 
 /// The answer to "which cross-section", or to why there is none. Areas in m².
@@ -37,8 +40,15 @@ struct Optimization {
 ///   makes that a wish instead of a demand), and
 /// - can be flown in hover and in forward flight: tilt within its limit and headroom at least 1.
 ///
+/// and, where the design asks for them,
+/// - keep conductors at or below the insulation's rated temperature, in the air and on the drum, in
+///   both conditions (an ambient temperature is set),
+/// - have a breaking load of `strength_safety_factor` times the tension, and
+/// - do not ask more of the converter than its rated output.
+///
 /// This is the paper's larger-of-two rule (section IV-A) where the headroom has only a lower edge;
-/// where it has an upper edge too, the area stays below it. Takes about a microsecond.
+/// where it has an upper edge too, the area stays below it. Takes about a microsecond; with any of
+/// the last three demands, which are searched on a grid of areas, some milliseconds.
 [[nodiscard]] Optimization optimize(const Design& design);
 
 }  // namespace tethercalc

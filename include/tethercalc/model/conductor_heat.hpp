@@ -1,0 +1,132 @@
+// The temperature at which a conductor gives off as much heat as its current and the sun make in
+// it.
+#pragma once
+
+#include <optional>
+
+#include "tethercalc/model/tether.hpp"
+
+namespace tethercalc {
+
+/// Air near a warm surface.
+struct AirProperties {
+  double conductivity = 0;         ///< W/(m·K)
+  double kinematic_viscosity = 0;  ///< m²/s
+  double prandtl = 0;              ///< Prandtl number
+};
+
+/// Air at `film_temperature_C` (−50 to 250 °C, mean of surface and surroundings), whose density at
+/// 0 °C is `density_at_0C` in kg/m³; conductivity and viscosity as in CIGRE TB 601 (2014), heat
+/// capacity 1005 J/(kg·K).
+[[nodiscard]] AirProperties air_properties(double film_temperature_C, double density_at_0C);
+
+/// Density at 0 °C of air at sea level (CIGRE TB 601), kg/m³.
+inline constexpr double standard_air_density_0C = 1.293;
+
+/// Nusselt number of a cylinder across a flow (Churchill and Bernstein 1977, J. Heat Transfer 99,
+/// 300–306); Re·Pr > 0.2.
+[[nodiscard]] double churchill_bernstein(double reynolds, double prandtl);
+
+/// Nusselt number of a horizontal cylinder in still air (Churchill and Chu 1975, Int. J. Heat Mass
+/// Transfer 18, 1049–1053); Rayleigh number 1e-5 to 1e12.
+[[nodiscard]] double churchill_chu(double rayleigh, double prandtl);
+
+/// Nusselt number of a stranded conductor across the wind, CIGRE TB 601 table 5; Reynolds number
+/// 100 to 50 000. `roughness` is d/(2(D − d)) with strand diameter d and conductor diameter D.
+[[nodiscard]] double cigre601_stranded(double reynolds, double roughness);
+
+/// Share of it left where the wind meets a stranded conductor at `attack_angle` (rad, 0 to π/2; π/2
+/// is across), CIGRE TB 601.
+[[nodiscard]] double cigre601_attack_factor(double attack_angle);
+
+/// Share of a horizontal smooth conductor's natural convection left at `inclination` (rad, 0 to
+/// π/3), CIGRE TB 601.
+[[nodiscard]] double cigre601_inclination_factor(double inclination);
+
+/// Heat in W/m that a surface of `perimeter` m radiates, `emissivity` in [0, 1], to surroundings at
+/// the temperature of the air.
+[[nodiscard]] double radiated_heat(double perimeter, double emissivity, double surface_C,
+                                   double ambient_C);
+
+/// Current in A at which a conductor of `resistance` Ω/m, at the temperature for which both are
+/// taken, makes `heat` W/m (≥ 0): the ampacity where that is what it can give off.
+[[nodiscard]] double ampacity(double heat, double resistance);
+
+/// What a conductor of the tether is surrounded by.
+struct Surroundings {
+  double temperature_C = 20;   ///< of the air
+  double air_density = 1.293;  ///< kg/m³ at that temperature
+  double wind = 0;             ///< m/s across the conductor, ≥ 0
+  double sun = 0;              ///< W/m² across it
+  double gravity = 9.80665;    ///< m/s²
+  double cooling = 1;          ///< in (0, 1]: share of the heat that a wound conductor gives off
+};
+
+/// Temperatures above this are not looked at: no insulation stands them.
+inline constexpr double highest_conductor_temperature_C = 400;
+
+/// A conductor of the tether with its insulation, in one place.
+///
+/// Heat flows through the insulation, T_c − T_s = q·ln((r + s)/r)/(2πλ), and off its surface by
+/// convection, forced or natural, whichever is more (as in CIGRE TB 601), and by radiation with an
+/// emissivity of 0.9. The tether hangs: natural convection is that of a horizontal cylinder times
+/// the least that CIGRE TB 601 leaves of it, at 60°. The two conductors touch: of the surface of
+/// two cylinders only that of their convex hull, (π + 2)/(2π), takes part. The sun, of which a dark
+/// sheath takes 0.9, shines on both broadside. Where the insulation's conductivity is unknown it is
+/// taken as 0.17 W/(m·K), the least of common materials (PVC).
+class ConductorHeat {
+ public:
+  /// `wall` in m, `radius` in m of the metal.
+  ConductorHeat(const Tether& tether, double radius, double wall, const Surroundings& around);
+
+  /// Conductor temperature in °C at `current` A (≥ 0); nothing where no state below
+  /// `highest_conductor_temperature_C` is steady. Exact to 1e-9 K.
+  [[nodiscard]] std::optional<double> temperature(double current) const;
+
+  /// The same where the surface is known to be at `surface_C` at least, which is set to its
+  /// temperature: for currents that rise from call to call.
+  [[nodiscard]] std::optional<double> temperature(double current, double& surface_C) const;
+
+  /// Largest current in A with the conductor at most at `temperature_C`; 0 where the sun alone
+  /// heats it beyond. Exact to 1e-9 relative.
+  [[nodiscard]] double current_at(double temperature_C) const;
+
+  /// Heat in W/m that a surface of `surface_C` gives off, less what it takes from the sun.
+  [[nodiscard]] double given_off(double surface_C) const;
+
+ private:
+  /// Resistance in Ω/m of one conductor.
+  [[nodiscard]] double resistance(double temperature_C) const;
+
+  Conductor conductor_;
+  Surroundings around_;
+  double area_;
+  double diameter_;            ///< m, over the insulation
+  double thermal_resistance_;  ///< K·m/W of the insulation
+  double density_0C_;
+};
+
+/// The steady state of a tether under its own current, with a load of constant power at its end.
+struct TetherHeatState {
+  bool steady = false;                 ///< false: no steady state, or the power cannot be delivered
+  double current = 0;                  ///< A
+  double resistance = 0;               ///< Ω, loop
+  double conductor_temperature_C = 0;  ///< in the air
+  std::optional<double> drum_temperature_C;  ///< of the wound part, where there is one whose
+                                             ///< cooling is known
+};
+
+/// The coolest state in which power, current and temperature agree for conductors of `radius` m
+/// and insulation of `wall` m, which is the one that a cold tether warms up to.
+///
+/// The current that a resistance asks for rises with it, and the resistance with the current, so
+/// that the states visited from a cold start on rise towards it; the map is convex, so that secants
+/// through two of them never overshoot it, and a secant that points away from it proves that there
+/// is none: the tether runs away. `tether.ambient_temperature_C` must be set. `load_power` in W at
+/// the drone; `in_the_air` is what surrounds the airborne part. The wound part lies in the shade,
+/// in still air, and gives off the square of its current derating of what it would laid out.
+[[nodiscard]] TetherHeatState steady_tether(const Tether& tether, double radius, double wall,
+                                            double supply_voltage, double load_power,
+                                            const Surroundings& in_the_air);
+
+}  // namespace tethercalc

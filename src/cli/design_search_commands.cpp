@@ -1,0 +1,52 @@
+#include "cli/design_search_commands.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/report/envelope_report.hpp"
+
+namespace tethercalc::cli {
+
+int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output) {
+  const DesignStudy answer = study_design(read_design(spec.file, spec.overrides), request);
+  switch (output.format) {
+    case Format::table:
+      emit(output, design_text(answer, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(design_json(answer)));
+      break;
+    case Format::csv:
+      emit(output, design_csv(answer));
+      break;
+  }
+  return answer.answer.feasible ? done : answer_is_no;
+}
+
+int run_envelope(const EvaluateOptions& options, const Output& output) {
+  DesignFile file = read_design(options.spec.file, options.spec.overrides);
+  if (options.areas_mm2.size() > 1) {
+    throw InputError("--area-mm2", "an envelope is that of one cross-section");
+  }
+  if (!options.areas_mm2.empty()) {
+    file.design.tether.cross_section = options.areas_mm2.front() * unit::square_millimetre;
+  }
+  if (!file.design.tether.cross_section) {
+    throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
+  }
+  const EnvelopeStudy answer = study_envelope(std::move(file));
+  switch (output.format) {
+    case Format::table:
+      emit(output, envelope_text(answer, style_for(output)));
+      break;
+    case Format::json:
+      emit(output, json_text(envelope_json(answer)));
+      break;
+    case Format::csv:
+      emit(output, envelope_csv(answer));
+      break;
+  }
+  return answer.any() ? done : answer_is_no;
+}
+
+}  // namespace tethercalc::cli

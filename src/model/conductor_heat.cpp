@@ -1,0 +1,236 @@
+// Notation: T temperature in °C, c conductor, s surface, a air, f film (mean of s and a); q heat in
+// W/m; Nu, Re, Pr, Ra Nusselt, Reynolds, Prandtl, Rayleigh number.
+
+#include "tethercalc/model/conductor_heat.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// W/(m²·K⁴), CODATA 2018 (exact since the SI of 2019).
+constexpr double stefan_boltzmann = 5.670374419e-8;
+
+constexpr double emissivity = 0.9;    // CIGRE TB 601: 0.8 to 0.9 for weathered surfaces
+constexpr double absorptivity = 0.9;  // likewise
+constexpr double least_conductivity = 0.17;
+constexpr double pair_surface_share = (pi + 2) / (2 * pi);
+/// Relative. Temperatures are exact to 1e-11 K, and a kelvin is 0.4 % of the resistance.
+constexpr double same_current = 1e-12;
+constexpr double steepest_known_inclination = pi / 3;
+
+double kelvin(double celsius) { return celsius + zero_celsius_K; }
+
+/// The root of `f` between lo and hi, f(lo) < 0 ≤ f(hi). 1e-12 of a few hundred kelvin.
+template <typename Function>
+double root_between(const Function& f, double lo, double hi, double at_lo, double at_hi) {
+  if (at_hi == 0) return hi;
+  const auto close = [](double a, double b) { return std::abs(b - a) <= 1e-11; };
+  std::uintmax_t steps = 100;
+  const auto [a, b] = boost::math::tools::toms748_solve(f, lo, hi, at_lo, at_hi, close, steps);
+  return 0.5 * (a + b);
+}
+
+/// The first root of `f` from `from` on, which is `from` itself where f(from) ≥ 0, up to `to`;
+/// nothing where there is none. Looks at every 5 K at least: two roots that lie closer are a state
+/// on the brink of running away, and are taken for one that has.
+template <typename Function>
+std::optional<double> first_root(const Function& f, double from, double to) {
+  constexpr double longest_stride = 5;
+  double stride = 0.5;
+  double lo = from;
+  double at_lo = f(lo);
+  if (at_lo >= 0) return lo;
+  while (lo < to) {
+    const double hi = std::min(lo + stride, to);
+    stride = std::min(2 * stride, longest_stride);
+    const double at_hi = f(hi);
+    if (at_hi >= 0) return root_between(f, lo, hi, at_lo, at_hi);
+    lo = hi;
+    at_lo = at_hi;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+AirProperties air_properties(double film_temperature_C, double density_at_0C) {
+  const double t = film_temperature_C;
+  const double conductivity = 2.368e-2 + 7.23e-5 * t - 2.763e-8 * t * t;
+  const double viscosity = 17.239e-6 + 4.635e-8 * t - 2.03e-11 * t * t;
+  const double density = density_at_0C / (1 + 0.00367 * t);
+  return {conductivity, viscosity / density, 1005 * viscosity / conductivity};
+}
+
+double churchill_bernstein(double reynolds, double prandtl) {
+  return 0.3 + 0.62 * std::sqrt(reynolds) * std::cbrt(prandtl) /
+                   std::pow(1 + std::pow(0.4 / prandtl, 2.0 / 3), 0.25) *
+                   std::pow(1 + std::pow(reynolds / 282000, 0.625), 0.8);
+}
+
+double churchill_chu(double rayleigh, double prandtl) {
+  const double root = 0.6 + 0.387 * std::pow(rayleigh, 1.0 / 6) /
+                                std::pow(1 + std::pow(0.559 / prandtl, 9.0 / 16), 8.0 / 27);
+  return root * root;
+}
+
+double cigre601_stranded(double reynolds, double roughness) {
+  if (reynolds < 2650) return 0.641 * std::pow(reynolds, 0.471);
+  return roughness <= 0.05 ? 0.178 * std::pow(reynolds, 0.633) : 0.048 * std::pow(reynolds, 0.8);
+}
+
+double cigre601_attack_factor(double attack_angle) {
+  const double sine = std::sin(attack_angle);
+  return attack_angle <= 24 * unit::degree ? 0.42 + 0.68 * std::pow(sine, 1.08)
+                                           : 0.42 + 0.58 * std::pow(sine, 0.9);
+}
+
+double cigre601_inclination_factor(double inclination) {
+  return 1 - 1.58e-4 * std::pow(inclination / unit::degree, 1.5);
+}
+
+double radiated_heat(double perimeter, double surface_emissivity, double surface_C,
+                     double ambient_C) {
+  const auto fourth_power = [](double x) { return x * x * x * x; };
+  return perimeter * surface_emissivity * stefan_boltzmann *
+         (fourth_power(kelvin(surface_C)) - fourth_power(kelvin(ambient_C)));
+}
+
+double ampacity(double heat, double resistance) { return std::sqrt(heat / resistance); }
+
+ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
+                             const Surroundings& around)
+    : conductor_(tether.conductor),
+      around_(around),
+      area_(pi * radius * radius),
+      diameter_(2 * (radius + wall)),
+      density_0C_(around.air_density * (1 + 0.00367 * around.temperature_C)) {
+  const double known = tether.insulation.thermal_conductivity;
+  thermal_resistance_ =
+      std::log((radius + wall) / radius) / (2 * pi * (known > 0 ? known : least_conductivity));
+}
+
+double ConductorHeat::resistance(double temperature_C) const {
+  return resistivity(conductor_, temperature_C) / area_;
+}
+
+double ConductorHeat::given_off(double surface_C) const {
+  const double rise = surface_C - around_.temperature_C;
+  const double film = 0.5 * (surface_C + around_.temperature_C);
+  const AirProperties air = air_properties(film, density_0C_);
+  static const double hanging = cigre601_inclination_factor(steepest_known_inclination);
+  const double rayleigh = around_.gravity * std::max(rise, 0.0) / kelvin(film) * diameter_ *
+                          diameter_ * diameter_ /
+                          (air.kinematic_viscosity * air.kinematic_viscosity) * air.prandtl;
+  double nusselt = hanging * churchill_chu(rayleigh, air.prandtl);
+  if (around_.wind > 0) {
+    const double reynolds = around_.wind * diameter_ / air.kinematic_viscosity;
+    nusselt = std::max(nusselt, churchill_bernstein(reynolds, air.prandtl));
+  }
+  const double convected = pi * air.conductivity * nusselt * rise;
+  const double radiated =
+      radiated_heat(pi * diameter_, emissivity, surface_C, around_.temperature_C);
+  return around_.cooling * pair_surface_share * (convected + radiated) -
+         absorptivity * around_.sun * diameter_;
+}
+
+std::optional<double> ConductorHeat::temperature(double current) const {
+  double surface = around_.temperature_C;
+  return temperature(current, surface);
+}
+
+std::optional<double> ConductorHeat::temperature(double current, double& surface_C) const {
+  const double square = current * current;
+  const auto surplus = [&](double surface) {
+    const double heat = given_off(surface);
+    return heat - square * resistance(surface + std::max(heat, 0.0) * thermal_resistance_);
+  };
+  const auto surface = first_root(surplus, surface_C, highest_conductor_temperature_C);
+  if (!surface) return std::nullopt;
+  surface_C = *surface;
+  const double inside = *surface + std::max(given_off(*surface), 0.0) * thermal_resistance_;
+  return inside <= highest_conductor_temperature_C ? std::optional(inside) : std::nullopt;
+}
+
+double ConductorHeat::current_at(double temperature_C) const {
+  // The surface below a conductor of this temperature: q rises with T_s, and T_s + q·R_th with it.
+  const auto excess = [&](double surface) {
+    return surface + std::max(given_off(surface), 0.0) * thermal_resistance_ - temperature_C;
+  };
+  const auto surface = first_root(excess, around_.temperature_C, temperature_C);
+  if (!surface) return 0;
+  const double heat = given_off(*surface);
+  return heat > 0 ? ampacity(heat, resistance(temperature_C)) : 0;
+}
+
+TetherHeatState steady_tether(const Tether& tether, double radius, double wall,
+                              double supply_voltage, double load_power,
+                              const Surroundings& in_the_air) {
+  const double area = pi * radius * radius;
+  const ConductorHeat airborne(tether, radius, wall, in_the_air);
+  const std::optional<double> derating = drum_derating(tether.drum);
+  const bool wound = tether.spooled_length > 0 && derating.has_value();
+  Surroundings on_drum = in_the_air;
+  on_drum.wind = 0;
+  on_drum.sun = 0;
+  on_drum.cooling = wound ? *derating * *derating : 1;
+  const ConductorHeat spooled(tether, radius, wall, on_drum);
+
+  TetherHeatState state;
+  double airborne_surface = in_the_air.temperature_C;
+  double spooled_surface = in_the_air.temperature_C;
+  const auto loop = [&](double airborne_C, double spooled_C) {
+    return tether.contact_resistance +
+           2 *
+               (tether.length * resistivity(tether.conductor, airborne_C) +
+                tether.spooled_length * resistivity(tether.conductor, spooled_C)) /
+               area;
+  };
+  const auto demanded_current = [&](double resistance) {
+    const double power = supplied_power(supply_voltage, resistance, load_power);
+    return power >= 0 ? power / supply_voltage : infinity;
+  };
+  /// Current that the power asks for over the cable as warm as `current` makes it.
+  const auto next = [&](double current) {
+    const auto in_air = airborne.temperature(current, airborne_surface);
+    if (!in_air) return infinity;
+    state.conductor_temperature_C = *in_air;
+    state.drum_temperature_C = wound ? spooled.temperature(current, spooled_surface) : std::nullopt;
+    if (wound && !state.drum_temperature_C) return infinity;
+    state.resistance = loop(*in_air, state.drum_temperature_C.value_or(*in_air));
+    return demanded_current(state.resistance);
+  };
+
+  const double ambient = in_the_air.temperature_C;
+  double current = demanded_current(loop(ambient, ambient));
+  for (int step = 0; step < 100 && current < infinity; ++step) {
+    const double after = next(current);
+    state.current = after;
+    if (std::abs(after - current) <= same_current * current) {
+      state.steady = true;
+      return state;
+    }
+    if (!(after < infinity)) break;
+    const double beyond = next(after);
+    const double slope = (beyond - after) / (after - current);
+    if (!(slope < 1)) break;
+    current = after + (beyond - after) / (1 - slope);
+    // A secant is blind where rounding is all that is left of the differences.
+    if (std::abs(beyond - after) <= same_current * after) current = beyond;
+  }
+  return {};
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,138 @@
+#include "tethercalc/report/cable_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "tethercalc/report/json_results.hpp"
+#include "tethercalc/report/text_table.hpp"
+
+namespace tethercalc {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json temperatures_json(const OperatingPoint& point) {
+  return {{"conductor_temperature_C", number_or_null(point.conductor_temperature)},
+          {"drum_temperature_C", number_or_null(point.drum_temperature)},
+          {"runaway", point.thermal_runaway}};
+}
+
+double breakdown_voltage(const Design& design) {
+  const Insulation& insulation = design.tether.insulation;
+  return insulation.breakdown_strength * insulation_wall(insulation, design.supply.voltage);
+}
+
+std::string temperature_words(const char* condition, const OperatingPoint& point) {
+  if (point.thermal_runaway) return fmt::format("runs away in {}", condition);
+  if (std::isnan(point.conductor_temperature)) return fmt::format("has none in {}", condition);
+  std::string words = fmt::format("{} °C in {}", fixed(point.conductor_temperature, 1), condition);
+  if (!std::isnan(point.drum_temperature)) {
+    words += fmt::format(" ({} °C on the drum)", fixed(point.drum_temperature, 1));
+  }
+  return words;
+}
+
+}  // namespace
+
+VoltageClass voltage_class(double voltage) {
+  static constexpr std::array classes{
+      VoltageClass{"touchable_elv", 60,
+                   "extra-low voltage at or below 60 V DC, which in dry places needs no protection "
+                   "against touch"},
+      VoltageClass{
+          "elv", 120,
+          "extra-low voltage at or below 120 V DC: live parts must be insulated or covered"},
+      VoltageClass{
+          "low_voltage", 1500,
+          "low voltage above the extra-low limit of 120 V DC: insulation, fault protection "
+          "and disconnection are mandatory"},
+      VoltageClass{"high_voltage", std::numeric_limits<double>::infinity(),
+                   "high voltage above 1500 V DC"}};
+  return *std::find_if(classes.begin(), classes.end(),
+                       [voltage](const VoltageClass& c) { return voltage <= c.up_to; });
+}
+
+ordered_json voltage_class_json(double voltage) {
+  const VoltageClass found = voltage_class(voltage);
+  return {{"name", found.name}, {"sentence", found.sentence}};
+}
+
+ordered_json thermal_json(const Design& design, const OperatingPoint& hover,
+                          const OperatingPoint& forward) {
+  const Tether& tether = design.tether;
+  if (!tether.ambient_temperature_C) return nullptr;
+  const auto rated = tether.insulation.rated_temperature_C;
+  return {{"ambient_temperature_C", *tether.ambient_temperature_C},
+          {"rated_temperature_C", rated ? ordered_json(*rated) : ordered_json(nullptr)},
+          {"hover", temperatures_json(hover)},
+          {"forward", temperatures_json(forward)}};
+}
+
+ordered_json cable_json(const Design& design, const OperatingPoint& hover,
+                        const OperatingPoint& forward) {
+  const double load = breaking_load(design.tether, hover.cross_section);
+  const double breakdown = breakdown_voltage(design);
+  return {{"tension_N", number_or_null(std::max(hover.tether_tension, forward.tether_tension))},
+          {"breaking_load_N", load > 0 ? ordered_json(load) : ordered_json(nullptr)},
+          {"required_safety_factor", design.requirements.strength_safety_factor},
+          {"wall_mm",
+           insulation_wall(design.tether.insulation, design.supply.voltage) / unit::millimetre},
+          {"breakdown_voltage_V", breakdown > 0 ? ordered_json(breakdown) : ordered_json(nullptr)}};
+}
+
+std::vector<std::string> cable_sentences(const Design& design, const OperatingPoint& hover,
+                                         const OperatingPoint& forward) {
+  std::vector<std::string> sentences;
+  const Tether& tether = design.tether;
+  if (tether.ambient_temperature_C) {
+    const auto rated = tether.insulation.rated_temperature_C;
+    sentences.push_back(fmt::format(
+        "In air of {} °C the conductor's temperature is {} and {}; the insulation is {}.",
+        significant(*tether.ambient_temperature_C, 3), temperature_words("hover", hover),
+        temperature_words("forward flight", forward),
+        rated ? fmt::format("rated for {} °C", significant(*rated, 3))
+              : std::string("of no known rating")));
+  }
+  if (design.requirements.strength_safety_factor > 0) {
+    const double tension = std::max(hover.tether_tension, forward.tether_tension);
+    const double load = breaking_load(tether, hover.cross_section);
+    sentences.push_back(
+        fmt::format("The tether pulls at the drone with {} N and breaks at {} N, {} times that.",
+                    significant(tension, 3), significant(load, 3), significant(load / tension, 3)));
+  }
+  if (tether.insulation.dielectric_safety_factor > 0) {
+    sentences.push_back(fmt::format(
+        "The wall of {} mm breaks down at {} V in a short test, {} times the supply.",
+        significant(insulation_wall(tether.insulation, design.supply.voltage) / unit::millimetre,
+                    3),
+        significant(breakdown_voltage(design), 3),
+        significant(breakdown_voltage(design) / design.supply.voltage, 3)));
+  }
+  sentences.push_back(fmt::format("{} V is {}.", significant(design.supply.voltage, 3),
+                                  voltage_class(design.supply.voltage).sentence));
+  return sentences;
+}
+
+std::vector<std::string> cable_warnings(const Design& design) {
+  std::vector<std::string> warnings;
+  const Tether& tether = design.tether;
+  if (!tether.ambient_temperature_C) return warnings;
+  if (tether.spooled_length > 0 && !drum_derating(tether.drum)) {
+    warnings.push_back(fmt::format(
+        "{} m lie on a drum of which neither layers nor derating are stated: the wound part is the "
+        "hot one, and its temperature is not known (tether.drum.layers or tether.drum.derating)",
+        significant(tether.spooled_length, 3)));
+  }
+  if (!tether.insulation.rated_temperature_C) {
+    warnings.push_back(
+        "the rated temperature of the insulation is not known, so that heat limits nothing "
+        "(rated_temperature_C of the material)");
+  }
+  return warnings;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,171 @@
+#include "tethercalc/report/envelope_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tethercalc/report/cable_report.hpp"
+#include "tethercalc/report/csv_cell.hpp"
+#include "tethercalc/report/json_results.hpp"
+#include "tethercalc/report/limit_sentences.hpp"
+
+namespace tethercalc {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct ReachWords {
+  const char* key;
+  const char* noun;
+  const char* unit;
+  double si_factor;
+  int decimals;
+};
+
+ReachWords words_of(Reach reach) {
+  switch (reach) {
+    case Reach::height:
+      return {"height_m", "height", "m", 1, 1};
+    case Reach::payload:
+      return {"payload_g", "payload", "g", unit::gram, 0};
+    case Reach::headwind:
+      return {"headwind_m_s", "headwind", "m/s", 1, 2};
+    case Reach::airspeed:
+      break;
+  }
+  return {"airspeed_m_s", "airspeed", "m/s", 1, 2};
+}
+
+/// What a limit means to somebody who pushes one of these further.
+std::string beyond_words(const ReachEnd& end) {
+  if (!end.bounded) return "nothing ends it within the search";
+  const std::string where = " in " + condition_words(end.condition);
+  switch (end.limit) {
+    case Limit::max_pitch:
+      return "the tilt passes its limit" + where;
+    case Limit::conductor_temperature:
+      return "the conductor gets hotter than its insulation is rated for" + where;
+    case Limit::tether_strength:
+      return "the tether no longer holds its tension with the factor asked for" + where;
+    case Limit::converter_rating:
+      return "the converter's rating is passed" + where;
+    default:
+      return "the thrust headroom is no longer left" + where;
+  }
+}
+
+std::string sentence_of(const ReachResult& result) {
+  const ReachWords words = words_of(result.reach);
+  if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
+  return fmt::format("Greatest {}: {} {}; beyond it {}.", words.noun,
+                     fixed(result.end->value / words.si_factor, words.decimals), words.unit,
+                     beyond_words(*result.end));
+}
+
+ordered_json end_json(const std::optional<ReachEnd>& end, double si_factor) {
+  if (!end) return nullptr;
+  return {
+      {"value", end->value / si_factor},
+      {"limited_by", end->bounded ? ordered_json(limit_name(end->limit)) : ordered_json(nullptr)},
+      {"limiting_condition", condition_name(end->condition)}};
+}
+
+}  // namespace
+
+bool EnvelopeStudy::any() const {
+  return std::any_of(greatest.begin(), greatest.end(),
+                     [](const ReachResult& r) { return r.end.has_value(); });
+}
+
+EnvelopeStudy study_envelope(DesignFile file) {
+  EnvelopeStudy study;
+  const Design& design = file.design;
+  for (const Reach reach : all_reaches) {
+    study.greatest.push_back({reach, greatest_reach(design, reach)});
+  }
+  for (const auto& [of, against] :
+       {std::pair{Reach::payload, Reach::height}, std::pair{Reach::headwind, Reach::height},
+        std::pair{Reach::payload, Reach::headwind}}) {
+    study.curves.push_back({of, against, envelope_curve(design, of, against)});
+  }
+  for (std::string& warning : cable_warnings(design)) file.warnings.push_back(std::move(warning));
+  study.file = std::move(file);
+  return study;
+}
+
+std::string envelope_text(const EnvelopeStudy& study, const TextStyle& style) {
+  std::string out = style.bold(study.file.name) + "\n\n";
+  out +=
+      fmt::format("{} mm² of {}, {} V\n",
+                  significant(*study.file.design.tether.cross_section / unit::square_millimetre, 4),
+                  study.file.conductor.id, significant(study.file.design.supply.voltage, 3));
+  for (const ReachResult& result : study.greatest) out += wrapped(sentence_of(result));
+  for (const EnvelopeCurve& curve : study.curves) {
+    if (curve.points.empty()) continue;
+    const ReachWords of = words_of(curve.of);
+    const ReachWords against = words_of(curve.against);
+    out += "\n" + style.bold(fmt::format("Greatest {} against {}", of.noun, against.noun)) + "\n";
+    TextTable table({{fmt::format("{} {}", against.noun, against.unit)},
+                     {fmt::format("{} {}", of.noun, of.unit)},
+                     {"beyond it", TextTable::Align::left}});
+    for (const EnvelopePoint& point : curve.points) {
+      const std::string end = point.end ? fixed(point.end->value / of.si_factor, of.decimals) : "–";
+      table.add({fixed(point.against / against.si_factor, against.decimals), end,
+                 point.end ? beyond_words(*point.end) : std::string("the demands are not met")});
+    }
+    out += table.text(style);
+  }
+  for (const std::string& warning : study.file.warnings) {
+    out += "\n" + style.subdued(wrapped("Note: " + warning));
+  }
+  return out;
+}
+
+ordered_json envelope_json(const EnvelopeStudy& study) {
+  ordered_json greatest = ordered_json::object();
+  for (const ReachResult& result : study.greatest) {
+    const ReachWords words = words_of(result.reach);
+    ordered_json end = end_json(result.end, words.si_factor);
+    if (result.end) end["sentence"] = sentence_of(result);
+    greatest[words.key] = std::move(end);
+  }
+  ordered_json curves = ordered_json::array();
+  for (const EnvelopeCurve& curve : study.curves) {
+    const ReachWords of = words_of(curve.of);
+    const ReachWords against = words_of(curve.against);
+    ordered_json points = ordered_json::array();
+    for (const EnvelopePoint& point : curve.points) {
+      const bool bounded = point.end && point.end->bounded;
+      points.push_back({{against.key, point.against / against.si_factor},
+                        {of.key, point.end ? ordered_json(point.end->value / of.si_factor)
+                                           : ordered_json(nullptr)},
+                        {"limited_by", bounded ? ordered_json(limit_name(point.end->limit))
+                                               : ordered_json(nullptr)}});
+    }
+    curves.push_back({{"of", of.key}, {"against", against.key}, {"points", points}});
+  }
+  return {{"name", study.file.name},
+          {"cross_section_mm2", *study.file.design.tether.cross_section / unit::square_millimetre},
+          {"greatest", greatest},
+          {"curves", curves},
+          {"warnings", study.file.warnings}};
+}
+
+std::string envelope_csv(const EnvelopeStudy& study) {
+  std::string out = "against,against_value,of,of_value,limited_by\n";
+  for (const EnvelopeCurve& curve : study.curves) {
+    const ReachWords of = words_of(curve.of);
+    const ReachWords against = words_of(curve.against);
+    for (const EnvelopePoint& point : curve.points) {
+      out += fmt::format(
+          "{},{},{},{},{}\n", against.key, csv_number(point.against / against.si_factor), of.key,
+          point.end ? csv_number(point.end->value / of.si_factor) : "",
+          point.end && point.end->bounded ? limit_name(point.end->limit) : std::string_view());
+    }
+  }
+  return out;
+}
+
+}  // namespace tethercalc

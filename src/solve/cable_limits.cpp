@@ -1,0 +1,286 @@
+#include "solve/cable_limits.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tethercalc/solve/headroom.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Half of the digits: at a smooth optimum the value is then exact to all of them.
+constexpr int half_the_bits = std::numeric_limits<double>::digits / 2;
+
+/// Areas a grid has; what a range of areas narrower than its ratio hides is found by climbing from
+/// the best of them.
+constexpr int grid_size = 48;
+
+struct Points {
+  OperatingPoint hover;
+  OperatingPoint forward;
+};
+
+/// A design in both conditions, as functions of the logarithm of the area.
+class BothFlights {
+ public:
+  explicit BothFlights(const Design& design)
+      : design_(design), hover_(design, Condition::hover), forward_(design, Condition::forward) {}
+
+  [[nodiscard]] Points at(double log_area) const {
+    const double area = std::exp(log_area);
+    return {evaluate(hover_, area), evaluate(forward_, area)};
+  }
+
+  /// The least met of the demands; where `only_headroom`, of the demand for headroom.
+  [[nodiscard]] Margin worst(double log_area, bool only_headroom = false) const {
+    const Points points = at(log_area);
+    if (only_headroom) {
+      const Requirements& need = design_.requirements;
+      const OperatingPoint& p =
+          need.headroom_at == Condition::hover ? points.hover : points.forward;
+      const double ratio = p.headroom / need.thrust_headroom;
+      return {Limit::available_power, need.headroom_at, ratio >= 0 ? ratio - 1 : -1};
+    }
+    const std::vector<Margin> all = requirement_margins(design_, points.hover, points.forward);
+    return *std::min_element(all.begin(), all.end(),
+                             [](const Margin& a, const Margin& b) { return a.value < b.value; });
+  }
+
+  /// Power where it is priced; infinite where it does not exist.
+  [[nodiscard]] double power(double log_area) const {
+    const bool hover = design_.requirements.power_at == Condition::hover;
+    const double power = evaluate(hover ? hover_ : forward_, std::exp(log_area)).total_power;
+    return power > 0 ? power : infinity;
+  }
+
+ private:
+  const Design& design_;
+  SteadyFlight hover_;
+  SteadyFlight forward_;
+};
+
+std::vector<double> grid(double lo, double hi) {
+  std::vector<double> points;
+  for (int i = 0; i <= grid_size; ++i) points.push_back(lo + (hi - lo) * i / grid_size);
+  return points;
+}
+
+/// Where `value` is largest between neighbours of its largest grid point.
+template <typename Function>
+double argmax(const Function& value, const std::vector<double>& points) {
+  std::size_t best = 0;
+  double most = -infinity;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double here = value(points[i]);
+    if (here > most) {
+      most = here;
+      best = i;
+    }
+  }
+  const double lo = points[best > 0 ? best - 1 : 0];
+  const double hi = points[std::min(best + 1, points.size() - 1)];
+  const auto minus = [&](double x) { return -std::max(value(x), -1e300); };
+  const double refined = boost::math::tools::brent_find_minima(minus, lo, hi, half_the_bits).first;
+  return value(refined) > most ? refined : points[best];
+}
+
+/// The ranges within [lo, hi] in which `met` holds. Seen are those that hold a grid point or
+/// `inside`.
+template <typename Predicate>
+IntervalSet ranges_of(const Predicate& met, double lo, double hi, double inside) {
+  std::vector<double> points = grid(lo, hi);
+  points.insert(std::upper_bound(points.begin(), points.end(), inside), inside);
+  const auto edge = [&](double good, double bad) {
+    // To the last digit of the area, from the good side.
+    while (std::abs(good - bad) > 1e-14) {
+      const double middle = 0.5 * (good + bad);
+      if (middle == good || middle == bad) break;
+      (met(middle) ? good : bad) = middle;
+    }
+    return good;
+  };
+  IntervalSet ranges;
+  bool before = false;
+  double start = lo;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool now = met(points[i]);
+    if (now && !before) start = i == 0 ? points[i] : edge(points[i], points[i - 1]);
+    if (!now && before) append(ranges, {start, edge(points[i - 1], points[i])});
+    before = now;
+  }
+  if (before) append(ranges, {start, hi});
+  return ranges;
+}
+
+IntervalSet in_square_metres(IntervalSet logarithms) {
+  for (Interval& range : logarithms) range = {std::exp(range.lo), std::exp(range.hi)};
+  return logarithms;
+}
+
+/// The design as cold as it can be, without limits: whatever is feasible with them is feasible
+/// here, since resistance only rises with temperature.
+Design without_limits(Design design) {
+  Tether& tether = design.tether;
+  if (tether.ambient_temperature_C) {
+    tether.conductor_temperature_C = *tether.ambient_temperature_C;
+    tether.ambient_temperature_C.reset();
+  }
+  design.requirements.strength_safety_factor = 0;
+  return design;
+}
+
+double margin_of(double have, double need) {
+  const double ratio = have / need;
+  return std::isfinite(ratio) ? ratio - 1 : -1;
+}
+
+void add_flight_margins(const Design& design, const OperatingPoint& point, Condition condition,
+                        std::vector<Margin>& margins) {
+  const Requirements& need = design.requirements;
+  const bool asked = condition == need.headroom_at && !need.buffer_battery;
+  margins.push_back({Limit::available_power, condition,
+                     margin_of(point.headroom, asked ? need.thrust_headroom : 1)});
+  margins.push_back({Limit::max_pitch, condition, std::isnan(point.pitch) ? -1.0 : 0.0});
+  const Tether& tether = design.tether;
+  if (tether.ambient_temperature_C) {
+    const std::optional<double> rated = tether.insulation.rated_temperature_C;
+    const bool steady = std::isfinite(point.conductor_temperature);
+    double value = steady ? 1.0 : -1.0;
+    if (rated && steady) {
+      const double hottest = std::fmax(point.conductor_temperature, point.drum_temperature);
+      value = (*rated - hottest) / 100;  // on a scale like that of the other margins
+    }
+    // Where the power cannot be delivered at all, heat is not to blame.
+    if (steady || point.thermal_runaway) {
+      margins.push_back({Limit::conductor_temperature, condition, value});
+    }
+  }
+  if (need.strength_safety_factor > 0) {
+    margins.push_back({Limit::tether_strength, condition,
+                       margin_of(breaking_load(tether, point.cross_section),
+                                 need.strength_safety_factor * point.tether_tension)});
+  }
+  const Converter& converter = design.supply.converter;
+  if (converter.rated_output_power) {
+    const double output =
+        converter_output_power(converter, point.drone_power - design.drone.auxiliary_power);
+    margins.push_back(
+        {Limit::converter_rating, condition, margin_of(*converter.rated_output_power, output)});
+  }
+}
+
+}  // namespace
+
+bool has_cable_limits(const Design& design) {
+  return design.tether.ambient_temperature_C.has_value() ||
+         design.requirements.strength_safety_factor > 0 ||
+         design.supply.converter.rated_output_power.has_value();
+}
+
+std::vector<Margin> requirement_margins(const Design& design, const OperatingPoint& hover,
+                                        const OperatingPoint& forward) {
+  std::vector<Margin> margins;
+  add_flight_margins(design, hover, Condition::hover, margins);
+  add_flight_margins(design, forward, Condition::forward, margins);
+  return margins;
+}
+
+Optimization optimize_within_cable_limits(const Design& design) {
+  const Design cold = without_limits(design);
+  Optimization result = optimize_without_cable_limits(cold);
+  IntervalSet possible = headroom_areas(SteadyFlight(cold, Condition::hover), 1);
+  possible = intersection(possible, headroom_areas(SteadyFlight(cold, Condition::forward), 1));
+  if (!design.requirements.buffer_battery) {
+    possible = intersection(possible, result.headroom_areas);
+  }
+  const bool possible_at_all = result.feasible;
+  const BothFlights flights(design);
+  const auto met = [&](double x) { return flights.worst(x).value >= 0; };
+  const auto headroom_met = [&](double x) { return flights.worst(x, true).value >= 0; };
+  const auto worst_margin = [&](double x) { return flights.worst(x).value; };
+  const auto minus_power = [&](double x) { return -flights.power(x); };
+
+  result.feasible = false;
+  result.area = nan;
+  result.headroom_areas.clear();
+  result.feasible_areas.clear();
+  double best_power = infinity;
+  double best_x = nan;
+  Margin least_violated{result.limited_by, result.limiting_condition, -infinity};
+  for (const Interval& range : possible) {
+    if (!(range.lo > 0 && range.hi < infinity)) continue;
+    const double lo = std::log(range.lo);
+    const double hi = std::log(range.hi);
+    const double most_met = argmax(worst_margin, grid(lo, hi));
+    const Margin margin = flights.worst(most_met);
+    if (margin.value > least_violated.value) least_violated = margin;
+    for (const Interval& part : ranges_of(headroom_met, lo, hi, most_met)) {
+      append(result.headroom_areas, in_square_metres({part}).front());
+    }
+    for (const Interval& part : ranges_of(met, lo, hi, most_met)) {
+      append(result.feasible_areas, in_square_metres({part}).front());
+      const double x = argmax(minus_power, grid(part.lo, part.hi));
+      if (flights.power(x) < best_power) {
+        best_power = flights.power(x);
+        best_x = x;
+      }
+    }
+  }
+  if (std::isfinite(result.minimum_power.area)) {
+    // The least power of the warm cable, around that of the cold one.
+    const double cold_x = std::log(result.minimum_power.area);
+    const double x = argmax(minus_power, grid(cold_x - 2, cold_x + 2));
+    const double power = flights.power(x);
+    result.minimum_power =
+        power < infinity ? MinimumPower{std::exp(x), power} : MinimumPower{nan, nan};
+    if (power <= best_power * (1 + 1e-9) && std::isfinite(best_x) && met(x)) best_x = x;
+  }
+  if (!std::isfinite(best_x)) {
+    if (possible_at_all && std::isfinite(least_violated.value)) {
+      result.limited_by = least_violated.limit;
+      result.limiting_condition = least_violated.condition;
+    }
+    return result;
+  }
+  const Points points = flights.at(best_x);
+  result.feasible = true;
+  result.area = std::exp(best_x);
+  result.hover = points.hover;
+  result.forward = points.forward;
+  result.limited_by = Limit::minimum_power;
+  result.limiting_condition = design.requirements.power_at;
+  const Margin binding = flights.worst(best_x);
+  const bool on_edge = std::any_of(result.feasible_areas.begin(), result.feasible_areas.end(),
+                                   [&](const Interval& range) {
+                                     return std::abs(result.area / range.lo - 1) < 1e-6 ||
+                                            std::abs(result.area / range.hi - 1) < 1e-6;
+                                   });
+  if (on_edge) {
+    const std::vector<Margin> all = requirement_margins(design, points.hover, points.forward);
+    Margin tightest = binding;
+    tightest.value = infinity;
+    for (const Margin& margin : all) {
+      // A tilt within its limit has no distance from it.
+      if (margin.limit != Limit::max_pitch && margin.value < tightest.value) tightest = margin;
+    }
+    result.limited_by = tightest.limit;
+    result.limiting_condition = tightest.condition;
+    for (const OperatingPoint* point : {&result.hover, &result.forward}) {
+      if (std::abs(point->pitch) < design.requirements.max_pitch * (1 - 1e-6)) continue;
+      result.limited_by = Limit::max_pitch;
+      result.limiting_condition = point == &result.hover ? Condition::hover : Condition::forward;
+    }
+    if (result.limited_by == Limit::available_power && !(result.area > result.minimum_power.area)) {
+      result.limited_by = Limit::takeoff_mass;
+    }
+  }
+  return result;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,238 @@
+#include "tethercalc/model/conductor_heat.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "support/random.hpp"
+#include "support/random_designs.hpp"
+#include "tethercalc/model/operating_point.hpp"
+
+using namespace tethercalc;
+using std::numbers::pi;
+
+namespace {
+
+/// A worked example of CIGRE TB 601 (2014), annex E: "Drake" conductor at 100 °C.
+struct WorkedExample {
+  double strand_mm, emissivity, ambient_C, wind, attack_deg, altitude_m, sun_heat;
+  double convection, radiation, current;  // as printed
+};
+
+// The report prints the third current as 1054 in one place; 1504 follows from its own numbers.
+constexpr WorkedExample worked_examples[] = {
+    {4.4, 0.8, 40, 0.61, 60, 0, 27.2, 77.6, 39.1, 976},
+    {2.2, 0.9, 20, 1.66, 80, 500, 13.7, 172.1, 54.0, 1504}};
+
+constexpr double drake_diameter = 28.1e-3;
+constexpr double drake_surface_C = 100;
+
+double drake_resistance(double temperature_C) {
+  const double at_25 = 7.283e-5;
+  const double at_75 = 8.688e-5;
+  return at_25 + (at_75 - at_25) * (temperature_C - 25) / 50;
+}
+
+Tether published_tether() {
+  Tether tether = test::published_design().tether;
+  tether.conductor.temperature_coefficient = 0.00403;
+  tether.ambient_temperature_C = 30;
+  return tether;
+}
+
+}  // namespace
+
+TEST_CASE("correlations give the Nusselt numbers of the textbook") {
+  // Bergman and Incropera, examples 7.3 and 9.2, to the digits of the ht library's tests.
+  CHECK(churchill_bernstein(6071, 0.7) == Approx(40.63708594124974).epsilon(1e-12));
+  CHECK(churchill_chu(0.69 * 2.63e9, 0.69) == Approx(139.13493970073597).epsilon(1e-12));
+}
+
+TEST_CASE("worked ampacity examples come out to the last printed digit") {
+  for (const WorkedExample& e : worked_examples) {
+    INFO(e.current);
+    const double density = 1.293 - 1.525e-4 * e.altitude_m + 6.379e-9 * e.altitude_m * e.altitude_m;
+    const AirProperties air = air_properties(0.5 * (drake_surface_C + e.ambient_C), density);
+    const double reynolds = e.wind * drake_diameter / air.kinematic_viscosity;
+    const double strand = e.strand_mm * 1e-3;
+    const double nusselt = cigre601_stranded(reynolds, strand / (2 * (drake_diameter - strand))) *
+                           cigre601_attack_factor(e.attack_deg * pi / 180);
+    const double convection = pi * air.conductivity * nusselt * (drake_surface_C - e.ambient_C);
+    const double radiation =
+        radiated_heat(pi * drake_diameter, e.emissivity, drake_surface_C, e.ambient_C);
+    CHECK(convection == Approx(e.convection).margin(0.1));
+    CHECK(radiation == Approx(e.radiation).margin(0.1));
+    CHECK(ampacity(convection + radiation - e.sun_heat, drake_resistance(drake_surface_C)) ==
+          Approx(e.current).margin(1));
+  }
+  CHECK(drake_resistance(100) == Approx(9.3905e-5).epsilon(1e-12));
+}
+
+TEST_CASE("a conductor at its steady temperature gives off the heat that is made in it") {
+  for (unsigned i = 0; i < 200; ++i) {
+    test::Random random(test::run_seed() + i);
+    INFO("TETHERCALC_TEST_SEED=" << test::run_seed() << ", case " << i);
+    Tether tether = published_tether();
+    tether.insulation.thermal_conductivity = random.uniform(0.1, 0.5);
+    const double radius = random.magnitude(0.1e-3, 3e-3);
+    const double wall = random.uniform(0, 1e-3);
+    Surroundings around;
+    around.temperature_C = random.uniform(-30, 50);
+    around.wind = random.chance(0.5) ? random.uniform(0, 20) : 0;
+    around.sun = random.chance(0.5) ? 1000 : 0;
+    const ConductorHeat heat(tether, radius, wall, around);
+    const double limit = random.uniform(80, 250);
+    const double current = heat.current_at(limit);
+    INFO("radius " << radius << " current " << current);
+    REQUIRE(current > 0);
+    const auto temperature = heat.temperature(current);
+    REQUIRE(temperature);
+    CHECK(*temperature == Approx(limit).margin(1e-6));
+
+    // The balance, taken apart: conduction through the wall, and what the surface gives off.
+    const double made =
+        current * current * resistivity(tether.conductor, limit) / (pi * radius * radius);
+    const double surface = limit - made * std::log((radius + wall) / radius) /
+                                       (2 * pi * tether.insulation.thermal_conductivity);
+    CHECK(heat.given_off(surface) == Approx(made).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("power, current and temperature of a warm tether agree with each other") {
+  int steady = 0;
+  for (unsigned i = 0; i < 300; ++i) {
+    test::Random random(test::run_seed() + i);
+    INFO("TETHERCALC_TEST_SEED=" << test::run_seed() << ", case " << i);
+    Design design = test::published_design();
+    design.tether = published_tether();
+    design.tether.spooled_length = random.chance(0.5) ? random.uniform(1, 100) : 0;
+    design.tether.drum.layers = random.integer(1, 4);
+    design.flight.airspeed = random.uniform(0, 10);
+    design.supply.voltage = random.uniform(70, 400);
+    const double area = random.magnitude(0.2e-6, 5e-6);
+    const OperatingPoint p = evaluate(design, area, Condition::forward);
+    if (!(p.total_power > 0)) continue;
+    ++steady;
+    INFO("area " << area);
+    CHECK(p.total_power - p.current * p.current * p.tether_resistance ==
+          Approx(p.drone_power).epsilon(1e-10));
+    // An independent fixed point: damped, from above, with its own resistance.
+    Surroundings around;
+    around.temperature_C = 30;
+    around.air_density = design.flight.air_density;
+    around.wind = design.flight.airspeed;
+    const double radius = conductor_radius(area);
+    const ConductorHeat air(design.tether, radius, design.tether.insulation.thickness, around);
+    around.wind = 0;
+    around.cooling = std::pow(*drum_derating(design.tether.drum), 2);
+    const ConductorHeat drum(design.tether, radius, design.tether.insulation.thickness, around);
+    double current = p.current * 1.001;
+    for (int step = 0; step < 500; ++step) {
+      const auto warm = air.temperature(current);
+      const auto wound = drum.temperature(current);
+      if (!warm || !wound) break;
+      const double resistance =
+          2 *
+          (design.tether.length * resistivity(design.tether.conductor, *warm) +
+           design.tether.spooled_length * resistivity(design.tether.conductor, *wound)) /
+          area;
+      const double u = design.supply.voltage;
+      const double next =
+          (u - std::sqrt(u * u - 4 * resistance * p.drone_power)) / (2 * resistance);
+      if (!(next > 0)) break;
+      current = 0.5 * (current + next);
+    }
+    // Near the brink the upper side runs away; what it converges to otherwise is the same state.
+    if (std::abs(current / p.current - 1) < 5e-4) {
+      CHECK(current == Approx(p.current).epsilon(1e-9));
+    }
+  }
+  CHECK(steady > 100);
+}
+
+TEST_CASE("a tether that heats itself beyond what the line can deliver has run away") {
+  Design design = test::published_design();
+  design.tether = published_tether();
+  // Between an area whose cold resistance delivers the power and one that delivers it warm.
+  bool seen = false;
+  for (double area = 2e-6; area > 0.3e-6; area *= 0.998) {
+    const OperatingPoint p = evaluate(design, area, Condition::hover);
+    design.tether.ambient_temperature_C.reset();
+    design.tether.conductor_temperature_C = 30;
+    const OperatingPoint cold = evaluate(design, area, Condition::hover);
+    design.tether.ambient_temperature_C = 30;
+    CHECK(p.thermal_runaway == (cold.total_power > 0 && std::isnan(p.total_power)));
+    if (p.thermal_runaway) {
+      seen = true;
+      CHECK(std::isnan(p.conductor_temperature));
+      CHECK_FALSE(p.flyable);
+    } else if (p.total_power > 0) {
+      CHECK(p.total_power > cold.total_power);
+    }
+  }
+  CHECK(seen);
+}
+
+TEST_CASE("a tether wound on more layers is hotter, and without ambient nothing moves") {
+  Design design = test::published_design();
+  design.tether = published_tether();
+  design.tether.spooled_length = 20;
+  double before = 0;
+  for (int layers = 1; layers <= 4; ++layers) {
+    design.tether.drum.layers = layers;
+    const OperatingPoint p = evaluate(design, 1.5e-6, Condition::hover);
+    CHECK(p.drum_temperature > before);
+    CHECK(p.drum_temperature > p.conductor_temperature);
+    before = p.drum_temperature;
+  }
+  design.tether.drum.layers = 0;
+  CHECK(std::isnan(evaluate(design, 1.5e-6, Condition::hover).drum_temperature));
+  design.tether.ambient_temperature_C.reset();
+  Design neutral = design;
+  neutral.tether.sun = 1000;
+  neutral.tether.drum.layers = 4;
+  const OperatingPoint p = evaluate(design, 1.5e-6, Condition::forward);
+  CHECK(p.total_power == evaluate(neutral, 1.5e-6, Condition::forward).total_power);
+  CHECK(std::isnan(p.conductor_temperature));
+}
+
+TEST_CASE("wall, strength member and winch pull enter mass, drag and tension") {
+  Design design = test::published_design();
+  const double area = 1e-6;
+  const OperatingPoint plain = evaluate(design, area, Condition::forward);
+  design.tether.insulation.breakdown_strength = 25e6;
+  design.tether.insulation.dielectric_safety_factor = 9;
+  // 9 · 75 V at 25 kV/mm is 0.027 mm: the 0.75 mm for handling stay.
+  CHECK(evaluate(design, area, Condition::forward).tether_mass == plain.tether_mass);
+  design.supply.voltage = 5000;
+  CHECK(insulation_wall(design.tether.insulation, 5000) == Approx(1.8e-3).epsilon(1e-12));
+  design.supply.voltage = 75;
+  design.tether.strength_member = {StrengthMaterial::aramid, 0.5e-6};
+  design.tether.winch_pull = 5;
+  const OperatingPoint strong = evaluate(design, area, Condition::forward);
+  CHECK(strong.tether_mass - plain.tether_mass == Approx(30 * 0.5e-6 * 1450).epsilon(1e-9));
+  CHECK(strong.takeoff_mass == Approx(1.71 + strong.tether_mass).epsilon(1e-12));
+  CHECK(breaking_load(design.tether, area) == Approx(0.5e-6 * 2740e6).epsilon(1e-12));
+  const double diameter = 2 * std::sqrt(0.5e-6 / 0.72 / pi);
+  const double speed = 30 / 3.6;
+  const double drag = 0.5 * design.flight.air_density * 0.75 * 30 *
+                      (4 * (conductor_radius(area) + 0.75e-3) + diameter) * speed * speed;
+  CHECK(strong.tether_tension ==
+        Approx(std::hypot(strong.tether_mass * standard_gravity + 5, drag)).epsilon(1e-9));
+  // Seen along the vertical, the four motors carry drone, tether and pull.
+  CHECK(4 * strong.necessary_thrust * std::cos(strong.pitch) ==
+        Approx(strong.takeoff_mass * standard_gravity + 5).epsilon(1e-9));
+}
+
+TEST_CASE("a converter has its mass, its rating and its ratio") {
+  Design design = test::published_design();
+  design.supply.converter.rated_output_power = 500;
+  design.supply.converter.specific_mass = 0.5e-3;
+  CHECK(evaluate(design, 1e-6, Condition::hover).takeoff_mass ==
+        Approx(1.71 + 0.25 + airborne_mass(design.tether, 1e-6)).epsilon(1e-12));
+  design.supply.converter.fixed_ratio = 0.25;
+  design.supply.converter.min_output_voltage = 14;
+  CHECK(lowest_input_voltage(design.supply.converter) == 56);
+  const OperatingPoint p = evaluate(design, 1e-6, Condition::hover);
+  CHECK(p.available_power == Approx(56 * (75 - 56) / p.tether_resistance).epsilon(1e-12));
+}

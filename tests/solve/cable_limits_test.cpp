@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/random.hpp"
+#include "support/random_designs.hpp"
+#include "tethercalc/solve/optimize.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+Design warm_design() {
+  Design design = test::published_design();
+  design.tether.conductor = {0.0278e-6, 0.00403, 2700, 0};
+  design.tether.ambient_temperature_C = 35;
+  design.tether.insulation.rated_temperature_C = 70;
+  return design;
+}
+
+}  // namespace
+
+TEST_CASE("a demand that nothing reaches leaves the optimum where the fast search finds it") {
+  for (unsigned i = 0; i < 40; ++i) {
+    test::Random random(test::run_seed() + i);
+    INFO("TETHERCALC_TEST_SEED=" << test::run_seed() << ", case " << i);
+    Design design = test::random_design(random);
+    const Optimization plain = optimize(design);
+    design.supply.converter.rated_output_power = 1e9;
+    const Optimization limited = optimize(design);
+    REQUIRE(limited.feasible == plain.feasible);
+    if (!plain.feasible) continue;
+    const bool hover = design.requirements.power_at == Condition::hover;
+    const double power = (hover ? plain.hover : plain.forward).total_power;
+    if (std::isnan(power)) continue;  // on the tilt limit, which rounding passes
+    CHECK((hover ? limited.hover : limited.forward).total_power == Approx(power).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the rated temperature binds where it is named, and nothing cheaper keeps it") {
+  Design design = warm_design();
+  design.requirements.buffer_battery = true;
+  design.tether.spooled_length = 30;
+  design.tether.drum.layers = 4;
+  design.tether.insulation.rated_temperature_C = 60;
+  const Optimization result = optimize(design);
+  REQUIRE(result.feasible);
+  CHECK(result.limited_by == Limit::conductor_temperature);
+  const double hottest = std::max(result.hover.drum_temperature, result.forward.drum_temperature);
+  CHECK(hottest == Approx(60).margin(1e-5));
+  for (double area = 0.3e-6; area < 8e-6; area *= 1.01) {
+    const OperatingPoint hover = evaluate(design, area, Condition::hover);
+    const OperatingPoint forward = evaluate(design, area, Condition::forward);
+    const bool keeps = hover.flyable && forward.flyable && hover.drum_temperature <= 60 &&
+                       forward.drum_temperature <= 60;
+    if (keeps) CHECK(forward.total_power >= result.forward.total_power * (1 - 1e-9));
+  }
+}
+
+TEST_CASE("a tether that cannot bear its tension is refused, and a strength member helps") {
+  Design design = test::published_design();  // aluminium of unknown strength
+  design.requirements.strength_safety_factor = 5;
+  const Optimization weak = optimize(design);
+  CHECK_FALSE(weak.feasible);
+  CHECK(weak.limited_by == Limit::tether_strength);
+  design.tether.strength_member = {StrengthMaterial::uhmwpe, 0.1e-6};
+  const Optimization strong = optimize(design);
+  REQUIRE(strong.feasible);
+  CHECK(breaking_load(design.tether, strong.area) >= 5 * strong.forward.tether_tension);
+}
+
+TEST_CASE("a converter too small for the drone is named as what binds") {
+  Design design = test::published_design();
+  design.supply.converter.rated_output_power = 200;
+  const Optimization result = optimize(design);
+  CHECK_FALSE(result.feasible);
+}

@@ -1,0 +1,76 @@
+#include "tethercalc/solve/envelope.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/random.hpp"
+#include "support/random_designs.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+/// Whether the cable does all that is demanded, told from its operating points alone.
+bool flies(const Design& design) {
+  const double area = *design.tether.cross_section;
+  const OperatingPoint hover = evaluate(design, area, Condition::hover);
+  const OperatingPoint forward = evaluate(design, area, Condition::forward);
+  const Requirements& need = design.requirements;
+  const OperatingPoint& judged = need.headroom_at == Condition::hover ? hover : forward;
+  return hover.flyable && forward.flyable &&
+         (need.buffer_battery || judged.headroom >= need.thrust_headroom);
+}
+
+}  // namespace
+
+TEST_CASE("the greatest payload of strong power is what the motors' last point leaves") {
+  Design design = test::published_design();
+  design.supply.voltage = 600;
+  design.flight.airspeed = 0;
+  design.tether.cross_section = 1.5e-6;
+  const auto end = greatest_reach(design, Reach::payload);
+  REQUIRE(end);
+  const double tether = airborne_mass(design.tether, 1.5e-6);
+  const double lifted = 4 * design.drone.motor.max_thrust() / (2 * standard_gravity);
+  CHECK(end->value == Approx(lifted - 1.71 - tether).epsilon(1e-8));
+  CHECK(end->limit == Limit::available_power);
+}
+
+TEST_CASE("in the envelope a cable flies, beyond it it does not") {
+  int ends = 0;
+  for (unsigned i = 0; i < 60; ++i) {
+    test::Random random(test::run_seed() + i);
+    INFO("TETHERCALC_TEST_SEED=" << test::run_seed() << ", case " << i);
+    Design design = test::random_design(random);
+    design.flight.headwind = 0;
+    design.tether.cross_section = random.magnitude(0.3e-6, 6e-6);
+    for (const Reach reach : all_reaches) {
+      const auto end = greatest_reach(design, reach);
+      if (!end || !end->bounded) continue;
+      ++ends;
+      CHECK(flies(at_reach(design, reach, end->value)));
+      // Every value beyond, of a grid unlike the one of the search.
+      const double last = search_end(design, reach);
+      for (double value = end->value * (1 + 1e-6) + 1e-9; value < last;
+           value = value * 1.3 + 0.01) {
+        CHECK_FALSE(flies(at_reach(design, reach, value)));
+      }
+    }
+  }
+  CHECK(ends > 30);
+}
+
+TEST_CASE("more height leaves less payload and less wind") {
+  Design design = test::published_design();
+  design.tether.cross_section = 1.5e-6;
+  for (const Reach of : {Reach::payload, Reach::headwind}) {
+    const auto curve = envelope_curve(design, of, Reach::height);
+    REQUIRE(curve.size() == 11);
+    double before = 1e9;
+    for (const EnvelopePoint& point : curve) {
+      REQUIRE(point.end);
+      CHECK(point.end->value <= before);
+      before = point.end->value;
+    }
+  }
+}
