@@ -26,7 +26,12 @@ double airframe_drag_force(const AirframeDrag& drag, double air_density, double 
 double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, double guess) {
   const double front = balance.area_force_factor * balance.front_area;
   const double top = balance.area_force_factor * balance.top_area;
-  if (front + balance.tether_drag == 0) return 0;
+  if (front + balance.tether_drag == 0) {
+    // Level flight is a root too, but the one that vanishing front area leads to is the other.
+    const double ratio = top / balance.weight;
+    const double t = ratio > 1 ? std::sqrt((ratio - 1) * (ratio + 1)) : 0;
+    return t <= tan_limit ? t : std::numeric_limits<double>::infinity();
+  }
 
   // g(t) ≤ √(A_f² + A_t²) everywhere, so the root lies below `high`.
   double low = 0;

@@ -249,13 +249,16 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
   const BestHeadroom none{0, std::numeric_limits<double>::quiet_NaN()};
   const double saturated = flight.radius_of_resistance(flight.resistance_of_available_power(
       flight.input_power(flight.design().drone.motor.max_power())));
-  // Beyond saturation the headroom only falls. Where contacts keep the motors from saturating, the
-  // search ends where the tether is so heavy that not even a millionth is left.
-  const double hi = std::min(saturated, heaviest_radius(flight, 1e-6));
+  // Where contacts keep the motors from saturating, the search ends where the tether is so heavy that
+  // not even a millionth is left.
+  const double heaviest = heaviest_radius(flight, 1e-6);
+  if (!(heaviest > 0)) return none;
   Sample best;
   best.necessary = 1;
-  for (const Interval& range : radii_within_tilt(flight, hi)) {
-    const MarginCurve curve(flight, 1, range.lo, range.hi);
+  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+    // Beyond saturation the headroom only falls.
+    const double hi = std::clamp(saturated, range.lo, range.hi);
+    const MarginCurve curve(flight, 1, range.lo, hi);
     const Sample a = curve.at_vertex(0, 0);
     const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
     for (const Sample& end : {a, b}) {

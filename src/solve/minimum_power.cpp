@@ -268,6 +268,10 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
 
 }  // namespace
 
+MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
+  return a.power <= b.power || std::isnan(b.power) ? a : b;
+}
+
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
@@ -275,7 +279,7 @@ MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
   MinimumPower best{nan, nan};
   for (const Interval& part : intersection({radii}, {{0, beyond.lo}, {beyond.hi, infinity}})) {
     const MinimumPower candidate = minimum_within_tilt(flight, part);
-    if (!(candidate.power >= best.power)) best = candidate;
+    best = lesser(best, candidate);
   }
   return best;
 }

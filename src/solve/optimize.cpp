@@ -30,8 +30,7 @@ MinimumPower least_within(const SteadyFlight& flight, const IntervalSet& areas,
   MinimumPower best{std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN()};
   for (const Interval& range : areas) {
-    const MinimumPower candidate = minimum_power(flight, range);
-    if (!(candidate.power >= best.power)) best = candidate;
+    best = lesser(best, minimum_power(flight, range));
   }
   return best;
 }

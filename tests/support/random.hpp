@@ -1,6 +1,7 @@
 // Seeded randomness: every run tries other cases, any run can be repeated.
 #pragma once
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -33,11 +34,14 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Calls `visit(random)` `count` times; a failure names the seed that repeats its case alone.
-#define TETHERCALC_EACH_RANDOM(count, random)                                                    \
-  for (unsigned case_ = 0; case_ < static_cast<unsigned>(count); ++case_)                        \
-    if (::tethercalc::test::Random random(::tethercalc::test::run_seed() + case_); true)         \
-      if (INFO("TETHERCALC_TEST_SEED=" << ::tethercalc::test::run_seed() << ", case " << case_); \
-          true)
+/// Calls `visit(random)` `count` times; a failure names the seed with which it is the first case.
+template <typename Visit>
+void each_random(int count, Visit visit) {
+  for (unsigned i = 0; i < static_cast<unsigned>(count); ++i) {
+    INFO("TETHERCALC_TEST_SEED=" << run_seed() + i);
+    Random random(run_seed() + i);
+    visit(random);
+  }
+}
 
 }  // namespace tethercalc::test

@@ -14,6 +14,9 @@ struct MinimumPower {
   double power = 0;  ///< W from the ground supply; NaN likewise
 };
 
+/// The one with less power; one that exists before one that does not.
+[[nodiscard]] MinimumPower lesser(const MinimumPower& a, const MinimumPower& b);
+
 /// The least power over every cross-section in `within` (m²; hi may be +infinity) whose tilt is
 /// within its limit, whose thrust the motors can make and whose power the line can deliver. No
 /// headroom and no converter cut-off is asked for here.
