@@ -101,7 +101,9 @@ MotorCurve::MotorCurve(std::shared_ptr<const Polyline> line) : line_(std::move(l
 
 double MotorCurve::power(double thrust) const {
   if (thrust <= 0) return 0;
-  if (line_->slopes.empty() || thrust > line_->vertices.back().thrust) {
+  // A thrust that was solved for to be the last point's may miss it by rounding.
+  constexpr double rounding = 1e-12;
+  if (line_->slopes.empty() || thrust > line_->vertices.back().thrust * (1 + rounding)) {
     return std::numeric_limits<double>::infinity();
   }
   const std::size_t i = piece(thrust);

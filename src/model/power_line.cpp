@@ -17,8 +17,10 @@ double available_power(double supply_voltage, double min_input_voltage, double r
 
 double supplied_power(double supply_voltage, double resistance, double load_power) {
   const double discriminant = 1 - 4 * resistance * load_power / (supply_voltage * supply_voltage);
-  if (!(discriminant >= 0)) return std::numeric_limits<double>::quiet_NaN();
-  return 2 * load_power / (1 + std::sqrt(discriminant));
+  // At exactly the most that the line delivers, rounding decides the sign.
+  constexpr double rounding = 1e-12;
+  if (!(discriminant >= -rounding)) return std::numeric_limits<double>::quiet_NaN();
+  return 2 * load_power / (1 + std::sqrt(std::max(0.0, discriminant)));
 }
 
 }  // namespace tethercalc

@@ -29,8 +29,8 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
       contact_resistance_(design.tether.contact_resistance),
       weight_per_mass_(design.flight.gravity),
       tan_pitch_limit_(std::tan(design.requirements.max_pitch)),
-      motors_(design.drone.motor_count),
-      power_scale_(motors_ * design.drone.motor_power_factor) {
+      per_motor_(1.0 / design.drone.motor_count),
+      power_scale_(design.drone.motor_count * design.drone.motor_power_factor) {
   const Tether& tether = design.tether;
   const double wall = tether.insulation.thickness;
   const double insulation = 2 * tether.length * tether.insulation.density * pi * wall;
@@ -86,7 +86,8 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
 }
 
 double SteadyFlight::necessary_thrust(double radius, double tan_pitch) const {
-  return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) / motors_;
+  return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) *
+         per_motor_;
 }
 
 SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
@@ -94,14 +95,16 @@ SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
   const AirframeDrag& drag = design_->drone.drag;
   const double weight = takeoff_mass(radius) * weight_per_mass_;
   const double weight_slope = mass_slope(radius) * weight_per_mass_;
-  const double secant = std::sqrt(1 + tan_pitch * tan_pitch);
+  const double cosine = 1 / std::sqrt(1 + tan_pitch * tan_pitch);
   // The force balance W·t − q·g(t) − F_t = 0, differentiated by r.
   const double balance_slope = weight - area_force_factor_ *
-                                            (drag.top_area - drag.front_area * tan_pitch) /
-                                            (secant * secant * secant);
+                                            (drag.top_area - drag.front_area * tan_pitch) *
+                                            (cosine * cosine * cosine);
   const double tan_slope = (tether_drag_1_ - weight_slope * tan_pitch) / balance_slope;
-  return {weight * secant / motors_,
-          (weight_slope * secant + weight * tan_pitch * tan_slope / secant) / motors_};
+  const double secant = (1 + tan_pitch * tan_pitch) * cosine;
+  return {weight * secant * per_motor_,
+          (weight_slope * secant + weight * tan_pitch * tan_slope * cosine) * per_motor_,
+          tan_slope};
 }
 
 double SteadyFlight::available_thrust(double available_power) const {

@@ -249,8 +249,8 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
   const BestHeadroom none{0, std::numeric_limits<double>::quiet_NaN()};
   const double saturated = flight.radius_of_resistance(flight.resistance_of_available_power(
       flight.input_power(flight.design().drone.motor.max_power())));
-  // Where contacts keep the motors from saturating, the search ends where the tether is so heavy that
-  // not even a millionth is left.
+  // Where contacts keep the motors from saturating, the search ends where the tether is so heavy
+  // that not even a millionth is left.
   const double heaviest = heaviest_radius(flight, 1e-6);
   if (!(heaviest > 0)) return none;
   Sample best;

@@ -1,7 +1,4 @@
-// Notation: r conductor radius; T necessary thrust per motor; P drone power at the converter's
-// input; R loop resistance; I tether current; y total power. From y = P + R·(y/U)² follows y'·(1 −
-// 2RI/U) = P' + I²R' =: s, so s has the sign of the total power's slope. Where the line cannot
-// deliver P, s with I² = P/R has the sign of (R·P)' and points back to where it can.
+// Notation: r conductor radius; T necessary thrust per motor; R loop resistance; I tether current.
 
 #include "tethercalc/solve/minimum_power.hpp"
 
@@ -11,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "solve/valley_search.hpp"
 #include "tethercalc/model/power_line.hpp"
 
 namespace tethercalc {
@@ -21,121 +19,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
-/// Necessary thrust at a radius, and where the next tilt should be looked for.
-struct ThrustAt {
-  double radius = 0;
-  SteadyFlight::Thrust thrust;
-  double tan_pitch = 0;
-};
-
-ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
-  const double tangent = flight.tan_pitch(radius, infinity, tan_guess);
-  return {radius, flight.necessary_thrust_with_slope(radius, tangent), tangent};
-}
-
-/// The radius at which `thrust` is necessary; `from` starts Newton's method. The necessary thrust
-/// rises and is convex in the radius, so that it converges from either side.
-ThrustAt at_thrust(const SteadyFlight& flight, double thrust, ThrustAt from) {
-  for (int step = 0; step < 50; ++step) {
-    const double change = (thrust - from.thrust.value) / from.thrust.slope;
-    const double radius = std::max(from.radius + change, 0.25 * from.radius);
-    // Quadratic convergence: the thrust is then within 1e-16 of the vertex.
-    const bool last = std::abs(change) <= 1e-9 * radius;
-    from = thrust_at(flight, radius, from.tan_pitch);
-    if (last) break;
-  }
-  return from;
-}
-
-/// One straight piece of a motor curve.
-struct Piece {
-  MotorPoint start;
-  double slope = 0;  ///< W/N
-
-  [[nodiscard]] double power(double thrust) const {
-    return start.power + slope * (thrust - start.thrust);
-  }
-};
-
-Piece piece_of(const MotorCurve& motor, std::size_t index) {
-  return {motor.vertices()[index], motor.slope(index)};
-}
-
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
 double total_power(const SteadyFlight& flight, const MotorCurve& motor, const ThrustAt& at) {
   const double total = supplied_power(flight.design().supply.voltage, flight.resistance(at.radius),
                                       flight.input_power(motor.power(at.thrust.value)));
   return total > 0 ? total : infinity;
-}
-
-/// Loss saved over power spent by a little more radius, −I²R'/P', were the motor curve to follow
-/// `piece`: above 1 where the total power falls with the radius.
-double saved_per_spent(const SteadyFlight& flight, const Piece& piece, const ThrustAt& at) {
-  const double voltage = flight.design().supply.voltage;
-  const double resistance = flight.resistance(at.radius);
-  const double power = flight.input_power(piece.power(at.thrust.value));
-  const double supplied = supplied_power(voltage, resistance, power);
-  const double current = supplied / voltage;
-  // With a constant efficiency the input power is linear in the motor's.
-  const double input_slope = flight.input_power(1) - flight.input_power(0);
-  const double current_squared = supplied > 0 ? current * current : power / resistance;
-  return -current_squared * flight.resistance_slope(at.radius) /
-         (input_slope * piece.slope * at.thrust.slope);
-}
-
-/// Between lo and hi, where the motor curve follows `piece` and saved_per_spent passes 1, the
-/// radius at which it does.
-ThrustAt smooth_bottom(const SteadyFlight& flight, const Piece& piece, ThrustAt lo, ThrustAt hi,
-                       ThrustAt start) {
-  // 1e-10 relative in the radius; the power at the bottom is flat to the square of that.
-  constexpr double close_enough = 1e-10;
-  double previous_radius = nan;
-  double previous_gap = nan;
-  ThrustAt at = start;
-  for (int step = 0; step < 200; ++step) {
-    const double gap = std::log(saved_per_spent(flight, piece, at));
-    (gap > 0 ? lo : hi) = at;
-    // Savings fall with 1/r³ while spending rises about with r, hence −4/r for a first slope.
-    double slope = (gap - previous_gap) / (at.radius - previous_radius);
-    if (!(slope < 0)) slope = -4 / at.radius;
-    double next = at.radius - gap / slope;
-    if (!(next > lo.radius && next < hi.radius)) next = 0.5 * (lo.radius + hi.radius);
-    if (std::abs(next - at.radius) <= close_enough * at.radius) break;
-    previous_radius = at.radius;
-    previous_gap = gap;
-    at = thrust_at(flight, next, at.tan_pitch);
-  }
-  return at;
-}
-
-/// The bottom between lo and hi on one piece, at an end where the power only rises or only falls.
-ThrustAt bottom_on_piece(const SteadyFlight& flight, const Piece& piece, const ThrustAt& lo,
-                         const ThrustAt& hi) {
-  if (saved_per_spent(flight, piece, lo) <= 1) return lo;
-  if (saved_per_spent(flight, piece, hi) >= 1) return hi;
-  return smooth_bottom(flight, piece, lo, hi,
-                       thrust_at(flight, 0.5 * (lo.radius + hi.radius), lo.tan_pitch));
-}
-
-/// The bottom between lo and hi of the total power along a convex motor curve, where it is one
-/// valley: a binary search for the piece, then the bottom on it.
-ThrustAt valley_bottom(const SteadyFlight& flight, const MotorCurve& convex, ThrustAt lo,
-                       ThrustAt hi) {
-  std::size_t first = convex.piece(lo.thrust.value);
-  std::size_t last = convex.piece(hi.thrust.value);
-  while (first < last) {
-    const std::size_t middle = first + (last - first + 1) / 2;  // in (first, last]
-    const ThrustAt vertex =
-        at_thrust(flight, convex.vertices()[middle].thrust, last - first > 2 ? lo : hi);
-    if (saved_per_spent(flight, piece_of(convex, middle), vertex) > 1) {
-      first = middle;
-      lo = vertex;
-    } else {
-      last = middle - 1;
-      hi = vertex;
-    }
-  }
-  return bottom_on_piece(flight, piece_of(convex, first), lo, hi);
 }
 
 /// The least power on the pieces of the measured curve between lo and hi on which the convex
@@ -156,21 +44,32 @@ ThrustAt search_outwards(const SteadyFlight& flight, const MotorCurve& measured,
   const std::size_t last = measured.piece(hi.thrust.value);
   const std::size_t home = measured.piece(start.thrust.value);
 
+  const auto bottom_on_piece = [&](std::size_t piece, const ThrustAt& from, const ThrustAt& to) {
+    return valley_bottom(flight, measured, {piece, piece}, {from.radius, to.radius}, to);
+  };
+
   ThrustAt near = start;
   for (std::size_t i = home;; ++i) {  // to the right
     const ThrustAt far = i < last ? at_thrust(flight, measured.vertices()[i + 1].thrust, near) : hi;
-    consider(bottom_on_piece(flight, piece_of(measured, i), near, far));
+    consider(bottom_on_piece(i, near, far));
     near = far;
     if (i == last || total_power(flight, convex, far) >= least) break;
   }
   near = start;
   for (std::size_t i = home;; --i) {  // to the left
     const ThrustAt far = i > first ? at_thrust(flight, measured.vertices()[i].thrust, near) : lo;
-    consider(bottom_on_piece(flight, piece_of(measured, i), far, near));
+    consider(bottom_on_piece(i, far, near));
     near = far;
     if (i == first || total_power(flight, convex, far) >= least) break;
   }
   return best;
+}
+
+/// The necessary thrust at `radius`, or at the radius below it at which the motors end.
+ThrustAt within_motors(const SteadyFlight& flight, double radius, const ThrustAt& near) {
+  const double most = flight.design().drone.motor.max_thrust();
+  const ThrustAt at = thrust_at(flight, radius, near.tan_guess(radius));
+  return at.thrust.value > most ? at_thrust(flight, most, at) : at;
 }
 
 /// For a converter whose efficiency varies: the smooth pieces between all kinks, one by one.
@@ -227,39 +126,54 @@ ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, cons
   return best;
 }
 
-/// The range of radii in which a point of least power can lie, from the range asked for: thick
-/// enough to deliver what the lightest tether needs, light enough for the motors in still air.
-Interval promising_radii(const SteadyFlight& flight, Interval radii) {
+/// About the radius at which the loss saved by more conductor, I²·2(R − R_contact)/r, equals the
+/// power spent on carrying it, with the current and the price of thrust of the lightest tether.
+double first_guess(const SteadyFlight& flight, const MotorCurve& motor, const ThrustAt& lightest,
+                   double least_power) {
   const Design& design = flight.design();
-  const double tangent = flight.tan_pitch(radii.lo, infinity);
-  const double least_power = flight.drone_power(flight.necessary_thrust(radii.lo, tangent));
-  const double voltage = design.supply.voltage;
-  const double thinnest = flight.radius_of_resistance(voltage * voltage / (4 * least_power));
-  const double heaviest = flight.radius_of_mass(
-      design.drone.motor_count * design.drone.motor.max_thrust() / design.flight.gravity);
-  return {std::max(radii.lo, thinnest), std::min(radii.hi, heaviest)};
+  const double current = least_power / design.supply.voltage;
+  const double power_per_mass = (flight.input_power(1) - flight.input_power(0)) *
+                                motor.slope(motor.piece(lightest.thrust.value)) *
+                                design.flight.gravity / design.drone.motor_count;
+  const double saved = -current * current * flight.resistance_slope(1);  // times 1/r³
+  // As if the conductor alone had mass: r⁴ = saved/(power_per_mass·2·mass_2). The insulation's
+  // share then makes it thinner.
+  const double bare = std::sqrt(std::sqrt(saved / (power_per_mass * flight.mass_curvature())));
+  const double share = flight.mass_curvature() * bare / flight.mass_slope(bare);
+  return bare * std::sqrt(std::sqrt(share));
 }
 
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
-  radii = promising_radii(flight, radii);
+  const Design& design = flight.design();
+  const MotorCurve& motor = design.drone.motor;
+  const ThrustAt lightest = thrust_at(flight, radii.lo, 0);
+  const double least_power = flight.drone_power(lightest.thrust.value);
+  if (!(least_power < infinity)) return none;
+  // Thick enough to deliver what the lightest tether needs, light enough for the motors in still
+  // air.
+  const double voltage = design.supply.voltage;
+  radii.lo = std::max(radii.lo, flight.radius_of_resistance(voltage * voltage / (4 * least_power)));
+  radii.hi = std::min(radii.hi, flight.radius_of_mass(design.drone.motor_count *
+                                                      motor.max_thrust() / design.flight.gravity));
   if (!(radii.lo <= radii.hi)) return none;
-  const MotorCurve& motor = flight.design().drone.motor;
-  const ThrustAt lo = thrust_at(flight, radii.lo, 0);
-  ThrustAt hi = thrust_at(flight, radii.hi, lo.tan_pitch);
-  if (lo.thrust.value > motor.max_thrust()) return none;
-  // A hair below the last point, so that rounding does not push it over the motors' limit.
-  const double most = motor.max_thrust() * (1 - 1e-14);
-  if (hi.thrust.value > most) hi = at_thrust(flight, most, hi);
 
   ThrustAt best;
-  if (flight.design().supply.converter.efficiency.size() > 1) {
-    best = search_every_piece(flight, lo, hi);
+  if (design.supply.converter.efficiency.size() > 1) {
+    const ThrustAt lo = thrust_at(flight, radii.lo, lightest.tan_pitch);
+    if (lo.thrust.value > motor.max_thrust()) return none;
+    best = search_every_piece(flight, lo, within_motors(flight, radii.hi, lo));
   } else {
     const MotorCurve convex = motor.convex_hull();
-    best = valley_bottom(flight, convex, lo, hi);
+    const double guess =
+        std::clamp(first_guess(flight, convex, lightest, least_power), radii.lo, radii.hi);
+    best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2}, radii,
+                         thrust_at(flight, guess, lightest.tan_pitch));
+    if (best.radius < radii.lo * (1 - 1e-12)) return none;  // where the motors end
     if (motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
-      best = search_outwards(flight, motor, convex, lo, hi, best);
+      const ThrustAt lo = thrust_at(flight, radii.lo, best.tan_guess(radii.lo));
+      best =
+          search_outwards(flight, motor, convex, lo, within_motors(flight, radii.hi, best), best);
     }
   }
   const double power = total_power(flight, motor, best);

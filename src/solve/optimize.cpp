@@ -132,7 +132,12 @@ Optimization optimize(const Design& design) {
       result.feasible = true;  // by construction; an edge may miss a headroom of 1 by rounding
     }
   }
-  result.feasible ? name_limit(result, flights) : name_obstacle(result, flights);
+  if (result.feasible) {
+    name_limit(result, flights);
+  } else {
+    result.area = std::numeric_limits<double>::quiet_NaN();
+    name_obstacle(result, flights);
+  }
   return result;
 }
 

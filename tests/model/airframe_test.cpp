@@ -24,8 +24,7 @@ double tilt_by_bisection(const ForceBalance& b) {
   return test::plain::bisect(
       [&](double theta) {
         const double drag =
-            b.area_force_factor *
-                (b.front_area * std::cos(theta) + b.top_area * std::sin(theta)) +
+            b.area_force_factor * (b.front_area * std::cos(theta) + b.top_area * std::sin(theta)) +
             b.tether_drag;
         return b.weight * std::sin(theta) - drag * std::cos(theta);
       },
@@ -67,12 +66,10 @@ TEST_CASE("drag of the airframe is the paper's formula and turns with the airspe
   const AirframeDrag drag{0.01451, 0.01361, 19.27, 0};
   const double v = 8;
   const double theta = 0.1;
-  const double expected = 0.5 * 1.293 *
-                          (0.01451 * std::cos(theta) + 0.01361 * std::sin(theta)) *
-                          (v * v + 19.27 * v);
+  const double expected =
+      0.5 * 1.293 * (0.01451 * std::cos(theta) + 0.01361 * std::sin(theta)) * (v * v + 19.27 * v);
   CHECK(airframe_drag_force(drag, 1.293, v, std::tan(theta)) == Approx(expected).epsilon(1e-14));
-  CHECK(airframe_drag_force(drag, 1.293, -v, -std::tan(theta)) ==
-        Approx(-expected).epsilon(1e-14));
+  CHECK(airframe_drag_force(drag, 1.293, -v, -std::tan(theta)) == Approx(-expected).epsilon(1e-14));
   CHECK(airframe_drag_force(drag, 1.293, 0, 0) == 0);
 }
 

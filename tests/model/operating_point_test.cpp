@@ -97,10 +97,17 @@ TEST_CASE("a heavier or hotter or longer-spooled design never needs less power")
     const double area = random.magnitude(1e-8, 1e-4);
     Design worse = design;
     switch (random.integer(0, 3)) {
-      case 0: worse.tether.conductor_temperature_C += random.uniform(0, 50); break;
-      case 1: worse.tether.spooled_length += random.uniform(0, 50); break;
-      case 2: worse.tether.contact_resistance += random.uniform(0, 1); break;
-      default: worse.drone.auxiliary_power += random.uniform(0, 50);
+      case 0:
+        worse.tether.conductor_temperature_C += random.uniform(0, 50);
+        break;
+      case 1:
+        worse.tether.spooled_length += random.uniform(0, 50);
+        break;
+      case 2:
+        worse.tether.contact_resistance += random.uniform(0, 1);
+        break;
+      default:
+        worse.drone.auxiliary_power += random.uniform(0, 50);
     }
     const double before = evaluate(design, area, Condition::hover).total_power;
     const double after = evaluate(worse, area, Condition::hover).total_power;
@@ -159,8 +166,8 @@ TEST_CASE("the slope of the necessary thrust is that of its secant") {
     };
     const double step = 1e-4 * radius;
     const double secant = (thrust(radius + step) - thrust(radius - step)) / (2 * step);
-    const auto tangent = flight.necessary_thrust_with_slope(
-        radius, flight.tan_pitch(radius, test::plain::infinity));
+    const auto tangent =
+        flight.necessary_thrust_with_slope(radius, flight.tan_pitch(radius, test::plain::infinity));
     CHECK(tangent.slope == Approx(secant).epsilon(1e-5).margin(1e-9 * tangent.value / step));
   });
 }

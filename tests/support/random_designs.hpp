@@ -70,8 +70,8 @@ inline Converter random_converter(Random& random, double voltage) {
       // Rising faster than this, it would draw less power at a higher load.
       const double most = last.efficiency * (0.1 + 0.9 * output / std::max(last.output_power, 1.0));
       converter.efficiency.push_back(
-          {output, std::min(most, std::clamp(last.efficiency + random.uniform(-0.15, 0.15), 0.5,
-                                             0.99))});
+          {output,
+           std::min(most, std::clamp(last.efficiency + random.uniform(-0.15, 0.15), 0.5, 0.99))});
     }
   }
   if (random.chance(0.7)) converter.min_input_voltage = random.uniform(0, 0.8) * voltage;

@@ -34,7 +34,8 @@ class MotorCurve {
   /// not belongs through `isotonic_motor_points` first.
   explicit MotorCurve(std::vector<MotorPoint> points);
 
-  /// Electrical power in W for `thrust` in N; 0 for thrust ≤ 0; +infinity above `max_thrust()`.
+  /// Electrical power in W for `thrust` in N; 0 for thrust ≤ 0; +infinity above `max_thrust()`
+  /// (by more than 1e-12 of it, so that rounding does not decide).
   [[nodiscard]] double power(double thrust) const;
 
   /// Thrust in N from electrical power in W; 0 for power ≤ 0; `max_thrust()` from `max_power()` on.

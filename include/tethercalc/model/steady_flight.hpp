@@ -26,6 +26,8 @@ class SteadyFlight {
   }
   /// Derivative of the mass by the radius, kg/m.
   [[nodiscard]] double mass_slope(double radius) const { return mass_1_ + 2 * radius * mass_2_; }
+  /// Second derivative, kg/m².
+  [[nodiscard]] double mass_curvature() const { return 2 * mass_2_; }
 
   /// Radius at which the take-off mass is `mass`; negative where even the thinnest tether is
   /// heavier.
@@ -64,6 +66,7 @@ class SteadyFlight {
   struct Thrust {
     double value = 0;  ///< N
     double slope = 0;  ///< N/m
+    double tan_slope = 0;  ///< derivative of the tangent of the tilt, 1/m
   };
   /// Thrust that carries the weight at a tilt with tangent `tan_pitch`: (m_d + m_t)g/(n·cosθ).
   [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const;
@@ -106,7 +109,7 @@ class SteadyFlight {
   double pitch_sign_;
   double tan_pitch_limit_;
   double deliverable_;  ///< V², P_avail·R
-  double motors_;       ///< number of motors
+  double per_motor_;    ///< one over the number of motors
   double power_scale_;  ///< converter output per data-sheet power of one motor: n·f
 };
 
