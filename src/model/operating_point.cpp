@@ -36,7 +36,8 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   point.tether_loss = point.total_power - point.drone_power;
   point.current = point.total_power / design.supply.voltage;
   point.received_voltage = design.supply.voltage - point.current * point.tether_resistance;
-  point.flyable = point.headroom >= 1;
+  constexpr double rounding = 1e-12;
+  point.flyable = point.headroom >= 1 - rounding;
   return point;
 }
 

@@ -189,12 +189,16 @@ MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(beyond.lo < beyond.hi)) return minimum_within_tilt(flight, radii);
   MinimumPower best{nan, nan};
-  for (const Interval& part : intersection({radii}, {{0, beyond.lo}, {beyond.hi, infinity}})) {
-    const MinimumPower candidate = minimum_within_tilt(flight, part);
-    best = lesser(best, candidate);
+  if (!(beyond.lo < beyond.hi)) {
+    best = minimum_within_tilt(flight, radii);
+  } else {
+    for (const Interval& part : intersection({radii}, {{0, beyond.lo}, {beyond.hi, infinity}})) {
+      best = lesser(best, minimum_within_tilt(flight, part));
+    }
   }
+  // Squaring the root of an end of the range may miss it by rounding.
+  if (best.power > 0) best.area = std::clamp(best.area, within.lo, within.hi);
   return best;
 }
 

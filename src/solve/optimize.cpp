@@ -76,14 +76,18 @@ void name_limit(Optimization& result, const Flights& flights) {
       area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
 }
 
-/// What keeps the best reachable headroom of one condition down.
-Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best) {
+/// What keeps the best reachable headroom of one condition below `demanded`.
+Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(best.value > 0)) return beyond.lo < beyond.hi ? Limit::max_pitch : Limit::available_power;
-  const OperatingPoint point = evaluate(flight, best.area);
-  if (at_tilt_limit(point, flight.design())) return Limit::max_pitch;
-  const double saturation = flight.design().drone.motor.max_thrust() * (1 - same_edge);
-  return point.available_thrust >= saturation ? Limit::motor_thrust : Limit::available_power;
+  const bool tilts = beyond.lo < beyond.hi;
+  if (!(best.value > 0)) return tilts ? Limit::max_pitch : Limit::available_power;
+  if (at_tilt_limit(evaluate(flight, best.area), flight.design())) return Limit::max_pitch;
+  const double lightest = tilts && !(beyond.lo > 0) ? beyond.hi : 0;
+  const double least_thrust =
+      flight.necessary_thrust(lightest, flight.tan_pitch(lightest, infinity));
+  return flight.design().drone.motor.max_thrust() < demanded * least_thrust
+             ? Limit::motor_thrust
+             : Limit::available_power;
 }
 
 /// Names what an infeasible design lacks: the first demand that no area meets; where each is met by
@@ -104,7 +108,7 @@ void name_obstacle(Optimization& result, const Flights& flights) {
   }
   const SteadyFlight& flight = flights.in(missed.condition);
   result.limiting_condition = missed.condition;
-  result.limited_by = obstacle(flight, best_headroom(flight));
+  result.limited_by = obstacle(flight, best_headroom(flight), missed.headroom);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ struct OperatingPoint {
   double current = 0;            ///< A
   double received_voltage = 0;   ///< V at the converter input
 
-  /// True where the tilt is within its limit and the headroom at least 1: the motors make the
+  /// True where the tilt is within its limit and the headroom at least 1 (but for
+  /// rounding): the motors make the
   /// thrust, from power that arrives at no less than the lowest received voltage.
   bool flyable = false;
 };

@@ -10,9 +10,11 @@ namespace tethercalc {
 /// What keeps the optimum, or an infeasible design, from being better.
 enum class Limit {
   minimum_power,    ///< nothing: the least power lies inside the feasible set
-  available_power,  ///< a thinner conductor would starve the motors of power
+  available_power,  ///< thinner conductors starve the motors of power; in an infeasible design,
+                    ///< thicker ones weigh more than they deliver
   takeoff_mass,     ///< a thicker conductor would be too heavy
-  motor_thrust,     ///< the motors' last data-sheet point is below the thrust asked for
+  motor_thrust,     ///< with any power, the motors' last data-sheet point is below the thrust asked
+                    ///< for, however light the tether
   max_pitch,        ///< the tilt limit
 };
 
