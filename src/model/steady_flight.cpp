@@ -61,7 +61,7 @@ double SteadyFlight::radius_of_resistance(double resistance) const {
   return line > 0 ? std::sqrt(resistance_area_ / line) : std::numeric_limits<double>::infinity();
 }
 
-double SteadyFlight::tan_pitch(double radius, double tan_limit, double guess) const {
+double SteadyFlight::balanced_tan_pitch(double radius, double tan_limit, double guess) const {
   const AirframeDrag& drag = design_->drone.drag;
   return equilibrium_tan_pitch(
       {takeoff_mass(radius) * weight_per_mass_, area_force_factor_,
@@ -76,6 +76,7 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   const double b = weight_per_mass_ * mass_1_ * t - tether_drag_1_;
   const double c = weight_per_mass_ * (drone_mass_ + mass_0_) * t - tether_drag_0_ -
                    area_force_factor_ * effective_area(design_->drone.drag, t);
+  if (b >= 0 && c >= 0) return {};  // as in hover
   const double discriminant = b * b - 4 * a * c;
   if (!(discriminant > 0)) return {};
   const double root = std::sqrt(discriminant);
@@ -83,11 +84,6 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   const double far = b > 0 ? -(b + root) / (2 * a) : (root - b) / (2 * a);
   const double near = c / (a * far);
   return {std::max(0.0, std::min(far, near)), std::max(0.0, std::max(far, near))};
-}
-
-double SteadyFlight::necessary_thrust(double radius, double tan_pitch) const {
-  return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) *
-         per_motor_;
 }
 
 SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
@@ -111,11 +107,6 @@ double SteadyFlight::available_thrust(double available_power) const {
   const double output = converter_output_power(design_->supply.converter,
                                                available_power - design_->drone.auxiliary_power);
   return design_->drone.motor.thrust(output / power_scale_);
-}
-
-double SteadyFlight::input_power(double motor_power) const {
-  return converter_input_power(design_->supply.converter, power_scale_ * motor_power) +
-         design_->drone.auxiliary_power;
 }
 
 }  // namespace tethercalc

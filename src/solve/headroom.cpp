@@ -49,7 +49,7 @@ class MarginCurve {
   [[nodiscard]] Sample at_vertex(std::size_t index, double tan_guess) const {
     if (index == last_index()) return at_radius(hi_, tan_guess);
     const MotorPoint& vertex = flight_.design().drone.motor.vertices()[index];
-    const double radius = radius_of_input(flight_.input_power(vertex.power));
+    const double radius = flight_.radius_of_available_power(flight_.input_power(vertex.power));
     if (!(radius > lo_)) return at_radius(lo_, tan_guess);
     if (!(radius < hi_)) return at_radius(hi_, tan_guess);
     return with_available(radius, vertex.thrust, tan_guess);
@@ -63,7 +63,7 @@ class MarginCurve {
   /// Φ: the radius that would make what is necessary at `sample` available; +infinity where no
   /// radius does.
   [[nodiscard]] double needed_radius(const Sample& sample) const {
-    return radius_of_input(flight_.drone_power(sample.necessary));
+    return flight_.radius_of_available_power(flight_.drone_power(sample.necessary));
   }
 
   /// A sample without its available thrust.
@@ -79,18 +79,13 @@ class MarginCurve {
     for (const EfficiencyPoint& point : converter.efficiency) {
       const double input =
           point.output_power / point.efficiency + flight_.design().drone.auxiliary_power;
-      const double radius = radius_of_input(input);
+      const double radius = flight_.radius_of_available_power(input);
       if (radius > a.radius && radius < b.radius) radii.push_back(radius);
     }
     return radii;
   }
 
  private:
-  [[nodiscard]] double radius_of_input(double power) const {
-    return power > 0 ? flight_.radius_of_resistance(flight_.resistance_of_available_power(power))
-                     : 0;
-  }
-
   [[nodiscard]] Sample with_available(double radius, double available, double tan_guess) const {
     const double tangent = flight_.tan_pitch(radius, infinity, tan_guess);
     return {radius, available, required_ * flight_.necessary_thrust(radius, tangent), tangent};
@@ -247,8 +242,8 @@ IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
 /// Radius from which on the available power is more than the motors can use; +infinity where
 /// contacts keep it below.
 double saturation_radius(const SteadyFlight& flight) {
-  return flight.radius_of_resistance(flight.resistance_of_available_power(
-      flight.input_power(flight.design().drone.motor.max_power())));
+  return flight.radius_of_available_power(
+      flight.input_power(flight.design().drone.motor.max_power()));
 }
 
 /// Radius above which the necessary thrust, even in still air, exceeds 1/`headroom` of the most the

@@ -128,9 +128,9 @@ ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, cons
 
 /// About the radius at which the loss saved by more conductor, I²·2(R − R_contact)/r, equals the
 /// power spent on carrying it, with the current and the price of thrust of the lightest tether.
-double first_guess(const SteadyFlight& flight, const MotorCurve& motor, const ThrustAt& lightest,
-                   double least_power) {
+double first_guess(const SteadyFlight& flight, const ThrustAt& lightest, double least_power) {
   const Design& design = flight.design();
+  const MotorCurve& motor = design.drone.motor;
   const double current = least_power / design.supply.voltage;
   const double power_per_mass = (flight.input_power(1) - flight.input_power(0)) *
                                 motor.slope(motor.piece(lightest.thrust.value)) *
@@ -147,34 +147,36 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
   const MotorCurve& motor = design.drone.motor;
-  const ThrustAt lightest = thrust_at(flight, radii.lo, 0);
-  const double least_power = flight.drone_power(lightest.thrust.value);
+  ThrustAt lo = thrust_at(flight, radii.lo, 0);
+  const double least_power = flight.drone_power(lo.thrust.value);
   if (!(least_power < infinity)) return none;
   // Thick enough to deliver what the lightest tether needs, light enough for the motors in still
   // air.
   const double voltage = design.supply.voltage;
-  radii.lo = std::max(radii.lo, flight.radius_of_resistance(voltage * voltage / (4 * least_power)));
+  const double thinnest = flight.radius_of_resistance(voltage * voltage / (4 * least_power));
   radii.hi = std::min(radii.hi, flight.radius_of_mass(design.drone.motor_count *
                                                       motor.max_thrust() / design.flight.gravity));
-  if (!(radii.lo <= radii.hi)) return none;
+  if (!(std::max(radii.lo, thinnest) <= radii.hi)) return none;
+  const bool constant_efficiency = design.supply.converter.efficiency.size() == 1;
+  const double guess =
+      constant_efficiency ? std::min(first_guess(flight, lo, least_power), radii.hi) : 0;
+  if (thinnest > radii.lo) {
+    radii.lo = thinnest;
+    lo = thrust_at(flight, radii.lo, lo.tan_guess(radii.lo));
+    if (lo.thrust.value > motor.max_thrust()) return none;
+  }
 
   ThrustAt best;
-  if (design.supply.converter.efficiency.size() > 1) {
-    const ThrustAt lo = thrust_at(flight, radii.lo, lightest.tan_pitch);
-    if (lo.thrust.value > motor.max_thrust()) return none;
-    best = search_every_piece(flight, lo, within_motors(flight, radii.hi, lo));
-  } else {
-    const MotorCurve convex = motor.convex_hull();
-    const double guess =
-        std::clamp(first_guess(flight, convex, lightest, least_power), radii.lo, radii.hi);
+  if (constant_efficiency) {
+    const MotorCurve& convex = motor.convex_hull();
     best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2}, radii,
-                         thrust_at(flight, guess, lightest.tan_pitch));
-    if (best.radius < radii.lo * (1 - 1e-12)) return none;  // where the motors end
-    if (motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
-      const ThrustAt lo = thrust_at(flight, radii.lo, best.tan_guess(radii.lo));
+                         guess > radii.lo ? thrust_at(flight, guess, lo.tan_guess(guess)) : lo);
+    if (!motor.is_convex() && motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
       best =
           search_outwards(flight, motor, convex, lo, within_motors(flight, radii.hi, best), best);
     }
+  } else {
+    best = search_every_piece(flight, lo, within_motors(flight, radii.hi, lo));
   }
   const double power = total_power(flight, motor, best);
   return power < infinity ? MinimumPower{area_of(best.radius), power} : none;

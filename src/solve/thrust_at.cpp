@@ -14,6 +14,7 @@ ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) 
 
 ThrustAt at_thrust(const SteadyFlight& flight, double thrust, ThrustAt from) {
   for (int step = 0; step < 50; ++step) {
+    if (from.thrust.value == thrust) break;
     const double change = (thrust - from.thrust.value) / from.thrust.slope;
     const double radius = std::max(from.radius + change, 0.25 * from.radius);
     // Quadratic convergence: the thrust is then within 1e-16 of the one asked for.

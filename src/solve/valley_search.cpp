@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "tethercalc/model/power_line.hpp"
 
@@ -24,6 +25,7 @@ class ValleySearch {
   ValleySearch(const SteadyFlight& flight, const MotorCurve& motor, Pieces pieces, Interval radii)
       : flight_(flight),
         motor_(motor),
+        vertices_(motor.vertices()),
         pieces_(pieces),
         per_voltage_(1 / flight.design().supply.voltage),
         idle_(flight.input_power(0)),
@@ -50,7 +52,7 @@ class ValleySearch {
         next = at.radius * near_exp((excess + jump_at(vertex, falls)) / fall);
         const bool tiny = std::abs(next - at.radius) <= 1e-3 * at.radius;
         if (tiny || !passes(at, next, vertex, falls)) {
-          const ThrustAt kink = at_thrust(flight_, motor_.vertices()[vertex].thrust, at);
+          const ThrustAt kink = at_thrust(flight_, vertices_[vertex].thrust, at);
           if (left_.radius < kink.radius && kink.radius < right_.radius) {
             const bool falls_up_to = saved_per_spent(kink, vertex - 1) >= 1;
             const bool rises_from = vertex > pieces_.last || saved_per_spent(kink, vertex) <= 1;
@@ -80,7 +82,7 @@ class ValleySearch {
   /// Loss saved over power spent by a little more radius, −I²R'/P', were the motor curve to follow
   /// `piece` everywhere: above 1 where the total power falls with the radius.
   [[nodiscard]] double saved_per_spent(const ThrustAt& at, std::size_t piece) const {
-    const MotorPoint& start = motor_.vertices()[piece];
+    const MotorPoint& start = vertices_[piece];
     const double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
     const double power =
         idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
@@ -112,12 +114,11 @@ class ValleySearch {
   /// Whether the thrust at `next` is about beyond the vertex, one of those between the pieces or
   /// the last of the motors.
   [[nodiscard]] bool passes(const ThrustAt& at, double next, std::size_t vertex, bool up) const {
-    if (up ? vertex > pieces_.last && vertex + 1 < motor_.vertices().size()
-           : vertex <= pieces_.first) {
+    if (up ? vertex > pieces_.last && vertex + 1 < vertices_.size() : vertex <= pieces_.first) {
       return false;
     }
     const double thrust = at.thrust.value + at.thrust.slope * (next - at.radius);
-    const double limit = motor_.vertices()[vertex].thrust;
+    const double limit = vertices_[vertex].thrust;
     return up ? thrust > limit : thrust < limit;
   }
 
@@ -145,6 +146,7 @@ class ValleySearch {
 
   const SteadyFlight& flight_;
   const MotorCurve& motor_;
+  std::span<const MotorPoint> vertices_;
   Pieces pieces_;
   double per_voltage_;
   double idle_;         ///< W at the converter's input without thrust

@@ -1,6 +1,9 @@
 // A design in one flight condition, prepared for evaluation at many conductor sizes.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
@@ -45,7 +48,11 @@ class SteadyFlight {
   [[nodiscard]] double radius_of_resistance(double resistance) const;
 
   /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
-  [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const;
+  [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const {
+    return area_force_factor_ == 0 && tether_drag_1_ == 0
+               ? 0
+               : balanced_tan_pitch(radius, tan_limit, guess);
+  }
 
   /// Sign of the tilt: −1 flying backward through the air, else +1.
   [[nodiscard]] double pitch_sign() const { return pitch_sign_; }
@@ -64,12 +71,15 @@ class SteadyFlight {
 
   /// A thrust of one motor and how it changes with the radius.
   struct Thrust {
-    double value = 0;  ///< N
-    double slope = 0;  ///< N/m
+    double value = 0;      ///< N
+    double slope = 0;      ///< N/m
     double tan_slope = 0;  ///< derivative of the tangent of the tilt, 1/m
   };
   /// Thrust that carries the weight at a tilt with tangent `tan_pitch`: (m_d + m_t)g/(n·cosθ).
-  [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const;
+  [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const {
+    return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) *
+           per_motor_;
+  }
   /// The same with its derivative, where `tan_pitch` is that of the equilibrium at `radius`.
   [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const;
 
@@ -80,9 +90,14 @@ class SteadyFlight {
   /// Thrust the motors make of `available_power` at the converter's input.
   [[nodiscard]] double available_thrust(double available_power) const;
 
-  /// Loop resistance at which the available power is exactly `power` (> 0).
-  [[nodiscard]] double resistance_of_available_power(double power) const {
-    return deliverable_ / power;
+  /// Radius at which the available power is exactly `power`: 0 for power ≤ 0, +infinity where
+  /// contacts alone keep it lower.
+  [[nodiscard]] double radius_of_available_power(double power) const {
+    if (!(power > 0)) return 0;
+    // P = deliverable/(R_contact + resistance_area/r²), solved for r.
+    const double line = deliverable_ - contact_resistance_ * power;
+    return line > 0 ? std::sqrt(resistance_area_ * power / line)
+                    : std::numeric_limits<double>::infinity();
   }
 
   /// Power at the converter's input for a thrust, +infinity where the motors cannot make it.
@@ -90,7 +105,10 @@ class SteadyFlight {
     return input_power(design_->drone.motor.power(thrust));
   }
   /// The same for one motor's data-sheet power in W.
-  [[nodiscard]] double input_power(double motor_power) const;
+  [[nodiscard]] double input_power(double motor_power) const {
+    return converter_input_power(design_->supply.converter, power_scale_ * motor_power) +
+           design_->drone.auxiliary_power;
+  }
   /// Power at the converter's output for one motor's data-sheet power.
   [[nodiscard]] double output_power(double motor_power) const { return power_scale_ * motor_power; }
 
@@ -98,6 +116,8 @@ class SteadyFlight {
   [[nodiscard]] const Design& design() const { return *design_; }
 
  private:
+  [[nodiscard]] double balanced_tan_pitch(double radius, double tan_limit, double guess) const;
+
   const Design* design_;
   double drone_mass_;
   double mass_0_, mass_1_, mass_2_;  ///< tether mass = mass_0 + mass_1·r + mass_2·r²
