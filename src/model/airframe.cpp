@@ -48,8 +48,8 @@ double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, doub
   double low = 0;
   double high = (level_drag + top) * per_weight;
   double t = guess > low && guess < high ? guess : level_drag * per_weight;
-  // Newton squares the error in every step, so a step below 3e-8·t leaves an error below 1e-15·t.
-  constexpr double last_step = 3e-8;
+  // Newton squares the error in every step, so a step below 1e-7·t leaves an error below 1e-14·t.
+  constexpr double last_step = 1e-7;
   // Bisection alone would need 60 steps; Newton takes three or four.
   for (int step = 0; step < 100; ++step) {
     const double cosine = 1 / std::sqrt(1 + t * t);

@@ -127,57 +127,61 @@ ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, cons
 }
 
 /// About the radius at which the loss saved by more conductor, I²·2(R − R_contact)/r, equals the
-/// power spent on carrying it, with the current and the price of thrust of the lightest tether.
+/// power spent on carrying it.
 double first_guess(const SteadyFlight& flight, const ThrustAt& lightest, double least_power) {
   const Design& design = flight.design();
   const MotorCurve& motor = design.drone.motor;
-  const double current = least_power / design.supply.voltage;
-  const double power_per_mass = (flight.input_power(1) - flight.input_power(0)) *
-                                motor.slope(motor.piece(lightest.thrust.value)) *
-                                design.flight.gravity / design.drone.motor_count;
-  const double saved = -current * current * flight.resistance_slope(1);  // times 1/r³
-  // As if the conductor alone had mass: r⁴ = saved/(power_per_mass·2·mass_2). The insulation's
-  // share then makes it thinner.
-  const double bare = std::sqrt(std::sqrt(saved / (power_per_mass * flight.mass_curvature())));
+  const double voltage = design.supply.voltage;
+  // With the current and the price of thrust of the lightest tether, and as if only the conductor
+  // had mass: r⁴ = I²·saved/(price·curvature).
+  const double current = least_power / voltage;
+  const double price = (flight.input_power(1) - flight.input_power(0)) *
+                       motor.slope(motor.piece(lightest.thrust.value)) * design.flight.gravity /
+                       design.drone.motor_count;
+  const double saved = -flight.resistance_slope(1);
+  const double bare = std::sqrt(current * std::sqrt(saved / (price * flight.mass_curvature())));
+  // Then with the insulation's mass, the loss in the line and the weight there; a propeller's power
+  // grows with thrust to the 3/2.
   const double share = flight.mass_curvature() * bare / flight.mass_slope(bare);
-  return bare * std::sqrt(std::sqrt(share));
+  const double growth = flight.takeoff_mass(bare) / flight.takeoff_mass(lightest.radius);
+  const double root_growth = std::sqrt(growth);
+  const double supplied =
+      supplied_power(voltage, flight.resistance(bare), least_power * growth * root_growth);
+  const double more_current = supplied > 0 ? supplied / least_power : 2;
+  return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
 
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
   const MotorCurve& motor = design.drone.motor;
-  ThrustAt lo = thrust_at(flight, radii.lo, 0);
-  const double least_power = flight.drone_power(lo.thrust.value);
+  const ThrustAt lightest = thrust_at(flight, radii.lo, 0);
+  const double least_power = flight.drone_power(lightest.thrust.value);
   if (!(least_power < infinity)) return none;
   // Thick enough to deliver what the lightest tether needs, light enough for the motors in still
   // air.
   const double voltage = design.supply.voltage;
-  const double thinnest = flight.radius_of_resistance(voltage * voltage / (4 * least_power));
+  radii.lo = std::max(radii.lo, flight.radius_of_resistance(voltage * voltage / (4 * least_power)));
   radii.hi = std::min(radii.hi, flight.radius_of_mass(design.drone.motor_count *
                                                       motor.max_thrust() / design.flight.gravity));
-  if (!(std::max(radii.lo, thinnest) <= radii.hi)) return none;
-  const bool constant_efficiency = design.supply.converter.efficiency.size() == 1;
-  const double guess =
-      constant_efficiency ? std::min(first_guess(flight, lo, least_power), radii.hi) : 0;
-  if (thinnest > radii.lo) {
-    radii.lo = thinnest;
-    lo = thrust_at(flight, radii.lo, lo.tan_guess(radii.lo));
-    if (lo.thrust.value > motor.max_thrust()) return none;
-  }
+  if (!(radii.lo <= radii.hi)) return none;
 
+  const auto at_radius = [&](double radius) {
+    return radius == lightest.radius ? lightest : within_motors(flight, radius, lightest);
+  };
   ThrustAt best;
-  if (constant_efficiency) {
+  if (design.supply.converter.efficiency.size() > 1) {
+    best = search_every_piece(flight, at_radius(radii.lo), at_radius(radii.hi));
+  } else {
+    const double guess = first_guess(flight, lightest, least_power);
     const MotorCurve& convex = motor.convex_hull();
     best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2}, radii,
-                         guess > radii.lo ? thrust_at(flight, guess, lo.tan_guess(guess)) : lo);
+                         at_radius(std::clamp(guess, radii.lo, radii.hi)));
     if (!motor.is_convex() && motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
-      best =
-          search_outwards(flight, motor, convex, lo, within_motors(flight, radii.hi, best), best);
+      best = search_outwards(flight, motor, convex, at_radius(radii.lo), at_radius(radii.hi), best);
     }
-  } else {
-    best = search_every_piece(flight, lo, within_motors(flight, radii.hi, lo));
   }
+  if (best.radius < radii.lo * (1 - 1e-12)) return none;  // the motors end before the range begins
   const double power = total_power(flight, motor, best);
   return power < infinity ? MinimumPower{area_of(best.radius), power} : none;
 }

@@ -35,7 +35,8 @@ class ValleySearch {
 
   ThrustAt bottom(ThrustAt at) {
     // Relative to the radius. The end of such a step is a hundred times closer to the bottom, where
-    // the power is flat to the square of that.
+    // the power is flat to the square of that; and the thrust is straight to the square of the
+    // step.
     constexpr double last_step = 1e-7;
     stay_within_motors(at);
     std::size_t piece = piece_at(at);
@@ -64,9 +65,8 @@ class ValleySearch {
         }
       }
       next = inside_bracket(next, step);
-      const bool last = std::abs(next - at.radius) <= last_step * at.radius;
+      if (std::abs(next - at.radius) <= last_step * at.radius) return nearby(at, next);
       at = thrust_at(flight_, next, at.tan_guess(next));
-      if (last) break;
       stay_within_motors(at);
       piece = piece_at(at);
     }
@@ -109,6 +109,14 @@ class ValleySearch {
 
   [[nodiscard]] std::size_t piece_at(const ThrustAt& at) const {
     return std::clamp(motor_.piece(at.thrust.value), pieces_.first, pieces_.last);
+  }
+
+  [[nodiscard]] static ThrustAt nearby(const ThrustAt& at, double radius) {
+    ThrustAt there = at;
+    there.radius = radius;
+    there.tan_pitch = at.tan_guess(radius);
+    there.thrust.value += at.thrust.slope * (radius - at.radius);
+    return there;
   }
 
   /// Whether the thrust at `next` is about beyond the vertex, one of those between the pieces or
