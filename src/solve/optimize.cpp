@@ -48,32 +48,44 @@ bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
   return std::abs(point.pitch) >= design.requirements.max_pitch * (1 - same_edge);
 }
 
-/// Names the edge of the feasible set on which the optimum lies.
-void name_limit(Optimization& result, const Flights& flights) {
-  const Design& design = flights.hover.design();
+/// The edge between the optimum and the minimum-power area: almost always the optimum itself; away
+/// from it only where the power has a second valley in the feasible set.
+double edge_towards_minimum_power(const Optimization& result) {
   const double area = result.area;
-  if (area == result.minimum_power.area) {
+  const auto range = std::find_if(result.feasible_areas.begin(), result.feasible_areas.end(),
+                                  [area](const Interval& i) { return i.contains(area); });
+  if (range == result.feasible_areas.end()) return area;
+  return area > result.minimum_power.area ? range->lo : range->hi;
+}
+
+/// Names the edge of the feasible set that keeps the optimum from the minimum-power area.
+void name_limit(Optimization& result, const Flights& flights) {
+  const Requirements& need = flights.hover.design().requirements;
+  if (result.area == result.minimum_power.area) {
     result.limited_by = Limit::minimum_power;
-    result.limiting_condition = design.requirements.power_at;
+    result.limiting_condition = need.power_at;
     return;
   }
-  for (const Condition condition : {Condition::hover, Condition::forward}) {
-    const OperatingPoint& point = condition == Condition::hover ? result.hover : result.forward;
-    if (at_tilt_limit(point, design)) {
+  const double edge = edge_towards_minimum_power(result);
+  const bool here = edge == result.area;
+  const OperatingPoint hover = here ? result.hover : evaluate(flights.hover, edge);
+  const OperatingPoint forward = here ? result.forward : evaluate(flights.forward, edge);
+  for (const OperatingPoint* point : {&hover, &forward}) {
+    if (at_tilt_limit(*point, flights.hover.design())) {
       result.limited_by = Limit::max_pitch;
-      result.limiting_condition = condition;
+      result.limiting_condition = point == &hover ? Condition::hover : Condition::forward;
       return;
     }
   }
   const bool by_headroom =
+      !need.buffer_battery &&
       std::any_of(result.headroom_areas.begin(), result.headroom_areas.end(),
-                  [area](const Interval& i) { return on_edge(area, i.lo) || on_edge(area, i.hi); });
-  result.limiting_condition = by_headroom ? design.requirements.headroom_at
-                              : result.hover.headroom < result.forward.headroom
-                                  ? Condition::hover
-                                  : Condition::forward;
+                  [edge](const Interval& i) { return on_edge(edge, i.lo) || on_edge(edge, i.hi); });
+  result.limiting_condition = by_headroom                         ? need.headroom_at
+                              : hover.headroom < forward.headroom ? Condition::hover
+                                                                  : Condition::forward;
   result.limited_by =
-      area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
+      result.area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
 }
 
 /// What keeps the best reachable headroom of one condition below `demanded`.
