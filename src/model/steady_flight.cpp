@@ -39,16 +39,25 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
   mass_2_ = 2 * tether.length * tether.conductor.density * pi;
   resistance_area_ = 2 * (tether.length + tether.spooled_length) * resistivity(tether) / pi;
 
-  const double speed = airspeed(design, condition);
-  area_force_factor_ = area_force_factor(design.drone.drag, design.flight.air_density, speed);
-  const double dynamic_pressure = 0.5 * design.flight.air_density * speed * speed;
-  tether_drag_1_ =
-      dynamic_pressure * tether.drag_coefficient * tether.projection_factor * 4 * tether.length;
-  tether_drag_0_ = tether_drag_1_ * wall;
-  pitch_sign_ = speed < 0 ? -1 : 1;
-
   deliverable_ = tethercalc::available_power(design.supply.voltage,
                                              design.supply.converter.min_input_voltage, 1.0);
+  set_airspeed(airspeed(design, condition));
+}
+
+SteadyFlight SteadyFlight::in(Condition condition) const {
+  SteadyFlight other = *this;
+  other.set_airspeed(airspeed(*design_, condition));
+  return other;
+}
+
+void SteadyFlight::set_airspeed(double speed) {
+  const Tether& tether = design_->tether;
+  const double density = design_->flight.air_density;
+  area_force_factor_ = area_force_factor(design_->drone.drag, density, speed);
+  tether_drag_1_ = 0.5 * density * speed * speed * tether.drag_coefficient *
+                   tether.projection_factor * 4 * tether.length;
+  tether_drag_0_ = tether_drag_1_ * tether.insulation.thickness;
+  pitch_sign_ = speed < 0 ? -1 : 1;
 }
 
 double SteadyFlight::radius_of_mass(double mass) const {

@@ -229,14 +229,12 @@ void improve_best(const MarginCurve& curve, std::size_t first, const Sample& a, 
   }
 }
 
-/// The radii up to `hi` at which the tilt is within its limit.
-IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
+/// The two ranges of radii up to `hi` at which the tilt is within its limit; empty ones have hi ≤
+/// lo.
+std::array<Interval, 2> radii_within_tilt(const SteadyFlight& flight, double hi) {
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(beyond.lo < beyond.hi)) return {{0, hi}};
-  IntervalSet radii;
-  if (beyond.lo > 0) radii.push_back({0, std::min(beyond.lo, hi)});
-  if (beyond.hi < hi) radii.push_back({beyond.hi, hi});
-  return radii;
+  if (!(beyond.lo < beyond.hi)) return {{{0, hi}, {hi, hi}}};
+  return {{{0, std::min(beyond.lo, hi)}, {std::min(beyond.hi, hi), hi}}};
 }
 
 /// Radius from which on the available power is more than the motors can use; +infinity where
@@ -263,6 +261,7 @@ IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
   if (!(heaviest > 0)) return radii;
   const double saturated = saturation_radius(flight);
   for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+    if (!(range.lo < range.hi)) continue;
     const double hi = std::clamp(saturated, range.lo, range.hi);
     const MarginCurve curve(flight, required, range.lo, hi);
     const Sample a = curve.at_vertex(0, 0);
@@ -288,6 +287,7 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
   Sample best;
   best.necessary = 1;
   for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+    if (!(range.lo < range.hi)) continue;
     // Beyond saturation the headroom only falls.
     const double hi = std::clamp(saturated, range.lo, range.hi);
     const MarginCurve curve(flight, 1, range.lo, hi);

@@ -65,10 +65,9 @@ ThrustAt search_outwards(const SteadyFlight& flight, const MotorCurve& measured,
   return best;
 }
 
-/// The necessary thrust at `radius`, or at the radius below it at which the motors end.
-ThrustAt within_motors(const SteadyFlight& flight, double radius, const ThrustAt& near) {
+/// `at`, or the radius below it at which the motors end.
+ThrustAt within_motors(const SteadyFlight& flight, const ThrustAt& at) {
   const double most = flight.design().drone.motor.max_thrust();
-  const ThrustAt at = thrust_at(flight, radius, near.tan_guess(radius));
   return at.thrust.value > most ? at_thrust(flight, most, at) : at;
 }
 
@@ -127,27 +126,27 @@ ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, cons
 }
 
 /// About the radius at which the loss saved by more conductor, I²·2(R − R_contact)/r, equals the
-/// power spent on carrying it.
-double first_guess(const SteadyFlight& flight, const ThrustAt& lightest, double least_power) {
+/// power spent on carrying it. `thrust` and `power` are about those at the radius `lightest`.
+double first_guess(const SteadyFlight& flight, double lightest, double thrust, double power) {
   const Design& design = flight.design();
   const MotorCurve& motor = design.drone.motor;
   const double voltage = design.supply.voltage;
   // With the current and the price of thrust of the lightest tether, and as if only the conductor
   // had mass: r⁴ = I²·saved/(price·curvature).
-  const double current = least_power / voltage;
+  const double current = power / voltage;
   const double price = (flight.input_power(1) - flight.input_power(0)) *
-                       motor.slope(motor.piece(lightest.thrust.value)) * design.flight.gravity /
+                       motor.slope(motor.piece(thrust)) * design.flight.gravity /
                        design.drone.motor_count;
   const double saved = -flight.resistance_slope(1);
   const double bare = std::sqrt(current * std::sqrt(saved / (price * flight.mass_curvature())));
   // Then with the insulation's mass, the loss in the line and the weight there; a propeller's power
   // grows with thrust to the 3/2.
   const double share = flight.mass_curvature() * bare / flight.mass_slope(bare);
-  const double growth = flight.takeoff_mass(bare) / flight.takeoff_mass(lightest.radius);
+  const double growth = flight.takeoff_mass(bare) / flight.takeoff_mass(lightest);
   const double root_growth = std::sqrt(growth);
   const double supplied =
-      supplied_power(voltage, flight.resistance(bare), least_power * growth * root_growth);
-  const double more_current = supplied > 0 ? supplied / least_power : 2;
+      supplied_power(voltage, flight.resistance(bare), power * growth * root_growth);
+  const double more_current = supplied > 0 ? supplied / power : 2;
   return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
 
@@ -155,25 +154,28 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
   const MotorCurve& motor = design.drone.motor;
-  const ThrustAt lightest = thrust_at(flight, radii.lo, 0);
-  const double least_power = flight.drone_power(lightest.thrust.value);
-  if (!(least_power < infinity)) return none;
-  // Thick enough to deliver what the lightest tether needs, light enough for the motors in still
-  // air.
+  // Thick enough to deliver what the lightest tether needs in still air, light enough for the
+  // motors there.
+  const double lightest = radii.lo;
+  const double hover_power = flight.drone_power(flight.necessary_thrust(lightest, 0));
+  if (!(hover_power < infinity)) return none;
   const double voltage = design.supply.voltage;
-  radii.lo = std::max(radii.lo, flight.radius_of_resistance(voltage * voltage / (4 * least_power)));
+  radii.lo = std::max(lightest, flight.radius_of_resistance(voltage * voltage / (4 * hover_power)));
   radii.hi = std::min(radii.hi, flight.radius_of_mass(design.drone.motor_count *
                                                       motor.max_thrust() / design.flight.gravity));
   if (!(radii.lo <= radii.hi)) return none;
 
   const auto at_radius = [&](double radius) {
-    return radius == lightest.radius ? lightest : within_motors(flight, radius, lightest);
+    return within_motors(flight, thrust_at(flight, radius, 0));
   };
   ThrustAt best;
   if (design.supply.converter.efficiency.size() > 1) {
     best = search_every_piece(flight, at_radius(radii.lo), at_radius(radii.hi));
   } else {
-    const double guess = first_guess(flight, lightest, least_power);
+    const double thrust =
+        std::min(motor.max_thrust(),
+                 flight.necessary_thrust(lightest, flight.level_drag_tan_pitch(lightest)));
+    const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
     const MotorCurve& convex = motor.convex_hull();
     best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2}, radii,
                          at_radius(std::clamp(guess, radii.lo, radii.hi)));
@@ -190,6 +192,12 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
 
 MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
   return a.power <= b.power || std::isnan(b.power) ? a : b;
+}
+
+bool has_one_valley(const SteadyFlight& flight) {
+  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+  return flight.design().supply.converter.efficiency.size() == 1 &&
+         flight.design().drone.motor.is_convex() && !(beyond.lo < beyond.hi);
 }
 
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {

@@ -23,16 +23,18 @@ struct Flights {
   }
 };
 
-/// The least power within any of `areas`, given the least power without them.
-MinimumPower least_within(const SteadyFlight& flight, const IntervalSet& areas,
-                          const MinimumPower& unconstrained) {
-  if (contains(areas, unconstrained.area)) return unconstrained;
+/// The area of least power within any of `areas`, given the least power without them; NaN where
+/// there is none.
+double cheapest_area(const SteadyFlight& flight, const IntervalSet& areas,
+                     const MinimumPower& unconstrained) {
+  if (contains(areas, unconstrained.area)) return unconstrained.area;
+  if (areas.size() == 1 && unconstrained.power > 0 && has_one_valley(flight)) {
+    return std::clamp(unconstrained.area, areas[0].lo, areas[0].hi);
+  }
   MinimumPower best{std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN()};
-  for (const Interval& range : areas) {
-    best = lesser(best, minimum_power(flight, range));
-  }
-  return best;
+  for (const Interval& range : areas) best = lesser(best, minimum_power(flight, range));
+  return best.area;
 }
 
 void take(Optimization& result, const Flights& flights, double area) {
@@ -126,8 +128,8 @@ void name_obstacle(Optimization& result, const Flights& flights) {
 }  // namespace
 
 Optimization optimize(const Design& design) {
-  const Flights flights{SteadyFlight(design, Condition::hover),
-                        SteadyFlight(design, Condition::forward)};
+  const SteadyFlight hover(design, Condition::hover);
+  const Flights flights{hover, hover.in(Condition::forward)};
   const Requirements& need = design.requirements;
   Optimization result;
   result.area = std::numeric_limits<double>::quiet_NaN();
@@ -136,15 +138,15 @@ Optimization optimize(const Design& design) {
   result.minimum_power = minimum_power(priced);
   result.feasible_areas = need.buffer_battery ? IntervalSet{{0, infinity}} : result.headroom_areas;
 
-  const MinimumPower best = least_within(priced, result.feasible_areas, result.minimum_power);
-  if (best.power > 0) take(result, flights, best.area);
+  const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+  if (area > 0) take(result, flights, area);
   if (!result.feasible) {
     // Few designs come here: where the headroom is met, both conditions can usually be flown.
     result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.hover, 1));
     result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.forward, 1));
-    const MinimumPower flyable = least_within(priced, result.feasible_areas, result.minimum_power);
-    if (flyable.power > 0) {
-      take(result, flights, flyable.area);
+    const double flyable = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+    if (flyable > 0) {
+      take(result, flights, flyable);
       result.feasible = true;  // by construction; an edge may miss a headroom of 1 by rounding
     }
   }

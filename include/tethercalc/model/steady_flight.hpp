@@ -19,6 +19,9 @@ class SteadyFlight {
   /// Prepares `design` for `condition`. The design is taken as valid: no check is made here.
   SteadyFlight(const Design& design, Condition condition);
 
+  /// The same design in another condition, sooner than from the design.
+  [[nodiscard]] SteadyFlight in(Condition condition) const;
+
   /// Mass of the airborne tether.
   [[nodiscard]] double tether_mass(double radius) const {
     return mass_0_ + radius * (mass_1_ + radius * mass_2_);
@@ -52,6 +55,13 @@ class SteadyFlight {
     return area_force_factor_ == 0 && tether_drag_1_ == 0
                ? 0
                : balanced_tan_pitch(radius, tan_limit, guess);
+  }
+
+  /// First approximation of `tan_pitch`: with the drag of the level drone.
+  [[nodiscard]] double level_drag_tan_pitch(double radius) const {
+    return (area_force_factor_ * design_->drone.drag.front_area + tether_drag_0_ +
+            tether_drag_1_ * radius) /
+           (takeoff_mass(radius) * weight_per_mass_);
   }
 
   /// Sign of the tilt: −1 flying backward through the air, else +1.
@@ -116,6 +126,7 @@ class SteadyFlight {
   [[nodiscard]] const Design& design() const { return *design_; }
 
  private:
+  void set_airspeed(double speed);
   [[nodiscard]] double balanced_tan_pitch(double radius, double tan_limit, double guess) const;
 
   const Design* design_;

@@ -35,4 +35,9 @@ struct MinimumPower {
                                          Interval within = {
                                              0, std::numeric_limits<double>::infinity()});
 
+/// Whether the power over all areas within the tilt limit is certain to be one valley, so that the
+/// least power in a range beside its bottom is at the range's nearest end: a constant efficiency, a
+/// motor curve that is its own convex hull, and no area beyond the tilt limit.
+[[nodiscard]] bool has_one_valley(const SteadyFlight& flight);
+
 }  // namespace tethercalc
