@@ -52,9 +52,12 @@ double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, doub
   constexpr double last_step = 1e-7;
   // Bisection alone would need 60 steps; Newton takes three or four.
   for (int step = 0; step < 100; ++step) {
-    const double cosine = 1 / std::sqrt(1 + t * t);
-    const double excess = balance.weight * t - (front + top * t) * cosine - balance.tether_drag;
-    const double slope = balance.weight - (top - front * t) * cosine * cosine * cosine;
+    // Balance and its slope, both times secant³, which spares divisions.
+    const double secant_squared = 1 + t * t;
+    const double secant = std::sqrt(secant_squared);
+    const double excess =
+        secant_squared * ((balance.weight * t - balance.tether_drag) * secant - (front + top * t));
+    const double slope = balance.weight * secant_squared * secant - (top - front * t);
     (excess > 0 ? high : low) = t;
     const double newton = t - excess / slope;
     if (std::abs(newton - t) <= last_step * t) {

@@ -100,16 +100,16 @@ SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
   const AirframeDrag& drag = design_->drone.drag;
   const double weight = takeoff_mass(radius) * weight_per_mass_;
   const double weight_slope = mass_slope(radius) * weight_per_mass_;
-  const double cosine = 1 / std::sqrt(1 + tan_pitch * tan_pitch);
-  // The force balance W·t − q·g(t) − F_t = 0, differentiated by r.
-  const double balance_slope = weight - area_force_factor_ *
-                                            (drag.top_area - drag.front_area * tan_pitch) *
-                                            (cosine * cosine * cosine);
-  const double tan_slope = (tether_drag_1_ - weight_slope * tan_pitch) / balance_slope;
-  const double secant = (1 + tan_pitch * tan_pitch) * cosine;
+  const double secant_squared = 1 + tan_pitch * tan_pitch;
+  const double secant = std::sqrt(secant_squared);
+  // The force balance W·t − q·g(t) − F_t = 0, differentiated by r: tan_slope/secant.
+  const double tan_slope_cosine =
+      (tether_drag_1_ - weight_slope * tan_pitch) * secant_squared /
+      (weight * secant_squared * secant -
+       area_force_factor_ * (drag.top_area - drag.front_area * tan_pitch));
   return {weight * secant * per_motor_,
-          (weight_slope * secant + weight * tan_pitch * tan_slope * cosine) * per_motor_,
-          tan_slope};
+          (weight_slope * secant + weight * tan_pitch * tan_slope_cosine) * per_motor_,
+          tan_slope_cosine * secant};
 }
 
 double SteadyFlight::available_thrust(double available_power) const {

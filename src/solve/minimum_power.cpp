@@ -44,21 +44,25 @@ ThrustAt search_outwards(const SteadyFlight& flight, const MotorCurve& measured,
   const std::size_t last = measured.piece(hi.thrust.value);
   const std::size_t home = measured.piece(start.thrust.value);
 
-  const auto bottom_on_piece = [&](std::size_t piece, const ThrustAt& from, const ThrustAt& to) {
-    return valley_bottom(flight, measured, {piece, piece}, {from.radius, to.radius}, to);
+  // Away from the valley's bottom a piece's own bottom is mostly at its nearer end: look there
+  // first.
+  const auto search_piece = [&](std::size_t piece, const ThrustAt& near, const ThrustAt& far) {
+    const auto [from, to] = std::minmax(near.radius, far.radius);
+    if (from < to) consider(valley_bottom(flight, measured, {piece, piece}, {from, to}, near));
+    consider(far);
   };
 
   ThrustAt near = start;
   for (std::size_t i = home;; ++i) {  // to the right
     const ThrustAt far = i < last ? at_thrust(flight, measured.vertices()[i + 1].thrust, near) : hi;
-    consider(bottom_on_piece(i, near, far));
+    search_piece(i, near, far);
     near = far;
     if (i == last || total_power(flight, convex, far) >= least) break;
   }
   near = start;
   for (std::size_t i = home;; --i) {  // to the left
     const ThrustAt far = i > first ? at_thrust(flight, measured.vertices()[i].thrust, near) : lo;
-    consider(bottom_on_piece(i, far, near));
+    search_piece(i, near, far);
     near = far;
     if (i == first || total_power(flight, convex, far) >= least) break;
   }
@@ -195,9 +199,10 @@ MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
 }
 
 bool has_one_valley(const SteadyFlight& flight) {
+  if (flight.design().supply.converter.efficiency.size() > 1) return false;
+  if (!flight.design().drone.motor.is_convex()) return false;
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  return flight.design().supply.converter.efficiency.size() == 1 &&
-         flight.design().drone.motor.is_convex() && !(beyond.lo < beyond.hi);
+  return !(beyond.lo < beyond.hi);
 }
 
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
