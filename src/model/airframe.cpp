@@ -23,24 +23,41 @@ double airframe_drag_force(const AirframeDrag& drag, double air_density, double 
          effective_area(drag, tan_pitch);
 }
 
+namespace {
+
+/// `t`, or +infinity where it is beyond the limit by more than rounding.
+double limited(double t, double limit) {
+  constexpr double rounding = 1e-12;
+  return t <= limit * (1 + rounding) ? t : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
 double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, double guess) {
   const double front = balance.area_force_factor * balance.front_area;
   const double top = balance.area_force_factor * balance.top_area;
-  if (front + balance.tether_drag == 0) return 0;
+  if (front + balance.tether_drag == 0) {
+    // Level flight is a root too, but the one that vanishing front area leads to is the other.
+    const double ratio = top / balance.weight;
+    return limited(ratio > 1 ? std::sqrt((ratio - 1) * (ratio + 1)) : 0, tan_limit);
+  }
 
-  // g(t) ≤ √(A_f² + A_t²) everywhere, so the root lies below `high`.
+  // g(t) ≤ A_f + A_t everywhere, so the root lies below `high`.
+  const double level_drag = front + balance.tether_drag;
+  const double per_weight = 1 / balance.weight;
   double low = 0;
-  double high = (std::hypot(front, top) + balance.tether_drag) / balance.weight;
-  double t = guess > low && guess < high
-                 ? guess
-                 : std::min(high, (front + balance.tether_drag) / balance.weight);
-  // Newton squares the error in every step, so a step below 1e-9·t leaves an error below 1e-17·t.
-  constexpr double last_step = 1e-9;
+  double high = (level_drag + top) * per_weight;
+  double t = guess > low && guess < high ? guess : level_drag * per_weight;
+  // Newton squares the error in every step, so a step below 1e-7·t leaves an error below 1e-14·t.
+  constexpr double last_step = 1e-7;
   // Bisection alone would need 60 steps; Newton takes three or four.
   for (int step = 0; step < 100; ++step) {
-    const double cosine = 1 / std::sqrt(1 + t * t);
-    const double excess = balance.weight * t - (front + top * t) * cosine - balance.tether_drag;
-    const double slope = balance.weight - (top - front * t) * cosine * cosine * cosine;
+    // Balance and its slope, both times secant³, which spares divisions.
+    const double secant_squared = 1 + t * t;
+    const double secant = std::sqrt(secant_squared);
+    const double excess =
+        secant_squared * ((balance.weight * t - balance.tether_drag) * secant - (front + top * t));
+    const double slope = balance.weight * secant_squared * secant - (top - front * t);
     (excess > 0 ? high : low) = t;
     const double newton = t - excess / slope;
     if (std::abs(newton - t) <= last_step * t) {
@@ -49,7 +66,7 @@ double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, doub
     }
     t = newton > low && newton < high ? newton : 0.5 * (low + high);
   }
-  return t <= tan_limit ? t : std::numeric_limits<double>::infinity();
+  return limited(t, tan_limit);
 }
 
 }  // namespace tethercalc

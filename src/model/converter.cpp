@@ -74,11 +74,6 @@ double efficiency_at(const Converter& converter, double output_power) {
   return piece.slope == 0 ? piece.offset : piece.offset + piece.slope * output_power;
 }
 
-double converter_input_power(const Converter& converter, double output_power) {
-  if (converter.efficiency.size() == 1) return output_power / converter.efficiency[0].efficiency;
-  return output_power / efficiency_at(converter, output_power);
-}
-
 double converter_output_power(const Converter& converter, double input_power) {
   if (!(input_power > 0)) return 0;
   if (converter.efficiency.size() == 1) return input_power * converter.efficiency[0].efficiency;

@@ -11,8 +11,8 @@ namespace tethercalc {
 /// A rising piecewise-linear curve: vertices from (0, 0) on and the slope of each piece.
 struct MotorCurve::Polyline {
   std::vector<MotorPoint> vertices;
-  std::vector<double> slopes;            ///< W/N, one fewer than vertices
-  std::shared_ptr<const Polyline> hull;  ///< null where the curve is its own lower convex hull
+  std::vector<double> slopes;              ///< W/N, one fewer than vertices
+  std::shared_ptr<const MotorCurve> hull;  ///< null where the curve is its own lower convex hull
 };
 
 namespace {
@@ -87,21 +87,23 @@ MotorCurve::MotorCurve(std::vector<MotorPoint> points) {
   points.insert(points.begin(), MotorPoint{});
   std::vector<MotorPoint> hull = lower_hull(points);
   std::vector<double> slopes = slopes_of(points);
-  std::shared_ptr<const Polyline> hull_line;
+  std::shared_ptr<const MotorCurve> hull_curve;
   if (hull.size() < points.size()) {
     std::vector<double> hull_slopes = slopes_of(hull);
-    hull_line = std::make_shared<const Polyline>(
-        Polyline{std::move(hull), std::move(hull_slopes), nullptr});
+    hull_curve.reset(new MotorCurve(std::make_shared<const Polyline>(
+        Polyline{std::move(hull), std::move(hull_slopes), nullptr})));
   }
   line_ = std::make_shared<const Polyline>(
-      Polyline{std::move(points), std::move(slopes), std::move(hull_line)});
+      Polyline{std::move(points), std::move(slopes), std::move(hull_curve)});
 }
 
 MotorCurve::MotorCurve(std::shared_ptr<const Polyline> line) : line_(std::move(line)) {}
 
 double MotorCurve::power(double thrust) const {
   if (thrust <= 0) return 0;
-  if (line_->slopes.empty() || thrust > line_->vertices.back().thrust) {
+  // A thrust that was solved for to be the last point's may miss it by rounding.
+  constexpr double rounding = 1e-12;
+  if (line_->slopes.empty() || thrust > line_->vertices.back().thrust * (1 + rounding)) {
     return std::numeric_limits<double>::infinity();
   }
   const std::size_t i = piece(thrust);
@@ -121,7 +123,9 @@ std::size_t MotorCurve::piece(double thrust) const {
 
 double MotorCurve::slope(std::size_t index) const { return line_->slopes[index]; }
 
-MotorCurve MotorCurve::convex_hull() const { return line_->hull ? MotorCurve(line_->hull) : *this; }
+const MotorCurve& MotorCurve::convex_hull() const { return line_->hull ? *line_->hull : *this; }
+
+bool MotorCurve::is_convex() const { return !line_->hull; }
 
 double MotorCurve::max_thrust() const { return line_->vertices.back().thrust; }
 

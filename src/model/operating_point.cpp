@@ -85,7 +85,8 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   point.tether_loss = point.total_power - point.drone_power;
   point.current = point.total_power / design.supply.voltage;
   point.received_voltage = design.supply.voltage - point.current * point.tether_resistance;
-  point.flyable = point.headroom >= 1 && !point.thermal_runaway;
+  constexpr double edge_rounding = 1e-12;
+  point.flyable = point.headroom >= 1 - edge_rounding && !point.thermal_runaway;
   return point;
 }
 

@@ -32,8 +32,8 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
       contact_resistance_(design.tether.contact_resistance),
       weight_per_mass_(design.flight.gravity),
       tan_pitch_limit_(std::tan(design.requirements.max_pitch)),
-      motors_(design.drone.motor_count),
-      power_scale_(motors_ * design.drone.motor_power_factor) {
+      per_motor_(1.0 / design.drone.motor_count),
+      power_scale_(design.drone.motor_count * design.drone.motor_power_factor) {
   const Tether& tether = design.tether;
   const StrengthMemberData member = strength_member_data(tether.strength_member);
   const double insulation = 2 * tether.length * tether.insulation.density * pi * wall_;
@@ -42,17 +42,29 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
   mass_2_ = 2 * tether.length * tether.conductor.density * pi;
   resistance_area_ = 2 * (tether.length + tether.spooled_length) * resistivity(tether) / pi;
 
-  const double speed = airspeed_;
-  power_scale_ *= translational_lift_factor(design.drone.translational_lift, speed);
-  area_force_factor_ = area_force_factor(design.drone.drag, design.flight.air_density, speed);
-  const double dynamic_pressure = 0.5 * design.flight.air_density * speed * speed;
-  tether_drag_1_ =
-      dynamic_pressure * tether.drag_coefficient * tether.projection_factor * 4 * tether.length;
-  tether_drag_0_ = tether_drag_1_ * (wall_ + 0.25 * member.diameter);
-  pitch_sign_ = speed < 0 ? -1 : 1;
-
   deliverable_ = tethercalc::available_power(design.supply.voltage,
                                              lowest_input_voltage(design.supply.converter), 1.0);
+  set_airspeed(tethercalc::airspeed(design, condition));
+}
+
+SteadyFlight SteadyFlight::in(Condition condition) const {
+  SteadyFlight other = *this;
+  other.set_airspeed(tethercalc::airspeed(*design_, condition));
+  return other;
+}
+
+void SteadyFlight::set_airspeed(double speed) {
+  const Tether& tether = design_->tether;
+  const double density = design_->flight.air_density;
+  airspeed_ = speed;
+  power_scale_ = design_->drone.motor_count * design_->drone.motor_power_factor *
+                 translational_lift_factor(design_->drone.translational_lift, speed);
+  area_force_factor_ = area_force_factor(design_->drone.drag, density, speed);
+  tether_drag_1_ = 0.5 * density * speed * speed * tether.drag_coefficient *
+                   tether.projection_factor * 4 * tether.length;
+  tether_drag_0_ =
+      tether_drag_1_ * (wall_ + 0.25 * strength_member_data(tether.strength_member).diameter);
+  pitch_sign_ = speed < 0 ? -1 : 1;
 }
 
 double SteadyFlight::resistance(double radius, double temperature_C) const {
@@ -72,7 +84,7 @@ double SteadyFlight::radius_of_resistance(double resistance) const {
   return line > 0 ? std::sqrt(resistance_area_ / line) : std::numeric_limits<double>::infinity();
 }
 
-double SteadyFlight::tan_pitch(double radius, double tan_limit, double guess) const {
+double SteadyFlight::balanced_tan_pitch(double radius, double tan_limit, double guess) const {
   const AirframeDrag& drag = design_->drone.drag;
   return equilibrium_tan_pitch(
       {takeoff_mass(radius) * weight_per_mass_, area_force_factor_,
@@ -87,6 +99,7 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   const double b = weight_per_mass_ * mass_1_ * t - tether_drag_1_;
   const double c = weight_per_mass_ * (drone_mass_ + mass_0_) * t - tether_drag_0_ -
                    area_force_factor_ * effective_area(design_->drone.drag, t);
+  if (b >= 0 && c >= 0) return {};  // as in hover
   const double discriminant = b * b - 4 * a * c;
   if (!(discriminant > 0)) return {};
   const double root = std::sqrt(discriminant);
@@ -96,23 +109,21 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   return {std::max(0.0, std::min(far, near)), std::max(0.0, std::max(far, near))};
 }
 
-double SteadyFlight::necessary_thrust(double radius, double tan_pitch) const {
-  return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) / motors_;
-}
-
 SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
                                                                double tan_pitch) const {
   const AirframeDrag& drag = design_->drone.drag;
   const double weight = takeoff_mass(radius) * weight_per_mass_;
   const double weight_slope = mass_slope(radius) * weight_per_mass_;
-  const double secant = std::sqrt(1 + tan_pitch * tan_pitch);
-  // The force balance W·t − q·g(t) − F_t = 0, differentiated by r.
-  const double balance_slope = weight - area_force_factor_ *
-                                            (drag.top_area - drag.front_area * tan_pitch) /
-                                            (secant * secant * secant);
-  const double tan_slope = (tether_drag_1_ - weight_slope * tan_pitch) / balance_slope;
-  return {weight * secant / motors_,
-          (weight_slope * secant + weight * tan_pitch * tan_slope / secant) / motors_};
+  const double secant_squared = 1 + tan_pitch * tan_pitch;
+  const double secant = std::sqrt(secant_squared);
+  // The force balance W·t − q·g(t) − F_t = 0, differentiated by r: tan_slope/secant.
+  const double tan_slope_cosine =
+      (tether_drag_1_ - weight_slope * tan_pitch) * secant_squared /
+      (weight * secant_squared * secant -
+       area_force_factor_ * (drag.top_area - drag.front_area * tan_pitch));
+  return {weight * secant * per_motor_,
+          (weight_slope * secant + weight * tan_pitch * tan_slope_cosine) * per_motor_,
+          tan_slope_cosine * secant};
 }
 
 double SteadyFlight::available_thrust(double available_power) const {
@@ -121,11 +132,6 @@ double SteadyFlight::available_thrust(double available_power) const {
   const Converter& converter = design_->supply.converter;
   if (converter.rated_output_power) output = std::min(output, *converter.rated_output_power);
   return design_->drone.motor.thrust(output / power_scale_);
-}
-
-double SteadyFlight::input_power(double motor_power) const {
-  return converter_input_power(design_->supply.converter, power_scale_ * motor_power) +
-         design_->drone.auxiliary_power;
 }
 
 }  // namespace tethercalc

@@ -1,18 +1,22 @@
 // Notation: r conductor radius; TA available, TN necessary thrust per motor; k required headroom.
 // TA(r) and TN(r) both rise with r. TA has a kink at each radius where the available power feeds
 // the motors at exactly one of the motor curve's points ("vertex radius"), and a closed form for
-// it.
+// it; from the last of them on TA stays the same.
+// Φ(r) is the radius that would make k·TN(r) available. It rises with r, and r is feasible exactly
+// where Φ(r) ≤ r. So if r is infeasible, everything in [r, Φ(r)) is; if r is feasible, everything
+// in [Φ(r), r] is: steps r → Φ(r) cannot jump over an edge.
 
 #include "tethercalc/solve/headroom.hpp"
 
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+
+#include "solve/thrust_at.hpp"
 
 namespace tethercalc {
 namespace {
@@ -37,15 +41,15 @@ class MarginCurve {
   MarginCurve(const SteadyFlight& flight, double required, double lo, double hi)
       : flight_(flight), required_(required), lo_(lo), hi_(hi) {}
 
-  /// Number of vertices; sample indices run from 0 to one beyond them.
+  /// Sample indices are those of the motor curve's vertices; the last stands for the last radius.
   [[nodiscard]] std::size_t last_index() const {
-    return flight_.design().drone.motor.vertices().size();
+    return flight_.design().drone.motor.vertices().size() - 1;
   }
 
   [[nodiscard]] Sample at_vertex(std::size_t index, double tan_guess) const {
     if (index == last_index()) return at_radius(hi_, tan_guess);
     const MotorPoint& vertex = flight_.design().drone.motor.vertices()[index];
-    const double radius = radius_of_input(flight_.input_power(vertex.power));
+    const double radius = flight_.radius_of_available_power(flight_.input_power(vertex.power));
     if (!(radius > lo_)) return at_radius(lo_, tan_guess);
     if (!(radius < hi_)) return at_radius(hi_, tan_guess);
     return with_available(radius, vertex.thrust, tan_guess);
@@ -56,6 +60,17 @@ class MarginCurve {
     return with_available(radius, flight_.available_thrust(power), tan_guess);
   }
 
+  /// Φ: the radius that would make what is necessary at `sample` available; +infinity where no
+  /// radius does.
+  [[nodiscard]] double needed_radius(const Sample& sample) const {
+    return flight_.radius_of_available_power(flight_.drone_power(sample.necessary));
+  }
+
+  /// A sample without its available thrust.
+  [[nodiscard]] Sample necessary_at(double radius, double tan_guess) const {
+    return with_available(radius, 0, tan_guess);
+  }
+
   /// Radii of the converter's efficiency points strictly between two samples, rising.
   [[nodiscard]] std::vector<double> converter_radii(const Sample& a, const Sample& b) const {
     std::vector<double> radii;
@@ -64,18 +79,13 @@ class MarginCurve {
     for (const EfficiencyPoint& point : converter.efficiency) {
       const double input =
           point.output_power / point.efficiency + flight_.design().drone.auxiliary_power;
-      const double radius = radius_of_input(input);
+      const double radius = flight_.radius_of_available_power(input);
       if (radius > a.radius && radius < b.radius) radii.push_back(radius);
     }
     return radii;
   }
 
  private:
-  [[nodiscard]] double radius_of_input(double power) const {
-    return power > 0 ? flight_.radius_of_resistance(flight_.resistance_of_available_power(power))
-                     : 0;
-  }
-
   [[nodiscard]] Sample with_available(double radius, double available, double tan_guess) const {
     const double tangent = flight_.tan_pitch(radius, infinity, tan_guess);
     return {radius, available, required_ * flight_.necessary_thrust(radius, tangent), tangent};
@@ -87,23 +97,34 @@ class MarginCurve {
   double hi_;
 };
 
-/// The radius between two samples of opposite margin at which the margin vanishes, taken from the
-/// feasible end of the last bracket so that the headroom there is not below what is required.
+/// The radius between two samples of opposite margin, on a smooth piece, at which the margin
+/// vanishes: the root of Φ(r) − r by secants, which Φ's small slope makes quick.
 double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
   if (a.margin() == 0) return a.radius;
   if (b.margin() == 0) return b.radius;
-  double guess = a.tan_pitch;
-  const auto margin = [&](double radius) {
-    const Sample sample = curve.at_radius(radius, guess);
-    guess = sample.tan_pitch;
-    return sample.margin();
-  };
-  // 1e-14 relative in the radius is 2e-14 in the area, a few units in the last place.
-  const auto close_enough = [](double lo, double hi) { return hi - lo <= 1e-14 * hi; };
-  std::uintmax_t steps = 100;  // TOMS 748 takes about 6; it cannot take more than bisection's 52
-  const auto [lo, hi] = boost::math::tools::toms748_solve(margin, a.radius, b.radius, a.margin(),
-                                                          b.margin(), close_enough, steps);
-  return a.margin() > 0 ? lo : hi;
+  const bool enters = a.margin() < 0;
+  // A secant's error is less than the product of its two points' errors: 1e-17 relative.
+  constexpr double last_step = 1e-10;
+  double lo = a.radius;
+  double hi = b.radius;
+  double previous = 0;
+  double previous_gap = 0;
+  double tangent = a.tan_pitch;
+  double radius = lo + (hi - lo) * a.margin() / (a.margin() - b.margin());
+  for (int step = 0; step < 100; ++step) {
+    const Sample sample = curve.necessary_at(radius, tangent);
+    tangent = sample.tan_pitch;
+    const double gap = curve.needed_radius(sample) - radius;
+    ((gap > 0) == enters ? lo : hi) = radius;
+    const double slope = step > 0 ? (gap - previous_gap) / (radius - previous) : -1;
+    previous = radius;
+    previous_gap = gap;
+    double next = radius - gap / slope;
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    radius = next;
+    if (std::abs(radius - previous) <= last_step * radius) break;
+  }
+  return radius;
 }
 
 /// Sample of largest `score` between a and b, where score is smooth and has one hump at most.
@@ -117,26 +138,23 @@ Sample highest(const MarginCurve& curve, const Sample& a, const Sample& b, Score
   return curve.at_radius(radius, a.tan_pitch);
 }
 
-/// Where the margin keeps its sign at both ends of a smooth piece, the sample between them at which
-/// it has the other sign, if there is one. In hover, with constant efficiency and no contact
-/// resistance, the margin is a quadratic in r, so that a parabola through three samples is exact;
-/// elsewhere it is close to one, and a vertex that comes near to zero is looked at more closely.
-std::optional<Sample> opposite_between(const MarginCurve& curve, const Sample& a, const Sample& b) {
-  const Sample middle = curve.at_radius(0.5 * (a.radius + b.radius), a.tan_pitch);
-  const double sign = a.margin() < 0 ? -1 : 1;
-  const double start = sign * a.margin();
-  const double half = sign * middle.margin();
-  const double end = sign * b.margin();
-  if (half < 0) return middle;
-  const double curvature = start - 2 * half + end;
-  const double slope = 0.5 * (end - start);
-  if (!(curvature > 0) || std::abs(slope) >= curvature) return std::nullopt;  // no dip inside
-  const double dip = half - 0.5 * slope * slope / curvature;
-  const double range = std::max({start, half, end});
-  if (dip > 0.05 * range) return std::nullopt;
-  const Sample lowest =
-      highest(curve, a, b, [sign](const Sample& s) { return -sign * s.margin(); });
-  return sign * lowest.margin() < 0 ? std::optional(lowest) : std::nullopt;
+/// Where the margin keeps its sign at both ends of a smooth piece, a sample between them at which
+/// it has the other sign, if there is one: steps to Φ(r), from the left through what is infeasible
+/// or from the right through what is feasible, until they leave the piece or find it. Steps become
+/// short where an edge is close; what is left is then searched for one hump or dip.
+std::optional<Sample> opposite_between(const MarginCurve& curve, Sample a, Sample b) {
+  const bool feasible = a.margin() >= 0;
+  Sample& from = feasible ? b : a;
+  for (int step = 0; step < 8; ++step) {
+    const double next = curve.needed_radius(from);
+    if (feasible ? next <= a.radius : next >= b.radius) return std::nullopt;
+    from = curve.at_radius(next, from.tan_pitch);
+    if ((from.margin() >= 0) != feasible) return from;
+  }
+  const double sign = feasible ? -1 : 1;
+  const Sample extreme =
+      highest(curve, a, b, [sign](const Sample& s) { return sign * s.margin(); });
+  return (extreme.margin() >= 0) != feasible ? std::optional(extreme) : std::nullopt;
 }
 
 void append_radii(IntervalSet& radii, double lo, double hi) { append(radii, {lo, hi}); }
@@ -211,14 +229,19 @@ void improve_best(const MarginCurve& curve, std::size_t first, const Sample& a, 
   }
 }
 
-/// The radii up to `hi` at which the tilt is within its limit.
-IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
+/// The two ranges of radii up to `hi` at which the tilt is within its limit; empty ones have hi ≤
+/// lo.
+std::array<Interval, 2> radii_within_tilt(const SteadyFlight& flight, double hi) {
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(beyond.lo < beyond.hi)) return {{0, hi}};
-  IntervalSet radii;
-  if (beyond.lo > 0) radii.push_back({0, std::min(beyond.lo, hi)});
-  if (beyond.hi < hi) radii.push_back({beyond.hi, hi});
-  return radii;
+  if (!(beyond.lo < beyond.hi)) return {{{0, hi}, {hi, hi}}};
+  return {{{0, std::min(beyond.lo, hi)}, {std::min(beyond.hi, hi), hi}}};
+}
+
+/// Radius from which on the available power is more than the motors can use; +infinity where
+/// contacts keep it below.
+double saturation_radius(const SteadyFlight& flight) {
+  return flight.radius_of_available_power(
+      flight.input_power(flight.design().drone.motor.max_power()));
 }
 
 /// Radius above which the necessary thrust, even in still air, exceeds 1/`headroom` of the most the
@@ -232,14 +255,23 @@ double heaviest_radius(const SteadyFlight& flight, double headroom) {
 }  // namespace
 
 IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
-  const double hi = heaviest_radius(flight, required);
+  const MotorCurve& motor = flight.design().drone.motor;
+  const double heaviest = heaviest_radius(flight, required);
   IntervalSet radii;
-  if (!(hi > 0)) return radii;
-  for (const Interval& range : radii_within_tilt(flight, hi)) {
-    const MarginCurve curve(flight, required, range.lo, range.hi);
+  if (!(heaviest > 0)) return radii;
+  const double saturated = saturation_radius(flight);
+  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+    if (!(range.lo < range.hi)) continue;
+    const double hi = std::clamp(saturated, range.lo, range.hi);
+    const MarginCurve curve(flight, required, range.lo, hi);
     const Sample a = curve.at_vertex(0, 0);
     const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
     collect_feasible(curve, 0, a, curve.last_index(), b, radii);
+    if (hi < range.hi && b.margin() >= 0) {  // from here on only the weight grows
+      const ThrustAt end = at_thrust(flight, motor.max_thrust() / required,
+                                     thrust_at(flight, range.hi, b.tan_pitch));
+      append_radii(radii, hi, std::min(end.radius, range.hi));
+    }
   }
   for (Interval& range : radii) range = {area_of(range.lo), area_of(range.hi)};
   return radii;
@@ -247,15 +279,18 @@ IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
 
 BestHeadroom best_headroom(const SteadyFlight& flight) {
   const BestHeadroom none{0, std::numeric_limits<double>::quiet_NaN()};
-  const double saturated = flight.radius_of_resistance(flight.resistance_of_available_power(
-      flight.input_power(flight.design().drone.motor.max_power())));
-  // Beyond saturation the headroom only falls. Where contacts keep the motors from saturating, the
-  // search ends where the tether is so heavy that not even a millionth is left.
-  const double hi = std::min(saturated, heaviest_radius(flight, 1e-6));
+  const double saturated = saturation_radius(flight);
+  // Where contacts keep the motors from saturating, the search ends where the tether is so heavy
+  // that not even a millionth is left.
+  const double heaviest = heaviest_radius(flight, 1e-6);
+  if (!(heaviest > 0)) return none;
   Sample best;
   best.necessary = 1;
-  for (const Interval& range : radii_within_tilt(flight, hi)) {
-    const MarginCurve curve(flight, 1, range.lo, range.hi);
+  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+    if (!(range.lo < range.hi)) continue;
+    // Beyond saturation the headroom only falls.
+    const double hi = std::clamp(saturated, range.lo, range.hi);
+    const MarginCurve curve(flight, 1, range.lo, hi);
     const Sample a = curve.at_vertex(0, 0);
     const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
     for (const Sample& end : {a, b}) {

@@ -1,7 +1,4 @@
-// Notation: r conductor radius; T necessary thrust per motor; P drone power at the converter's
-// input; R loop resistance; I tether current; y total power. From y = P + R·(y/U)² follows y'·(1 −
-// 2RI/U) = P' + I²R' =: s, so s has the sign of the total power's slope. Where the line cannot
-// deliver P, s with I² = P/R has the sign of (R·P)' and points back to where it can.
+// Notation: r conductor radius; T necessary thrust per motor; R loop resistance; I tether current.
 
 #include "tethercalc/solve/minimum_power.hpp"
 
@@ -11,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "solve/valley_search.hpp"
 #include "tethercalc/model/power_line.hpp"
 
 namespace tethercalc {
@@ -21,121 +19,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
-/// Necessary thrust at a radius, and where the next tilt should be looked for.
-struct ThrustAt {
-  double radius = 0;
-  SteadyFlight::Thrust thrust;
-  double tan_pitch = 0;
-};
-
-ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
-  const double tangent = flight.tan_pitch(radius, infinity, tan_guess);
-  return {radius, flight.necessary_thrust_with_slope(radius, tangent), tangent};
-}
-
-/// The radius at which `thrust` is necessary; `from` starts Newton's method. The necessary thrust
-/// rises and is convex in the radius, so that it converges from either side.
-ThrustAt at_thrust(const SteadyFlight& flight, double thrust, ThrustAt from) {
-  for (int step = 0; step < 50; ++step) {
-    const double change = (thrust - from.thrust.value) / from.thrust.slope;
-    const double radius = std::max(from.radius + change, 0.25 * from.radius);
-    // Quadratic convergence: the thrust is then within 1e-16 of the vertex.
-    const bool last = std::abs(change) <= 1e-9 * radius;
-    from = thrust_at(flight, radius, from.tan_pitch);
-    if (last) break;
-  }
-  return from;
-}
-
-/// One straight piece of a motor curve.
-struct Piece {
-  MotorPoint start;
-  double slope = 0;  ///< W/N
-
-  [[nodiscard]] double power(double thrust) const {
-    return start.power + slope * (thrust - start.thrust);
-  }
-};
-
-Piece piece_of(const MotorCurve& motor, std::size_t index) {
-  return {motor.vertices()[index], motor.slope(index)};
-}
-
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
 double total_power(const SteadyFlight& flight, const MotorCurve& motor, const ThrustAt& at) {
   const double total = supplied_power(flight.design().supply.voltage, flight.resistance(at.radius),
                                       flight.input_power(motor.power(at.thrust.value)));
   return total > 0 ? total : infinity;
-}
-
-/// Loss saved over power spent by a little more radius, −I²R'/P', were the motor curve to follow
-/// `piece`: above 1 where the total power falls with the radius.
-double saved_per_spent(const SteadyFlight& flight, const Piece& piece, const ThrustAt& at) {
-  const double voltage = flight.design().supply.voltage;
-  const double resistance = flight.resistance(at.radius);
-  const double power = flight.input_power(piece.power(at.thrust.value));
-  const double supplied = supplied_power(voltage, resistance, power);
-  const double current = supplied / voltage;
-  // With a constant efficiency the input power is linear in the motor's.
-  const double input_slope = flight.input_power(1) - flight.input_power(0);
-  const double current_squared = supplied > 0 ? current * current : power / resistance;
-  return -current_squared * flight.resistance_slope(at.radius) /
-         (input_slope * piece.slope * at.thrust.slope);
-}
-
-/// Between lo and hi, where the motor curve follows `piece` and saved_per_spent passes 1, the
-/// radius at which it does.
-ThrustAt smooth_bottom(const SteadyFlight& flight, const Piece& piece, ThrustAt lo, ThrustAt hi,
-                       ThrustAt start) {
-  // 1e-10 relative in the radius; the power at the bottom is flat to the square of that.
-  constexpr double close_enough = 1e-10;
-  double previous_radius = nan;
-  double previous_gap = nan;
-  ThrustAt at = start;
-  for (int step = 0; step < 200; ++step) {
-    const double gap = std::log(saved_per_spent(flight, piece, at));
-    (gap > 0 ? lo : hi) = at;
-    // Savings fall with 1/r³ while spending rises about with r, hence −4/r for a first slope.
-    double slope = (gap - previous_gap) / (at.radius - previous_radius);
-    if (!(slope < 0)) slope = -4 / at.radius;
-    double next = at.radius - gap / slope;
-    if (!(next > lo.radius && next < hi.radius)) next = 0.5 * (lo.radius + hi.radius);
-    if (std::abs(next - at.radius) <= close_enough * at.radius) break;
-    previous_radius = at.radius;
-    previous_gap = gap;
-    at = thrust_at(flight, next, at.tan_pitch);
-  }
-  return at;
-}
-
-/// The bottom between lo and hi on one piece, at an end where the power only rises or only falls.
-ThrustAt bottom_on_piece(const SteadyFlight& flight, const Piece& piece, const ThrustAt& lo,
-                         const ThrustAt& hi) {
-  if (saved_per_spent(flight, piece, lo) <= 1) return lo;
-  if (saved_per_spent(flight, piece, hi) >= 1) return hi;
-  return smooth_bottom(flight, piece, lo, hi,
-                       thrust_at(flight, 0.5 * (lo.radius + hi.radius), lo.tan_pitch));
-}
-
-/// The bottom between lo and hi of the total power along a convex motor curve, where it is one
-/// valley: a binary search for the piece, then the bottom on it.
-ThrustAt valley_bottom(const SteadyFlight& flight, const MotorCurve& convex, ThrustAt lo,
-                       ThrustAt hi) {
-  std::size_t first = convex.piece(lo.thrust.value);
-  std::size_t last = convex.piece(hi.thrust.value);
-  while (first < last) {
-    const std::size_t middle = first + (last - first + 1) / 2;  // in (first, last]
-    const ThrustAt vertex =
-        at_thrust(flight, convex.vertices()[middle].thrust, last - first > 2 ? lo : hi);
-    if (saved_per_spent(flight, piece_of(convex, middle), vertex) > 1) {
-      first = middle;
-      lo = vertex;
-    } else {
-      last = middle - 1;
-      hi = vertex;
-    }
-  }
-  return bottom_on_piece(flight, piece_of(convex, first), lo, hi);
 }
 
 /// The least power on the pieces of the measured curve between lo and hi on which the convex
@@ -156,21 +44,35 @@ ThrustAt search_outwards(const SteadyFlight& flight, const MotorCurve& measured,
   const std::size_t last = measured.piece(hi.thrust.value);
   const std::size_t home = measured.piece(start.thrust.value);
 
+  // Away from the valley's bottom a piece's own bottom is mostly at its nearer end: look there
+  // first.
+  const auto search_piece = [&](std::size_t piece, const ThrustAt& near, const ThrustAt& far) {
+    const auto [from, to] = std::minmax(near.radius, far.radius);
+    if (from < to) consider(valley_bottom(flight, measured, {piece, piece}, {from, to}, near));
+    consider(far);
+  };
+
   ThrustAt near = start;
   for (std::size_t i = home;; ++i) {  // to the right
     const ThrustAt far = i < last ? at_thrust(flight, measured.vertices()[i + 1].thrust, near) : hi;
-    consider(bottom_on_piece(flight, piece_of(measured, i), near, far));
+    search_piece(i, near, far);
     near = far;
     if (i == last || total_power(flight, convex, far) >= least) break;
   }
   near = start;
   for (std::size_t i = home;; --i) {  // to the left
     const ThrustAt far = i > first ? at_thrust(flight, measured.vertices()[i].thrust, near) : lo;
-    consider(bottom_on_piece(flight, piece_of(measured, i), far, near));
+    search_piece(i, near, far);
     near = far;
     if (i == first || total_power(flight, convex, far) >= least) break;
   }
   return best;
+}
+
+/// `at`, or the radius below it at which the motors end.
+ThrustAt within_motors(const SteadyFlight& flight, const ThrustAt& at) {
+  const double most = flight.design().drone.motor.max_thrust();
+  return at.thrust.value > most ? at_thrust(flight, most, at) : at;
 }
 
 /// For a converter whose efficiency varies: the smooth pieces between all kinks, one by one.
@@ -227,56 +129,95 @@ ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, cons
   return best;
 }
 
-/// The range of radii in which a point of least power can lie, from the range asked for: thick
-/// enough to deliver what the lightest tether needs, light enough for the motors in still air.
-Interval promising_radii(const SteadyFlight& flight, Interval radii) {
+/// About the radius at which the loss saved by more conductor, I²·2(R − R_contact)/r, equals the
+/// power spent on carrying it. `thrust` and `power` are about those at the radius `lightest`.
+double first_guess(const SteadyFlight& flight, double lightest, double thrust, double power) {
   const Design& design = flight.design();
-  const double tangent = flight.tan_pitch(radii.lo, infinity);
-  const double least_power = flight.drone_power(flight.necessary_thrust(radii.lo, tangent));
+  const MotorCurve& motor = design.drone.motor;
   const double voltage = design.supply.voltage;
-  const double thinnest = flight.radius_of_resistance(voltage * voltage / (4 * least_power));
-  const double heaviest = flight.radius_of_mass(
-      design.drone.motor_count * design.drone.motor.max_thrust() / design.flight.gravity);
-  return {std::max(radii.lo, thinnest), std::min(radii.hi, heaviest)};
+  // With the current and the price of thrust of the lightest tether, and as if only the conductor
+  // had mass: r⁴ = I²·saved/(price·curvature).
+  const double current = power / voltage;
+  const double price = (flight.input_power(1) - flight.input_power(0)) *
+                       motor.slope(motor.piece(thrust)) * design.flight.gravity /
+                       design.drone.motor_count;
+  const double saved = -flight.resistance_slope(1);
+  const double bare = std::sqrt(current * std::sqrt(saved / (price * flight.mass_curvature())));
+  // Then with the insulation's mass, the loss in the line and the weight there; a propeller's power
+  // grows with thrust to the 3/2.
+  const double share = flight.mass_curvature() * bare / flight.mass_slope(bare);
+  const double growth = flight.takeoff_mass(bare) / flight.takeoff_mass(lightest);
+  const double root_growth = std::sqrt(growth);
+  const double supplied =
+      supplied_power(voltage, flight.resistance(bare), power * growth * root_growth);
+  const double more_current = supplied > 0 ? supplied / power : 2;
+  return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
 
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
-  radii = promising_radii(flight, radii);
+  const Design& design = flight.design();
+  const MotorCurve& motor = design.drone.motor;
+  // Thick enough to deliver what the lightest tether needs in still air, light enough for the
+  // motors there.
+  const double lightest = radii.lo;
+  const double hover_power = flight.drone_power(flight.necessary_thrust(lightest, 0));
+  if (!(hover_power < infinity)) return none;
+  const double voltage = design.supply.voltage;
+  radii.lo = std::max(lightest, flight.radius_of_resistance(voltage * voltage / (4 * hover_power)));
+  radii.hi = std::min(radii.hi, flight.radius_of_mass(design.drone.motor_count *
+                                                      motor.max_thrust() / design.flight.gravity));
   if (!(radii.lo <= radii.hi)) return none;
-  const MotorCurve& motor = flight.design().drone.motor;
-  const ThrustAt lo = thrust_at(flight, radii.lo, 0);
-  ThrustAt hi = thrust_at(flight, radii.hi, lo.tan_pitch);
-  if (lo.thrust.value > motor.max_thrust()) return none;
-  // A hair below the last point, so that rounding does not push it over the motors' limit.
-  const double most = motor.max_thrust() * (1 - 1e-14);
-  if (hi.thrust.value > most) hi = at_thrust(flight, most, hi);
 
+  const auto at_radius = [&](double radius) {
+    return within_motors(flight, thrust_at(flight, radius, 0));
+  };
   ThrustAt best;
-  if (flight.design().supply.converter.efficiency.size() > 1) {
-    best = search_every_piece(flight, lo, hi);
+  if (design.supply.converter.efficiency.size() > 1) {
+    best = search_every_piece(flight, at_radius(radii.lo), at_radius(radii.hi));
   } else {
-    const MotorCurve convex = motor.convex_hull();
-    best = valley_bottom(flight, convex, lo, hi);
-    if (motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
-      best = search_outwards(flight, motor, convex, lo, hi, best);
+    const double thrust =
+        std::min(motor.max_thrust(),
+                 flight.necessary_thrust(lightest, flight.level_drag_tan_pitch(lightest)));
+    const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
+    const MotorCurve& convex = motor.convex_hull();
+    best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2}, radii,
+                         at_radius(std::clamp(guess, radii.lo, radii.hi)));
+    if (!motor.is_convex() && motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
+      best = search_outwards(flight, motor, convex, at_radius(radii.lo), at_radius(radii.hi), best);
     }
   }
+  if (best.radius < radii.lo * (1 - 1e-12)) return none;  // the motors end before the range begins
   const double power = total_power(flight, motor, best);
   return power < infinity ? MinimumPower{area_of(best.radius), power} : none;
 }
 
 }  // namespace
 
+MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
+  return a.power <= b.power || std::isnan(b.power) ? a : b;
+}
+
+bool has_one_valley(const SteadyFlight& flight) {
+  if (flight.design().supply.converter.efficiency.size() > 1) return false;
+  if (!flight.design().drone.motor.is_convex()) return false;
+  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+  return !(beyond.lo < beyond.hi);
+}
+
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(beyond.lo < beyond.hi)) return minimum_within_tilt(flight, radii);
   MinimumPower best{nan, nan};
-  for (const Interval& part : intersection({radii}, {{0, beyond.lo}, {beyond.hi, infinity}})) {
-    const MinimumPower candidate = minimum_within_tilt(flight, part);
-    if (!(candidate.power >= best.power)) best = candidate;
+  if (!(beyond.lo < beyond.hi)) {
+    best = minimum_within_tilt(flight, radii);
+  } else {
+    for (const Interval& part : intersection({radii}, {{0, beyond.lo}, {beyond.hi, infinity}})) {
+      best = lesser(best, minimum_within_tilt(flight, part));
+    }
   }
+  // Squaring the root of an end of the range may miss it by rounding.
+  if (best.power > 0) best.area = std::clamp(best.area, within.lo, within.hi);
   return best;
 }
 

@@ -24,17 +24,18 @@ struct Flights {
   }
 };
 
-/// The least power within any of `areas`, given the least power without them.
-MinimumPower least_within(const SteadyFlight& flight, const IntervalSet& areas,
-                          const MinimumPower& unconstrained) {
-  if (contains(areas, unconstrained.area)) return unconstrained;
+/// The area of least power within any of `areas`, given the least power without them; NaN where
+/// there is none.
+double cheapest_area(const SteadyFlight& flight, const IntervalSet& areas,
+                     const MinimumPower& unconstrained) {
+  if (contains(areas, unconstrained.area)) return unconstrained.area;
+  if (areas.size() == 1 && unconstrained.power > 0 && has_one_valley(flight)) {
+    return std::clamp(unconstrained.area, areas[0].lo, areas[0].hi);
+  }
   MinimumPower best{std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN()};
-  for (const Interval& range : areas) {
-    const MinimumPower candidate = minimum_power(flight, range);
-    if (!(candidate.power >= best.power)) best = candidate;
-  }
-  return best;
+  for (const Interval& range : areas) best = lesser(best, minimum_power(flight, range));
+  return best.area;
 }
 
 void take(Optimization& result, const Flights& flights, double area) {
@@ -50,43 +51,60 @@ bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
   return std::abs(point.pitch) >= design.requirements.max_pitch * (1 - same_edge);
 }
 
-/// Names the edge of the feasible set on which the optimum lies.
-void name_limit(Optimization& result, const Flights& flights) {
-  const Design& design = flights.hover.design();
+/// The edge between the optimum and the minimum-power area: almost always the optimum itself; away
+/// from it only where the power has a second valley in the feasible set.
+double edge_towards_minimum_power(const Optimization& result) {
   const double area = result.area;
+  const auto range = std::find_if(result.feasible_areas.begin(), result.feasible_areas.end(),
+                                  [area](const Interval& i) { return i.contains(area); });
+  if (range == result.feasible_areas.end()) return area;
+  return area > result.minimum_power.area ? range->lo : range->hi;
+}
+
+/// Names the edge of the feasible set that keeps the optimum from the minimum-power area.
+void name_limit(Optimization& result, const Flights& flights) {
+  const Requirements& need = flights.hover.design().requirements;
+  const bool at_minimum = result.area == result.minimum_power.area;
+  const double edge = at_minimum ? result.area : edge_towards_minimum_power(result);
+  const bool here = edge == result.area;
+  const OperatingPoint hover = here ? result.hover : evaluate(flights.hover, edge);
+  const OperatingPoint forward = here ? result.forward : evaluate(flights.forward, edge);
   // Before the least power, which is looked for within the tilt limit and may lie on it.
-  for (const Condition condition : {Condition::hover, Condition::forward}) {
-    const OperatingPoint& point = condition == Condition::hover ? result.hover : result.forward;
-    if (at_tilt_limit(point, design)) {
+  for (const OperatingPoint* point : {&hover, &forward}) {
+    if (at_tilt_limit(*point, flights.hover.design())) {
       result.limited_by = Limit::max_pitch;
-      result.limiting_condition = condition;
+      result.limiting_condition = point == &hover ? Condition::hover : Condition::forward;
       return;
     }
   }
-  if (area == result.minimum_power.area) {
+  if (at_minimum) {
     result.limited_by = Limit::minimum_power;
-    result.limiting_condition = design.requirements.power_at;
+    result.limiting_condition = need.power_at;
     return;
   }
   const bool by_headroom =
+      !need.buffer_battery &&
       std::any_of(result.headroom_areas.begin(), result.headroom_areas.end(),
-                  [area](const Interval& i) { return on_edge(area, i.lo) || on_edge(area, i.hi); });
-  result.limiting_condition = by_headroom ? design.requirements.headroom_at
-                              : result.hover.headroom < result.forward.headroom
-                                  ? Condition::hover
-                                  : Condition::forward;
+                  [edge](const Interval& i) { return on_edge(edge, i.lo) || on_edge(edge, i.hi); });
+  result.limiting_condition = by_headroom                         ? need.headroom_at
+                              : hover.headroom < forward.headroom ? Condition::hover
+                                                                  : Condition::forward;
   result.limited_by =
-      area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
+      result.area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
 }
 
-/// What keeps the best reachable headroom of one condition down.
-Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best) {
+/// What keeps the best reachable headroom of one condition below `demanded`.
+Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(best.value > 0)) return beyond.lo < beyond.hi ? Limit::max_pitch : Limit::available_power;
-  const OperatingPoint point = evaluate(flight, best.area);
-  if (at_tilt_limit(point, flight.design())) return Limit::max_pitch;
-  const double saturation = flight.design().drone.motor.max_thrust() * (1 - same_edge);
-  return point.available_thrust >= saturation ? Limit::motor_thrust : Limit::available_power;
+  const bool tilts = beyond.lo < beyond.hi;
+  if (!(best.value > 0)) return tilts ? Limit::max_pitch : Limit::available_power;
+  if (at_tilt_limit(evaluate(flight, best.area), flight.design())) return Limit::max_pitch;
+  const double lightest = tilts && !(beyond.lo > 0) ? beyond.hi : 0;
+  const double least_thrust =
+      flight.necessary_thrust(lightest, flight.tan_pitch(lightest, infinity));
+  return flight.design().drone.motor.max_thrust() < demanded * least_thrust
+             ? Limit::motor_thrust
+             : Limit::available_power;
 }
 
 /// Names what an infeasible design lacks: the first demand that no area meets; where each is met by
@@ -107,7 +125,7 @@ void name_obstacle(Optimization& result, const Flights& flights) {
   }
   const SteadyFlight& flight = flights.in(missed.condition);
   result.limiting_condition = missed.condition;
-  result.limited_by = obstacle(flight, best_headroom(flight));
+  result.limited_by = obstacle(flight, best_headroom(flight), missed.headroom);
 }
 
 }  // namespace
@@ -118,8 +136,8 @@ Optimization optimize(const Design& design) {
 }
 
 Optimization optimize_without_cable_limits(const Design& design) {
-  const Flights flights{SteadyFlight(design, Condition::hover),
-                        SteadyFlight(design, Condition::forward)};
+  const SteadyFlight hover(design, Condition::hover);
+  const Flights flights{hover, hover.in(Condition::forward)};
   const Requirements& need = design.requirements;
   Optimization result;
   result.area = std::numeric_limits<double>::quiet_NaN();
@@ -128,19 +146,24 @@ Optimization optimize_without_cable_limits(const Design& design) {
   result.minimum_power = minimum_power(priced);
   result.feasible_areas = need.buffer_battery ? IntervalSet{{0, infinity}} : result.headroom_areas;
 
-  const MinimumPower best = least_within(priced, result.feasible_areas, result.minimum_power);
-  if (best.power > 0) take(result, flights, best.area);
+  const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+  if (area > 0) take(result, flights, area);
   if (!result.feasible) {
     // Few designs come here: where the headroom is met, both conditions can usually be flown.
     result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.hover, 1));
     result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.forward, 1));
-    const MinimumPower flyable = least_within(priced, result.feasible_areas, result.minimum_power);
-    if (flyable.power > 0) {
-      take(result, flights, flyable.area);
+    const double flyable = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+    if (flyable > 0) {
+      take(result, flights, flyable);
       result.feasible = true;  // by construction; an edge may miss a headroom of 1 by rounding
     }
   }
-  result.feasible ? name_limit(result, flights) : name_obstacle(result, flights);
+  if (result.feasible) {
+    name_limit(result, flights);
+  } else {
+    result.area = std::numeric_limits<double>::quiet_NaN();
+    name_obstacle(result, flights);
+  }
   return result;
 }
 

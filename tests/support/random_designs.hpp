@@ -65,11 +65,13 @@ inline Converter random_converter(Random& random, double voltage) {
   if (random.chance(0.4)) {
     double output = 0;
     for (int i = random.integer(1, 4); i > 0; --i) {
+      const EfficiencyPoint last = converter.efficiency.back();
       output += random.magnitude(20, 500);
-      const double previous = converter.efficiency.back().efficiency;
-      // A fall by more than this over a step could draw less power at a higher load.
+      // Rising faster than this, it would draw less power at a higher load.
+      const double most = last.efficiency * (0.1 + 0.9 * output / std::max(last.output_power, 1.0));
       converter.efficiency.push_back(
-          {output, std::clamp(previous + random.uniform(-0.15, 0.15), 0.5, 0.99)});
+          {output,
+           std::min(most, std::clamp(last.efficiency + random.uniform(-0.15, 0.15), 0.5, 0.99))});
     }
   }
   if (random.chance(0.7)) converter.min_input_voltage = random.uniform(0, 0.8) * voltage;

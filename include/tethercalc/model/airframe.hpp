@@ -43,8 +43,10 @@ struct ForceBalance {
 /// weight·t − factor·g(t) − tether_drag is ≤ 0 at t = 0, convex while g is concave, and rising from
 /// where g stops being concave on, since g falls there. Newton's method from the right of the root
 /// therefore converges monotonically; it is used with a bracket all the same. Where `tan_limit` is
-/// exceeded the answer is +infinity: the drone would have to tilt further than allowed.
-/// `guess` ≥ 0 only saves iterations. Relative error of t below 1e-14.
+/// exceeded the answer is +infinity: the drone would have to tilt further than allowed. (With
+/// neither front area nor tether drag, t = 0 is a second root; the answer is the other one, where
+/// it exists, as the limit of a small front area.) `guess` ≥ 0 only saves iterations. Relative
+/// error of t below 1e-14.
 [[nodiscard]] double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit,
                                            double guess = 0);
 

@@ -44,7 +44,10 @@ void validate(const Converter& converter);
 [[nodiscard]] double efficiency_at(const Converter& converter, double output_power);
 
 /// Input power in W that yields `output_power` in W (≥ 0). +infinity stays +infinity.
-[[nodiscard]] double converter_input_power(const Converter& converter, double output_power);
+[[nodiscard]] inline double converter_input_power(const Converter& converter, double output_power) {
+  return output_power / (converter.efficiency.size() == 1 ? converter.efficiency[0].efficiency
+                                                          : efficiency_at(converter, output_power));
+}
 
 /// Output power in W made of `input_power` in W: the inverse of `converter_input_power`. 0 where
 /// input_power ≤ 0.

@@ -34,7 +34,8 @@ class MotorCurve {
   /// not belongs through `isotonic_motor_points` first.
   explicit MotorCurve(std::vector<MotorPoint> points);
 
-  /// Electrical power in W for `thrust` in N; 0 for thrust ≤ 0; +infinity above `max_thrust()`.
+  /// Electrical power in W for `thrust` in N; 0 for thrust ≤ 0; +infinity above `max_thrust()`
+  /// (by more than 1e-12 of it, so that rounding does not decide).
   [[nodiscard]] double power(double thrust) const;
 
   /// Thrust in N from electrical power in W; 0 for power ≤ 0; `max_thrust()` from `max_power()` on.
@@ -48,8 +49,11 @@ class MotorCurve {
   [[nodiscard]] double slope(std::size_t index) const;
 
   /// The largest convex curve nowhere above this one, through some of its vertices and with the
-  /// same limits (its lower convex hull). A convex curve is its own.
-  [[nodiscard]] MotorCurve convex_hull() const;
+  /// same limits (its lower convex hull). A convex curve is its own. Lives as long as this curve.
+  [[nodiscard]] const MotorCurve& convex_hull() const;
+
+  /// Whether the power of an additional thrust rises from piece to piece.
+  [[nodiscard]] bool is_convex() const;
 
   [[nodiscard]] double max_thrust() const;  ///< N, 0 for the empty curve
   [[nodiscard]] double max_power() const;   ///< W, 0 for the empty curve

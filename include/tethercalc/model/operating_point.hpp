@@ -38,7 +38,8 @@ struct OperatingPoint {
   /// delivered over the cold cable, and no steady state over the warm one exists.
   bool thermal_runaway = false;
 
-  /// True where the tilt is within its limit and the headroom at least 1: the motors make the
+  /// True where the tilt is within its limit and the headroom at least 1 (but for
+  /// rounding): the motors make the
   /// thrust, from power that arrives at no less than the lowest received voltage.
   bool flyable = false;
 };

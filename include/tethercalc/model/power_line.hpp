@@ -15,8 +15,8 @@ namespace tethercalc {
 
 /// What the ground supply gives, W, so that `load_power` W arrive over `resistance` Ω (≥ 0):
 /// P = U·I with the smaller root of I²R − U·I + P_load = 0, written as 2P/(1 + √(1 − 4RP/U²)) which
-/// loses no digits for a small resistance. NaN where there is no real root: the power cannot be
-/// delivered.
+/// loses no digits for a small resistance. NaN where there is no real root (by more than 1e-12 of
+/// the power): the power cannot be delivered.
 [[nodiscard]] double supplied_power(double supply_voltage, double resistance, double load_power);
 
 }  // namespace tethercalc

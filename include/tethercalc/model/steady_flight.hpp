@@ -1,6 +1,9 @@
 // A design in one flight condition, prepared for evaluation at many conductor sizes.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
@@ -17,6 +20,9 @@ class SteadyFlight {
   /// Prepares `design` for `condition`. The design is taken as valid: no check is made here.
   SteadyFlight(const Design& design, Condition condition);
 
+  /// The same design in another condition, sooner than from the design.
+  [[nodiscard]] SteadyFlight in(Condition condition) const;
+
   /// Mass of the airborne tether.
   [[nodiscard]] double tether_mass(double radius) const {
     return mass_0_ + radius * (mass_1_ + radius * mass_2_);
@@ -28,6 +34,8 @@ class SteadyFlight {
   }
   /// Derivative of the mass by the radius, kg/m.
   [[nodiscard]] double mass_slope(double radius) const { return mass_1_ + 2 * radius * mass_2_; }
+  /// Second derivative, kg/m².
+  [[nodiscard]] double mass_curvature() const { return 2 * mass_2_; }
 
   /// Radius at which the take-off mass is `mass`; negative where even the thinnest tether is
   /// heavier.
@@ -55,7 +63,18 @@ class SteadyFlight {
   [[nodiscard]] double radius_of_resistance(double resistance) const;
 
   /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
-  [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const;
+  [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const {
+    return area_force_factor_ == 0 && tether_drag_1_ == 0
+               ? 0
+               : balanced_tan_pitch(radius, tan_limit, guess);
+  }
+
+  /// First approximation of `tan_pitch`: with the drag of the level drone.
+  [[nodiscard]] double level_drag_tan_pitch(double radius) const {
+    return (area_force_factor_ * design_->drone.drag.front_area + tether_drag_0_ +
+            tether_drag_1_ * radius) /
+           (takeoff_mass(radius) * weight_per_mass_);
+  }
 
   /// Airspeed in m/s in this condition.
   [[nodiscard]] double airspeed() const { return airspeed_; }
@@ -77,11 +96,15 @@ class SteadyFlight {
 
   /// A thrust of one motor and how it changes with the radius.
   struct Thrust {
-    double value = 0;  ///< N
-    double slope = 0;  ///< N/m
+    double value = 0;      ///< N
+    double slope = 0;      ///< N/m
+    double tan_slope = 0;  ///< derivative of the tangent of the tilt, 1/m
   };
   /// Thrust that carries the weight at a tilt with tangent `tan_pitch`: (m_d + m_t)g/(n·cosθ).
-  [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const;
+  [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const {
+    return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) *
+           per_motor_;
+  }
   /// The same with its derivative, where `tan_pitch` is that of the equilibrium at `radius`.
   [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const;
 
@@ -92,9 +115,14 @@ class SteadyFlight {
   /// Thrust the motors make of `available_power` at the converter's input.
   [[nodiscard]] double available_thrust(double available_power) const;
 
-  /// Loop resistance at which the available power is exactly `power` (> 0).
-  [[nodiscard]] double resistance_of_available_power(double power) const {
-    return deliverable_ / power;
+  /// Radius at which the available power is exactly `power`: 0 for power ≤ 0, +infinity where
+  /// contacts alone keep it lower.
+  [[nodiscard]] double radius_of_available_power(double power) const {
+    if (!(power > 0)) return 0;
+    // P = deliverable/(R_contact + resistance_area/r²), solved for r.
+    const double line = deliverable_ - contact_resistance_ * power;
+    return line > 0 ? std::sqrt(resistance_area_ * power / line)
+                    : std::numeric_limits<double>::infinity();
   }
 
   /// Power at the converter's input for a thrust, +infinity where the motors cannot make it.
@@ -102,7 +130,10 @@ class SteadyFlight {
     return input_power(design_->drone.motor.power(thrust));
   }
   /// The same for one motor's data-sheet power in W.
-  [[nodiscard]] double input_power(double motor_power) const;
+  [[nodiscard]] double input_power(double motor_power) const {
+    return converter_input_power(design_->supply.converter, power_scale_ * motor_power) +
+           design_->drone.auxiliary_power;
+  }
   /// Power at the converter's output for one motor's data-sheet power.
   [[nodiscard]] double output_power(double motor_power) const { return power_scale_ * motor_power; }
 
@@ -110,6 +141,9 @@ class SteadyFlight {
   [[nodiscard]] const Design& design() const { return *design_; }
 
  private:
+  void set_airspeed(double speed);
+  [[nodiscard]] double balanced_tan_pitch(double radius, double tan_limit, double guess) const;
+
   const Design* design_;
   double drone_mass_;  ///< with the winch's pull as mass
   double wall_;
@@ -123,7 +157,7 @@ class SteadyFlight {
   double pitch_sign_;
   double tan_pitch_limit_;
   double deliverable_;  ///< V², P_avail·R
-  double motors_;       ///< number of motors
+  double per_motor_;    ///< one over the number of motors
   double power_scale_;  ///< converter output per data-sheet power of one motor: n·f
 };
 

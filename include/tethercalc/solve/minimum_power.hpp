@@ -14,6 +14,9 @@ struct MinimumPower {
   double power = 0;  ///< W from the ground supply; NaN likewise
 };
 
+/// The one with less power; one that exists before one that does not.
+[[nodiscard]] MinimumPower lesser(const MinimumPower& a, const MinimumPower& b);
+
 /// The least power over every cross-section in `within` (m²; hi may be +infinity) whose tilt is
 /// within its limit, whose thrust the motors can make and whose power the line can deliver. No
 /// headroom and no converter cut-off is asked for here.
@@ -31,5 +34,10 @@ struct MinimumPower {
 [[nodiscard]] MinimumPower minimum_power(const SteadyFlight& flight,
                                          Interval within = {
                                              0, std::numeric_limits<double>::infinity()});
+
+/// Whether the power over all areas within the tilt limit is certain to be one valley, so that the
+/// least power in a range beside its bottom is at the range's nearest end: a constant efficiency, a
+/// motor curve that is its own convex hull, and no area beyond the tilt limit.
+[[nodiscard]] bool has_one_valley(const SteadyFlight& flight);
 
 }  // namespace tethercalc

@@ -1,0 +1,176 @@
+// Notation: r conductor radius; P drone power at the converter's input; R loop resistance; I tether
+// current; y total power. From y = P + R·(y/U)² follows y'·(1 − 2RI/U) = P' + I²R' =: s, so s has
+// the sign of the total power's slope. Where the line cannot deliver P, s with I² = P/R has the
+// sign of (R·P)' and points back to where it can.
+
+#include "solve/valley_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "tethercalc/model/power_line.hpp"
+
+namespace tethercalc {
+namespace {
+
+/// ln x for x ≥ 0 near 1, with an error of the third order; within ±2 everywhere.
+double near_log(double x) { return x < 1e300 ? 2 * (x - 1) / (x + 1) : 2; }
+
+/// exp(x) for |x| < 1, with an error of the third order.
+double near_exp(double x) { return (2 + x) / (2 - x); }
+
+class ValleySearch {
+ public:
+  ValleySearch(const SteadyFlight& flight, const MotorCurve& motor, Pieces pieces, Interval radii)
+      : flight_(flight),
+        motor_(motor),
+        vertices_(motor.vertices()),
+        pieces_(pieces),
+        per_voltage_(1 / flight.design().supply.voltage),
+        idle_(flight.input_power(0)),
+        input_slope_(flight.input_power(1) - idle_),
+        left_{radii.lo, false},
+        right_{radii.hi, false} {}
+
+  ThrustAt bottom(ThrustAt at) {
+    // Relative to the radius. The end of such a step is a hundred times closer to the bottom, where
+    // the power is flat to the square of that; and the thrust is straight to the square of the
+    // step.
+    constexpr double last_step = 1e-7;
+    stay_within_motors(at);
+    std::size_t piece = piece_at(at);
+    for (int step = 1; step < 200; ++step) {
+      const double excess = near_log(saved_per_spent(at, piece));
+      const bool falls = excess > 0;
+      if (falls ? at.radius >= right_.radius : at.radius <= left_.radius) return at;
+      (falls ? left_ : right_) = {at.radius, true};
+
+      const double fall = fall_at(at, piece, excess);
+      double next = at.radius * near_exp(excess / fall);
+      const std::size_t vertex = falls ? piece + 1 : piece;
+      if (passes(at, next, vertex, falls)) {
+        next = at.radius * near_exp((excess + jump_at(vertex, falls)) / fall);
+        const bool tiny = std::abs(next - at.radius) <= 1e-3 * at.radius;
+        if (tiny || !passes(at, next, vertex, falls)) {
+          const ThrustAt kink = at_thrust(flight_, vertices_[vertex].thrust, at);
+          if (left_.radius < kink.radius && kink.radius < right_.radius) {
+            const bool falls_up_to = saved_per_spent(kink, vertex - 1) >= 1;
+            const bool rises_from = vertex > pieces_.last || saved_per_spent(kink, vertex) <= 1;
+            if (falls_up_to && rises_from) return kink;
+            at = kink;
+            piece = falls_up_to ? vertex : vertex - 1;
+            continue;
+          }
+        }
+      }
+      next = inside_bracket(next, step);
+      if (std::abs(next - at.radius) <= last_step * at.radius) return nearby(at, next);
+      at = thrust_at(flight_, next, at.tan_guess(next));
+      stay_within_motors(at);
+      piece = piece_at(at);
+    }
+    return at;
+  }
+
+ private:
+  struct Side {
+    double radius = 0;
+    bool known = false;  ///< else the end of the range, not looked at yet
+  };
+
+  /// Loss saved over power spent by a little more radius, −I²R'/P', were the motor curve to follow
+  /// `piece` everywhere: above 1 where the total power falls with the radius.
+  [[nodiscard]] double saved_per_spent(const ThrustAt& at, std::size_t piece) const {
+    const MotorPoint& start = vertices_[piece];
+    const double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
+    const double power =
+        idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
+    const double resistance = flight_.resistance(at.radius);
+    const double discriminant = 1 - 4 * resistance * power * per_voltage_ * per_voltage_;
+    const double current = 2 * power * per_voltage_ / (1 + std::sqrt(std::max(0.0, discriminant)));
+    const double current_squared = discriminant >= 0 ? current * current : power / resistance;
+    return -current_squared * flight_.resistance_slope(at.radius) / (slope * at.thrust.slope);
+  }
+
+  /// About −d ln(saved_per_spent)/d ln r on `piece`: through the place before, where that was on
+  /// the same piece, else as 3 from the savings and what the tether's growing mass adds.
+  double fall_at(const ThrustAt& at, std::size_t piece, double excess) {
+    const Side before = before_;
+    const double change = excess - before_excess_;
+    const bool same_piece = before.known && before_piece_ == piece;
+    before_ = {at.radius, true};
+    before_excess_ = excess;
+    before_piece_ = piece;
+    const double secant = -change / near_log(at.radius / before.radius);
+    if (same_piece && secant > 1 && secant < 20) return secant;
+    return 3 + flight_.mass_curvature() * at.radius / flight_.mass_slope(at.radius);
+  }
+
+  [[nodiscard]] std::size_t piece_at(const ThrustAt& at) const {
+    return std::clamp(motor_.piece(at.thrust.value), pieces_.first, pieces_.last);
+  }
+
+  [[nodiscard]] static ThrustAt nearby(const ThrustAt& at, double radius) {
+    ThrustAt there = at;
+    there.radius = radius;
+    there.tan_pitch = at.tan_guess(radius);
+    there.thrust.value += at.thrust.slope * (radius - at.radius);
+    return there;
+  }
+
+  /// Whether the thrust at `next` is about beyond the vertex, one of those between the pieces or
+  /// the last of the motors.
+  [[nodiscard]] bool passes(const ThrustAt& at, double next, std::size_t vertex, bool up) const {
+    if (up ? vertex > pieces_.last && vertex + 1 < vertices_.size() : vertex <= pieces_.first) {
+      return false;
+    }
+    const double thrust = at.thrust.value + at.thrust.slope * (next - at.radius);
+    const double limit = vertices_[vertex].thrust;
+    return up ? thrust > limit : thrust < limit;
+  }
+
+  /// What crossing the vertex adds to the logarithm of saved_per_spent.
+  [[nodiscard]] double jump_at(std::size_t vertex, bool up) const {
+    if (vertex > pieces_.last) return -2;  // more thrust is not to be had
+    const double ratio = motor_.slope(vertex - 1) / motor_.slope(vertex);
+    return up ? near_log(ratio) : -near_log(ratio);
+  }
+
+  void stay_within_motors(ThrustAt& at) {
+    if (at.thrust.value <= motor_.max_thrust()) return;
+    at = at_thrust(flight_, motor_.max_thrust(), at);
+    right_.radius = std::min(right_.radius, at.radius);
+  }
+
+  /// `next`, or where it is not between the sides, the end of the range if that has not been looked
+  /// at yet, else the middle; the middle every eighth step, so that the search cannot crawl.
+  [[nodiscard]] double inside_bracket(double next, int step) const {
+    const double middle = 0.5 * (left_.radius + right_.radius);
+    if (next <= left_.radius) return left_.known ? middle : left_.radius;
+    if (next >= right_.radius) return right_.known ? middle : right_.radius;
+    return step % 8 == 0 && left_.known && right_.known ? middle : next;
+  }
+
+  const SteadyFlight& flight_;
+  const MotorCurve& motor_;
+  std::span<const MotorPoint> vertices_;
+  Pieces pieces_;
+  double per_voltage_;
+  double idle_;         ///< W at the converter's input without thrust
+  double input_slope_;  ///< W at the converter's input per W of one motor
+  Side left_;           ///< the power falls here
+  Side right_;          ///< and rises here
+  Side before_;
+  double before_excess_ = 0;
+  std::size_t before_piece_ = 0;
+};
+
+}  // namespace
+
+ThrustAt valley_bottom(const SteadyFlight& flight, const MotorCurve& motor, Pieces pieces,
+                       Interval radii, const ThrustAt& start) {
+  return ValleySearch(flight, motor, pieces, radii).bottom(start);
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,52 @@
+#include "tethercalc/model/converter.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <stdexcept>
+
+#include "support/plain_physics.hpp"
+#include "support/random_designs.hpp"
+
+using namespace tethercalc;
+
+TEST_CASE("a converter's efficiency is straight between points and constant outside") {
+  const Converter converter{{{100, 0.8}, {300, 0.9}}, 0};
+  CHECK(efficiency_at(converter, 0) == 0.8);
+  CHECK(efficiency_at(converter, 100) == 0.8);
+  CHECK(efficiency_at(converter, 200) == Approx(0.85));
+  CHECK(efficiency_at(converter, 300) == Approx(0.9));
+  CHECK(efficiency_at(converter, 900) == 0.9);
+  CHECK(converter_input_power(converter, 200) == Approx(200 / 0.85));
+}
+
+TEST_CASE("a converter without input gives no output, and infinite load stays infinite") {
+  const Converter converter{{{100, 0.8}, {300, 0.9}}, 0};
+  CHECK(converter_output_power(converter, 0) == 0);
+  CHECK(converter_output_power(converter, -5) == 0);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  CHECK(converter_input_power(converter, infinity) == infinity);
+  CHECK(converter_input_power(Converter{}, infinity) == infinity);
+}
+
+TEST_CASE("converter input and output are each other's inverse") {
+  test::each_random(500, [](test::Random& random) {
+    const Converter converter = test::random_converter(random, 100);
+    validate(converter);
+    for (int i = 0; i < 20; ++i) {
+      const double output = random.magnitude(0.1, 3000);
+      const double input = output / test::plain::efficiency(converter, output);
+      CHECK(converter_input_power(converter, output) == Approx(input).epsilon(1e-12));
+      CHECK(converter_output_power(converter, input) == Approx(output).epsilon(1e-12));
+    }
+  });
+}
+
+TEST_CASE("a converter curve that cannot be inverted is refused") {
+  CHECK_THROWS_AS(validate({{}, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(validate({{{0, 0}}, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(validate({{{0, 1.01}}, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(validate({{{10, 0.9}, {10, 0.8}}, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(validate({{{-1, 0.9}, {10, 0.8}}, 0}), std::invalid_argument);
+  // 100 W at 50 % draws 200 W, 110 W at 99 % would draw 111 W.
+  CHECK_THROWS_AS(validate({{{100, 0.5}, {110, 0.99}}, 0}), std::invalid_argument);
+}

@@ -1,0 +1,87 @@
+#include "tethercalc/model/motor_curve.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "support/plain_physics.hpp"
+#include "support/random_designs.hpp"
+
+using namespace tethercalc;
+
+TEST_CASE("a motor curve passes through its points and is straight between them") {
+  const MotorCurve motor({{2, 10}, {4, 30}, {5, 50}});
+  CHECK(motor.power(2) == 10);
+  CHECK(motor.power(3) == Approx(20));
+  CHECK(motor.power(4.5) == Approx(40));
+  CHECK(motor.thrust(30) == 4);
+  CHECK(motor.thrust(40) == Approx(4.5));
+}
+
+TEST_CASE("a motor curve keeps the first point's efficiency below it") {
+  const MotorCurve motor({{2, 10}, {4, 30}});
+  CHECK(motor.power(0.5) == Approx(0.5 * 10 / 2));
+  CHECK(motor.thrust(1) == Approx(2 * 1.0 / 10));
+  CHECK(motor.power(0) == 0);
+  CHECK(motor.power(-1) == 0);
+  CHECK(motor.thrust(-1) == 0);
+}
+
+TEST_CASE("a motor makes no thrust above its last point") {
+  const MotorCurve motor({{2, 10}, {4, 30}});
+  CHECK(motor.power(4) == 30);
+  CHECK(motor.power(4 * (1 + 1e-11)) == std::numeric_limits<double>::infinity());
+  CHECK(motor.thrust(1e9) == 4);
+}
+
+TEST_CASE("a curve without points makes no thrust") {
+  const MotorCurve none;
+  CHECK(none.thrust(100) == 0);
+  CHECK(none.power(1) == std::numeric_limits<double>::infinity());
+  CHECK(none.max_thrust() == 0);
+  CHECK(none.max_power() == 0);
+}
+
+TEST_CASE("a motor curve refuses points that do not rise") {
+  CHECK_THROWS_AS(MotorCurve({{1, 2}}), std::invalid_argument);
+  CHECK_THROWS_AS(MotorCurve({{1, 2}, {1, 3}}), std::invalid_argument);
+  CHECK_THROWS_AS(MotorCurve({{1, 2}, {2, 2}}), std::invalid_argument);
+  CHECK_THROWS_AS(MotorCurve({{0, 0}, {2, 2}}), std::invalid_argument);
+  CHECK_THROWS_AS(MotorCurve({{1, 2}, {2, std::nan("")}}), std::invalid_argument);
+  CHECK_THROWS_AS(MotorCurve({{1, 2}, {std::numeric_limits<double>::infinity(), 3}}),
+                  std::invalid_argument);
+}
+
+TEST_CASE("motor power and thrust are each other's inverse and follow the points") {
+  test::each_random(200, [](test::Random& random) {
+    const MotorCurve motor = test::random_motor(random, 0.9);
+    for (int i = 0; i < 20; ++i) {
+      const double thrust = random.uniform(0, motor.max_thrust());
+      CHECK(motor.thrust(motor.power(thrust)) == Approx(thrust).epsilon(1e-12));
+      CHECK(motor.power(thrust) == Approx(test::plain::motor_power(motor, thrust)).epsilon(1e-12));
+      const double power = random.uniform(0, motor.max_power());
+      CHECK(motor.power(motor.thrust(power)) == Approx(power).epsilon(1e-12));
+      CHECK(motor.thrust(power) == Approx(test::plain::motor_thrust(motor, power)).epsilon(1e-12));
+    }
+  });
+}
+
+TEST_CASE("the convex hull lies nowhere above the curve, is convex and meets it at its vertices") {
+  test::each_random(200, [](test::Random& random) {
+    const MotorCurve motor = test::random_motor(random, random.chance(0.3) ? 0 : 0.9);
+    const MotorCurve hull = motor.convex_hull();
+    CHECK(hull.max_thrust() == motor.max_thrust());
+    CHECK(hull.max_power() == motor.max_power());
+    for (const MotorPoint& vertex : hull.vertices()) {
+      CHECK(motor.power(vertex.thrust) == Approx(vertex.power).epsilon(1e-14));
+    }
+    for (std::size_t i = 2; i < hull.vertices().size(); ++i) {
+      CHECK(hull.slope(i - 1) > hull.slope(i - 2));
+    }
+    for (int i = 0; i < 50; ++i) {
+      const double thrust = random.uniform(0, motor.max_thrust());
+      CHECK(hull.power(thrust) <= motor.power(thrust) * (1 + 1e-12));
+    }
+  });
+}

@@ -1,0 +1,173 @@
+#include "tethercalc/model/operating_point.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/plain_physics.hpp"
+#include "support/random_designs.hpp"
+#include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/steady_flight.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+/// A design, an area and a condition, of which about half can be flown.
+template <typename Visit>
+void each_random_point(int count, Visit visit) {
+  test::each_random(count, [&](test::Random& random) {
+    const Design design = test::random_design(random);
+    const double area = random.magnitude(1e-8, 1e-4);
+    visit(design, area, random.chance(0.5) ? Condition::hover : Condition::forward);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("an operating point follows the paper's equations") {
+  each_random_point(2000, [](const Design& design, double area, Condition condition) {
+    const OperatingPoint ours = evaluate(design, area, condition);
+    const test::plain::Point plain = test::plain::evaluate(design, area, condition);
+    CHECK(ours.tether_resistance == Approx(plain.resistance).epsilon(1e-12));
+    CHECK(ours.tether_mass == Approx(plain.tether_mass).epsilon(1e-12));
+    CHECK(ours.available_power == Approx(plain.available_power).epsilon(1e-12));
+    CHECK(ours.available_thrust == Approx(plain.available_thrust).epsilon(1e-11).margin(1e-12));
+    if (plain.tilts_too_far) {
+      CHECK(std::isnan(ours.pitch));
+      CHECK(std::isnan(ours.necessary_thrust));
+      CHECK(std::isnan(ours.total_power));
+      CHECK_FALSE(ours.flyable);
+      return;
+    }
+    CHECK(ours.pitch == Approx(plain.pitch).epsilon(1e-12).margin(1e-14));
+    CHECK(ours.necessary_thrust == Approx(plain.necessary_thrust).epsilon(1e-12));
+    CHECK(ours.headroom == Approx(plain.headroom).epsilon(1e-11).margin(1e-12));
+    CHECK(ours.flyable == (plain.headroom >= 1));
+    if (plain.drone_power < test::plain::infinity) {
+      CHECK(ours.drone_power == Approx(plain.drone_power).epsilon(1e-11));
+    } else {
+      CHECK(std::isnan(ours.drone_power));
+    }
+    if (plain.total_power < test::plain::infinity) {
+      // The textbook's smaller root cancels: it has fewer digits the smaller the loss is.
+      CHECK(ours.total_power == Approx(plain.total_power).epsilon(1e-8));
+    } else {
+      CHECK(std::isnan(ours.total_power));
+    }
+  });
+}
+
+TEST_CASE("what the supply gives arrives at the drone or heats the tether") {
+  each_random_point(2000, [](const Design& design, double area, Condition condition) {
+    const OperatingPoint p = evaluate(design, area, condition);
+    if (std::isnan(p.total_power)) return;
+    const double heat = p.current * p.current * p.tether_resistance;
+    CHECK(design.supply.voltage * p.current == Approx(p.drone_power + heat).epsilon(1e-9));
+    CHECK(p.tether_loss == Approx(heat).epsilon(1e-9).margin(1e-9 * p.total_power));
+    CHECK(p.received_voltage * p.current == Approx(p.drone_power).epsilon(1e-9));
+    CHECK(p.received_voltage >= design.supply.voltage / 2 * (1 - 1e-9));
+  });
+}
+
+TEST_CASE("a flyable point receives no less than the lowest allowed voltage") {
+  each_random_point(2000, [](const Design& design, double area, Condition condition) {
+    const OperatingPoint p = evaluate(design, area, condition);
+    if (!p.flyable) return;
+    CHECK(p.received_voltage >= design.supply.converter.min_input_voltage * (1 - 1e-9));
+    CHECK(p.drone_power <= p.available_power * (1 + 1e-9));
+  });
+}
+
+TEST_CASE("more voltage never needs more power and never takes away headroom") {
+  test::each_random(1000, [](test::Random& random) {
+    Design design = test::random_design(random);
+    const double area = random.magnitude(1e-8, 1e-4);
+    const OperatingPoint low = evaluate(design, area, Condition::forward);
+    design.supply.voltage *= random.uniform(1, 3);
+    const OperatingPoint high = evaluate(design, area, Condition::forward);
+    if (std::isnan(low.headroom)) return;
+    CHECK(high.headroom >= low.headroom * (1 - 1e-12));
+    if (!std::isnan(low.total_power)) CHECK(high.total_power <= low.total_power * (1 + 1e-12));
+  });
+}
+
+TEST_CASE("a heavier or hotter or longer-spooled design never needs less power") {
+  test::each_random(1000, [](test::Random& random) {
+    const Design design = test::random_design(random);
+    const double area = random.magnitude(1e-8, 1e-4);
+    Design worse = design;
+    switch (random.integer(0, 3)) {
+      case 0:
+        worse.tether.conductor_temperature_C += random.uniform(0, 50);
+        break;
+      case 1:
+        worse.tether.spooled_length += random.uniform(0, 50);
+        break;
+      case 2:
+        worse.tether.contact_resistance += random.uniform(0, 1);
+        break;
+      default:
+        worse.drone.auxiliary_power += random.uniform(0, 50);
+    }
+    const double before = evaluate(design, area, Condition::hover).total_power;
+    const double after = evaluate(worse, area, Condition::hover).total_power;
+    if (std::isnan(before)) {
+      CHECK(std::isnan(after));
+    } else if (!std::isnan(after)) {
+      CHECK(after >= before * (1 - 1e-12));
+    }
+  });
+}
+
+TEST_CASE("flying backward through the air leans backward by the same tilt") {
+  Design design = test::published_design();
+  const double forward = evaluate(design, 1e-6, Condition::forward).pitch;
+  design.flight.headwind = -2 * design.flight.airspeed;
+  CHECK(forward > 0);
+  CHECK(evaluate(design, 1e-6, Condition::forward).pitch == Approx(-forward));
+}
+
+TEST_CASE("the range beyond the tilt limit is where a bisection over the angle tilts further") {
+  test::each_random(500, [](test::Random& random) {
+    Design design = test::random_design(random);
+    design.flight.airspeed = random.uniform(5, 60);
+    const SteadyFlight flight(design, Condition::forward);
+    const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+    for (int i = 0; i < 20; ++i) {
+      const double radius = random.magnitude(1e-5, 1e-1);
+      const double edge_distance =
+          std::min(std::abs(radius / beyond.lo - 1), std::abs(radius / beyond.hi - 1));
+      if (edge_distance < 1e-9) continue;
+      const double area = test::plain::pi * radius * radius;
+      CHECK(test::plain::evaluate(design, area, Condition::forward).tilts_too_far ==
+            (beyond.lo < radius && radius < beyond.hi));
+    }
+  });
+}
+
+TEST_CASE("radii of a mass and of a resistance are the inverses of both") {
+  test::each_random(500, [](test::Random& random) {
+    const Design design = test::random_design(random);
+    const SteadyFlight flight(design, Condition::hover);
+    const double radius = random.magnitude(1e-5, 1e-2);
+    CHECK(flight.radius_of_mass(flight.takeoff_mass(radius)) == Approx(radius).epsilon(1e-6));
+    CHECK(flight.radius_of_resistance(flight.resistance(radius)) == Approx(radius).epsilon(1e-6));
+    CHECK(flight.radius_of_mass(flight.takeoff_mass(0) * 0.999) < 0);
+  });
+}
+
+TEST_CASE("the slope of the necessary thrust is that of its secant") {
+  test::each_random(500, [](test::Random& random) {
+    const Design design = test::random_design(random);
+    const SteadyFlight flight(design, Condition::forward);
+    const double radius = random.magnitude(1e-4, 1e-2);
+    const auto thrust = [&](double r) {
+      return flight.necessary_thrust(r, flight.tan_pitch(r, test::plain::infinity));
+    };
+    const double step = 1e-4 * radius;
+    const double secant = (thrust(radius + step) - thrust(radius - step)) / (2 * step);
+    const auto tangent =
+        flight.necessary_thrust_with_slope(radius, flight.tan_pitch(radius, test::plain::infinity));
+    CHECK(tangent.slope == Approx(secant).epsilon(1e-5).margin(1e-9 * tangent.value / step));
+  });
+}
