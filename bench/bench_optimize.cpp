@@ -37,11 +37,20 @@ MotorCurve data_sheet_motor() {
 /// The published drone.
 Design published_design(MotorCurve motor) {
   Design d;
-  d.drone = {1.710, 4, std::move(motor), 1, 15, {0.01451, 0.01361, 19.27, 0}};
+  d.drone.mass = 1.710;
+  d.drone.motor_count = 4;
+  d.drone.motor = std::move(motor);
+  d.drone.auxiliary_power = 15;
+  d.drone.drag = {0.01451, 0.01361, 19.27, 0};
   d.tether.length = 30;
-  d.tether.conductor = {0.0278e-6, 0.00403, 2700};
-  d.tether.insulation = {1360, 0.75e-3};
-  d.supply = {75, {{{0, 0.9}}, 20}};
+  d.tether.conductor.resistivity_20C = 0.0278e-6;
+  d.tether.conductor.temperature_coefficient = 0.00403;
+  d.tether.conductor.density = 2700;
+  d.tether.insulation.density = 1360;
+  d.tether.insulation.thickness = 0.75e-3;
+  d.supply.voltage = 75;
+  d.supply.converter.efficiency = {{0, 0.9}};
+  d.supply.converter.min_input_voltage = 20;
   d.flight.airspeed = 30 / 3.6;
   return d;
 }
