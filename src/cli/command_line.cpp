@@ -11,8 +11,9 @@
 
 #include "cli/check_command.hpp"
 #include "cli/design_commands.hpp"
-#include "cli/log_commands.hpp"
 #include "cli/design_search_commands.hpp"
+#include "cli/diagnose_command.hpp"
+#include "cli/log_commands.hpp"
 #include "cli/output.hpp"
 #include "cli/sweep_command.hpp"
 #include "io/closest_name.hpp"
@@ -101,6 +102,7 @@ class CommandLine {
     add_init();
     add_list();
     add_drag();
+    add_diagnose();
     add_log();
     app_.footer("Exit codes: 0 done; 1 the honest answer is no; 2 bad input; 3 internal error.");
   }
@@ -269,6 +271,25 @@ class CommandLine {
     add_output(command, output_);
   }
 
+  void add_diagnose() {
+    CLI::App& command =
+        add("diagnose", "What the simulation of a measured flight gets wrong, and why", [this] {
+          diagnose_.spec = spec_;
+          return run_diagnose(diagnose_, output_);
+        });
+    add_spec(command, spec_);
+    command.add_option("--flight", diagnose_.flight_log, "Flight log: DataFlash (.bin) or CSV");
+    command.add_option("--power", diagnose_.power_log, "Power log (CSV)");
+    command
+        .add_option("--base", diagnose_.base,
+                    "Effects taken as part of the base model, EFFECT[,EFFECT...]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_flight(command, diagnose_.flight);
+    command.add_flag("--into", diagnose_.into, "Print the extended spec instead of the diagnosis");
+    add_output(command, output_);
+  }
+
   void add_log() {
     CLI::App& command = add("log", "What a DataFlash log holds",
                             [this] { return run_log(what_, message_, output_); });
@@ -323,6 +344,7 @@ class CommandLine {
   std::vector<std::string> files_;
   std::string what_;
   DragOptions drag_;
+  DiagnoseOptions diagnose_;
   std::string message_;
 };
 
