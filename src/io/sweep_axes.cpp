@@ -120,6 +120,20 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 // --- One axis ----------------------------------------------------------------------------------
 
+template <typename T>
+void assign(T& target, const T& value) {
+  target = value;
+}
+
+/// The material changes, the wall that the spec asks for stays.
+void assign(Insulation& target, const Insulation& material) {
+  const double thickness = target.thickness;
+  const double safety_factor = target.dielectric_safety_factor;
+  target = material;
+  target.thickness = thickness;
+  target.dielectric_safety_factor = safety_factor;
+}
+
 /// Reads one "path=values".
 class AxisReader {
  public:
@@ -164,9 +178,17 @@ class AxisReader {
             *field, values, library_conductors, find_conductor,
             [](const ConductorEntry& entry) { return entry.conductor; });
       case FieldKind::insulation_material:
-        return entry_axis<InsulationEntry, double& (*)(Design&)>(
-            *field, values, library_insulation, find_insulation,
-            [](const InsulationEntry& entry) { return entry.density; });
+        return entry_axis<InsulationEntry, Insulation& (*)(Design&)>(
+            *field, values, library_insulation, find_insulation, [](const InsulationEntry& entry) {
+              Insulation material;
+              material.density = entry.density;
+              material.thermal_conductivity = entry.thermal_conductivity.value_or(0);
+              material.rated_temperature_C = entry.rated_temperature_C;
+              material.breakdown_strength = entry.breakdown_strength.value_or(0);
+              return material;
+            });
+      case FieldKind::strength_material:
+        return refuse("a sweep cannot vary this field");
       default:
         return refuse("this field does not change the result");
     }
@@ -367,7 +389,7 @@ class AxisReader {
     auto* const access = std::get<Access>(field.access);
     return SweepAxis{dot_path(field.pointer), std::move(choices),
                      [access, values](Design& design, double position) {
-                       access(design) = values[static_cast<std::size_t>(position)];
+                       assign(access(design), values[static_cast<std::size_t>(position)]);
                      }};
   }
 

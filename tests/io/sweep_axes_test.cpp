@@ -103,6 +103,9 @@ TEST_CASE("every field of a spec that changes the result can vary") {
         CHECK(value_count(axis_of(path + "=true,false")) == 2U);
         CHECK_THAT(refusal_of(path + "=tru"), Contains("did you mean \"true\""));
         break;
+      case FieldKind::strength_material:
+        CHECK_THAT(refusal_of(path + "=aramid"), Contains("a sweep cannot vary this field"));
+        break;
       case FieldKind::condition:
         CHECK(value_count(axis_of(path + "=hover,forward")) == 2U);
         break;

@@ -64,7 +64,7 @@ TEST_CASE("counts, rates, time range and gaps of a log are told") {
   CHECK_FALSE(message(summary, "FMT").first_time.has_value());
 }
 
-TEST_CASE("one time that is far off is not believed; a long pause is") {
+TEST_CASE("one time that is far off is not believed but a long pause is") {
   DataFlashWriter log;
   test::define_xkf1(log);
   add_samples(log, 10, 20, 0);
