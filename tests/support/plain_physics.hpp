@@ -106,8 +106,8 @@ inline Point evaluate(const Design& d, double area, Condition condition) {
   // Glauert's induced velocity in level flight: ν√(μ² + ν²) = 1.
   const double mu = v / d.drone.translational_lift.hover_induced_speed;
   const double induced = bisect([&](double nu) { return nu * std::hypot(mu, nu) - 1; }, 0, 1);
-  const double f = d.drone.motor_power_factor *
-                   (1 - d.drone.translational_lift.induced_share * (1 - induced));
+  const double f =
+      d.drone.motor_power_factor * (1 - d.drone.translational_lift.induced_share * (1 - induced));
   const double u = d.supply.voltage;
   const double u_min = std::max(d.supply.converter.min_input_voltage, u / 2);
   p.available_power = u_min * (u - u_min) / p.resistance;

@@ -33,7 +33,7 @@ struct ConverterLosses {
 /// A design as it flew, with what does not outlive the flight beside it. As constructed from a
 /// design, nothing is added to it: the base model.
 struct PowerModel {
-  Design design;
+  Design design;                                    ///< the design as the spec has it
   std::optional<ConductorHeating> heating;          ///< empty: conductor at the spec's temperature
   std::optional<ConverterLosses> converter_losses;  ///< empty: the spec's efficiency
   double supply_current_gain = 1;                   ///< the ground ammeter's reading over the truth
@@ -50,9 +50,10 @@ struct PowerModel {
 
 /// Power in W at the converter's input, without auxiliaries, for W at its output, and the slope.
 struct ConverterInput {
-  double power = 0;
-  double slope = 1;
+  double power = 0;  ///< W at the converter input
+  double slope = 1;  ///< derivative by the output power
 };
+/// Input power of the converter for `output_power` in W, with its slope.
 [[nodiscard]] ConverterInput converter_input(const PowerModel& model, double output_power);
 
 /// Power in W at the bus in steady flight at every sample's height and airspeed. Above the motors'
@@ -66,12 +67,13 @@ struct ConverterInput {
 /// conductor temperature that settles at `current` (A) and `airspeed` (m/s) over
 /// `ambient_temperature_C`.
 struct FlownRange {
-  double lowest_output = 0;
-  double highest_output = 0;
-  double current = 0;
-  double airspeed = 0;
-  double ambient_temperature_C = 20;
+  double lowest_output = 0;           ///< W, least converter output flown
+  double highest_output = 0;          ///< W, most converter output flown
+  double current = 0;                 ///< A, mean tether current
+  double airspeed = 0;                ///< m/s, mean airspeed
+  double ambient_temperature_C = 20;  ///< °C, mean
 };
+/// The design with every effect that outlives the flight in its field, at the conditions `flown`.
 [[nodiscard]] Design lasting_design(const PowerModel& model, const FlownRange& flown);
 
 }  // namespace tethercalc

@@ -13,8 +13,8 @@ namespace tethercalc {
 
 /// A diagnosis and the design that flies as the log shows.
 struct PowerDiagnosis {
-  Diagnosis diagnosis;
-  Design extended;  ///< the design with every finding that outlives the flight in its field
+  Diagnosis diagnosis;  ///< what was found
+  Design extended;      ///< the design with every finding that outlives the flight in its field
 };
 
 /// A power log shorter than this, s, is not judged: it holds too few independent stretches.

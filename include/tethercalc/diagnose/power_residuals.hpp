@@ -15,16 +15,16 @@ namespace tethercalc {
 
 /// One comparison of the chain.
 struct PowerStage {
-  Stage stage = Stage::tether;
-  std::string quantity;      ///< in words: "voltage lost in the tether"
-  std::string unit;          ///< of `noise`
-  double noise = 1;          ///< standard deviation of one sample, all instruments together
-  std::vector<char> usable;  ///< one a sample
+  Stage stage = Stage::tether;  ///< which part of the chain
+  std::string quantity;         ///< in words: "voltage lost in the tether"
+  std::string unit;             ///< of `noise`
+  double noise = 1;             ///< standard deviation of one sample, all instruments together
+  std::vector<char> usable;     ///< one a sample
 
   std::size_t samples_per_row = 1;  ///< averaged into one row
   std::size_t first_row = 0;        ///< among the rows of all stages
-  std::size_t rows = 0;
-  std::vector<char> usable_rows;  ///< at least half of the samples are usable
+  std::size_t rows = 0;             ///< number of samples used
+  std::vector<char> usable_rows;    ///< at least half of the samples are usable
   std::vector<double>
       memory;             ///< φ of the autoregression that the rows' noise follows; empty: white
   double innovation = 1;  ///< standard deviation of the rows' white part over `noise`
@@ -50,8 +50,11 @@ class PowerResiduals {
   /// design has no cable cross-section.
   PowerResiduals(const PowerModel& base, ScreenedPowerLog screened);
 
+  /// The log after screening.
   [[nodiscard]] const PowerLog& log() const { return screened_.log; }
+  /// The stages that the channels allow.
   [[nodiscard]] std::span<const PowerStage> stages() const { return stages_; }
+  /// Number of samples.
   [[nodiscard]] std::size_t samples() const { return screened_.log.time.size(); }
 
   /// Rows of all stages.

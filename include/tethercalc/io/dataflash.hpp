@@ -27,7 +27,7 @@ namespace tethercalc {
 
 /// One field of a message.
 struct DataFlashField {
-  std::string name;
+  std::string name;  ///< as in the definition
   /// What it holds, as in the log's own format string:
   ///   b B h H i I q Q   signed and unsigned integers of 1, 2, 4, 8 bytes
   ///   g f d             floating point of 2, 4, 8 bytes
@@ -43,11 +43,11 @@ struct DataFlashField {
 
 /// A message type, as an FMT message defines it.
 struct DataFlashFormat {
-  std::uint8_t type = 0;
+  std::uint8_t type = 0;   ///< number that marks its messages
   std::size_t length = 0;  ///< bytes of a message, header included
-  std::string name;
-  std::string format;  ///< the kinds of its fields, one character each
-  std::string labels;  ///< their names, separated by commas
+  std::string name;        ///< such as "XKF1"
+  std::string format;      ///< the kinds of its fields, one character each
+  std::string labels;      ///< their names, separated by commas
   /// Fields that have a name; ends before a kind of field that this reader does not know.
   std::vector<DataFlashField> fields;
 
@@ -69,15 +69,16 @@ struct DataFlashFormat {
 /// `TimeMS`, both since the controller started. GPS messages of the older kind count `TimeMS` in
 /// the satellites' week and have the controller's in `T`. Nothing where a message has no time.
 struct DataFlashTime {
-  DataFlashField field;
+  DataFlashField field;          ///< which field holds the time
   double counts_per_second = 1;  ///< divide by it
 };
+/// The field that tells the time of such messages; nothing where none does.
 [[nodiscard]] std::optional<DataFlashTime> time_of(const DataFlashFormat& format);
 
 /// A stretch of bytes in which no message could be read.
 struct SkippedBytes {
   std::size_t offset = 0;  ///< of its first byte in the log
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;   ///< number of bytes
   /// Messages lost in it, at least: how many marks of a message's beginning it holds, or one if it
   /// holds none; zero for filler behind the last message.
   std::size_t messages = 0;
@@ -85,14 +86,15 @@ struct SkippedBytes {
 
 /// What a log holds, and what of it could not be read.
 struct DataFlashContents {
+  /// Messages of one definition.
   struct Type {
-    DataFlashFormat format;
-    std::size_t count = 0;  ///< messages read
+    DataFlashFormat format;  ///< its definition
+    std::size_t count = 0;   ///< messages read
   };
   std::vector<Type> types;   ///< in the order of their first definition; some may have no messages
   std::size_t bytes = 0;     ///< size of the log
   std::size_t messages = 0;  ///< all those read
-  std::size_t skipped_bytes = 0;
+  std::size_t skipped_bytes = 0;      ///< bytes that belong to no message
   std::size_t skipped_messages = 0;   ///< at least; see SkippedBytes
   std::vector<SkippedBytes> skipped;  ///< the first 100 stretches
   /// Sentences about definitions that could not be used: damaged, or contradicting an earlier one.
@@ -118,8 +120,8 @@ void for_each_message(
 /// Which messages of a name are wanted, where several sensors or estimators write the same: those
 /// whose `field` holds `value`, such as {"C", 0} for the first EKF core.
 struct DataFlashInstance {
-  std::string field;
-  double value = 0;
+  std::string field;  ///< name of the distinguishing field
+  double value = 0;   ///< its wanted value
 };
 
 /// The values of `fields`, in the order asked for, from all messages called `name` (or those of one

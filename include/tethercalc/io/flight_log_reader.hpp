@@ -11,6 +11,7 @@
 
 namespace tethercalc {
 
+/// How to read a flight log.
 struct FlightLogOptions {
   /// Which of the estimators that run side by side, 0 ≤ core ≤ 255. Not used for CSV.
   int core = 0;
@@ -18,7 +19,7 @@ struct FlightLogOptions {
 
 /// A flight log, and how it came about.
 struct FlightLogReading {
-  FlightLog log;
+  FlightLog log;       ///< what was read
   std::string source;  ///< "XKF1 of EKF core 0", "NKF6", "EKF1", or "CSV"
   /// Samples left out because their time does not increase; as few as make the rest increase.
   std::size_t samples_out_of_order = 0;

@@ -16,40 +16,44 @@ namespace tethercalc {
 /// A time more than a minute away from that of the message before it counts only if the next timed
 /// message agrees with it; so a flipped bit does not make a flight last for years.
 struct LogSummary {
+  /// All messages of one name.
   struct Message {
-    std::string name;
-    std::size_t count = 0;
-    std::vector<std::string> fields;
+    std::string name;                 ///< as in the log
+    std::size_t count = 0;            ///< number of messages
+    std::vector<std::string> fields;  ///< names of its fields
     // The following only where messages of this name carry a time.
     std::optional<double> first_time;   ///< s, the earliest
     std::optional<double> last_time;    ///< s, the latest
     std::optional<double> rate;         ///< 1/s, all instances together; needs two different times
     std::optional<double> longest_gap;  ///< s between two in succession; needs two messages
   };
+  /// A stretch without timed messages.
   struct Gap {
     double start = 0;     ///< s, time of the last message before it
     double duration = 0;  ///< s
   };
+  /// Time in the air.
   struct Flying {
     double duration = 0;        ///< s
     std::string determined_by;  ///< a phrase: from what the duration was told
   };
 
-  std::size_t bytes = 0;
-  std::size_t messages = 0;
+  std::size_t bytes = 0;             ///< size of the log
+  std::size_t messages = 0;          ///< number of whole messages
   std::vector<Message> types;        ///< in alphabetical order of their names; all with messages
   std::optional<double> first_time;  ///< s; nothing where no message carries a time
   std::optional<double> last_time;   ///< s
-  std::vector<Gap> gaps;  ///< over 1 s without any timed message, in order; the first 100
-  std::size_t gap_count = 0;
+  std::vector<Gap> gaps;      ///< over 1 s without any timed message, in order; the first 100
+  std::size_t gap_count = 0;  ///< all of them, also beyond the first 100
   std::size_t implausible_times = 0;  ///< messages whose time was not believed
   std::optional<Flying> flying;       ///< nothing where the log does not tell
   std::string firmware;  ///< first text message, which names it in most logs; may be empty
 
-  std::size_t skipped_bytes = 0;
-  std::size_t skipped_messages = 0;  ///< at least
-  std::vector<SkippedBytes> skipped;
-  std::vector<std::string> rejected_definitions;
+  std::size_t skipped_bytes = 0;      ///< bytes that belong to no message
+  std::size_t skipped_messages = 0;   ///< at least
+  std::vector<SkippedBytes> skipped;  ///< where they lie
+  std::vector<std::string>
+      rejected_definitions;  ///< definitions that contradict themselves or others
 };
 
 /// Reads the whole log. Nothing is thrown: any bytes are a log, if only an empty one.
