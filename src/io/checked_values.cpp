@@ -125,6 +125,18 @@ class FieldFinder {
   std::vector<std::string> unusable_groups_;
 };
 
+/// Control characters of ASCII and of Latin 1 (U+0080 to U+009F), which command terminals. Ends of
+/// lines and tabs are for people.
+bool commands_a_terminal(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte == 0x7f || (byte < 0x20 && byte != '\n' && byte != '\t')) return true;
+    const unsigned next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0U;
+    if (byte == 0xc2 && next >= 0x80 && next <= 0x9f) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void Problems::add(std::string where, std::string message) {
@@ -193,7 +205,13 @@ std::string checked_text(const JsonPlace& place, Problems& problems) {
     problems.add(place.where(), "expected a text in quotes, found " + type_name(*place.value));
     return {};
   }
-  return place.value->get<std::string>();
+  std::string text = place.value->get<std::string>();
+  if (commands_a_terminal(text)) {
+    problems.add(place.where(),
+                 "a text may not hold control characters other than line ends and tabs");
+    return {};
+  }
+  return text;
 }
 
 }  // namespace tethercalc

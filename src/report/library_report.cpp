@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -29,23 +30,28 @@ LibraryListing list_motors() {
 }
 
 LibraryListing list_conductors() {
-  LibraryListing listing{
-      {"id", "resistivity_ohm_mm2_m", "temperature_coefficient_1_K", "density_g_cm3", "source"},
-      {}};
+  LibraryListing listing{{"id", "resistivity_ohm_mm2_m", "temperature_coefficient_1_K",
+                          "density_g_cm3", "tensile_strength_MPa", "source"},
+                         {}};
   for (const ConductorEntry& entry : library_conductors()) {
     const Conductor& c = entry.conductor;
     listing.rows.push_back({entry.id, c.resistivity_20C / unit::ohm_square_millimetre_per_metre,
                             c.temperature_coefficient, c.density / unit::gram_per_cubic_centimetre,
+                            c.tensile_strength > 0 ? c.tensile_strength / 1e6 : unstated,
                             entry.source});
   }
   return listing;
 }
 
 LibraryListing list_insulation() {
-  LibraryListing listing{{"id", "density_g_cm3", "source"}, {}};
+  LibraryListing listing{{"id", "density_g_cm3", "rated_temperature_C", "thermal_conductivity_W_mK",
+                          "breakdown_strength_kV_mm", "source"},
+                         {}};
   for (const InsulationEntry& entry : library_insulation()) {
-    listing.rows.push_back(
-        {entry.id, entry.density / unit::gram_per_cubic_centimetre, entry.source});
+    listing.rows.push_back({entry.id, entry.density / unit::gram_per_cubic_centimetre,
+                            entry.rated_temperature_C.value_or(unstated),
+                            entry.thermal_conductivity.value_or(unstated),
+                            entry.breakdown_strength.value_or(unstated) / 1e6, entry.source});
   }
   return listing;
 }
@@ -62,6 +68,24 @@ std::string cell_text(const LibraryListing::Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   const double value = std::get<double>(cell);
   return value == value ? fmt::format("{:.4g}", value) : "–";
+}
+
+/// Each source once, after the entries that have it.
+std::string sources_text(const LibraryListing& listing) {
+  std::vector<std::pair<std::string, std::string>> entries_of;  // source, ids
+  for (const auto& row : listing.rows) {
+    const std::string source = cell_text(row.back());
+    const auto same = std::find_if(entries_of.begin(), entries_of.end(),
+                                   [&](const auto& known) { return known.first == source; });
+    if (same == entries_of.end()) {
+      entries_of.emplace_back(source, cell_text(row.front()));
+    } else {
+      same->second += ", " + cell_text(row.front());
+    }
+  }
+  std::string text;
+  for (const auto& [source, ids] : entries_of) text += wrapped(ids + ": " + source, 98, "  ");
+  return text;
 }
 
 }  // namespace
@@ -86,17 +110,13 @@ std::string listing_text(const LibraryListing& listing, const TextStyle& style) 
     columns.push_back({listing.keys[i], words ? TextTable::Align::left : TextTable::Align::right});
   }
   TextTable table(columns);
-  std::string sources;
   for (const auto& row : listing.rows) {
     std::vector<std::string> cells;
     for (std::size_t i = 0; i < shown; ++i) cells.push_back(cell_text(row[i]));
     table.add(cells);
-    if (sourced) {
-      sources += wrapped(cell_text(row.front()) + ": " + cell_text(row.back()), 98, "  ");
-    }
   }
   std::string out = table.text(style);
-  if (sourced) out += "\n" + style.bold("Sources") + "\n" + sources;
+  if (sourced) out += "\n" + style.bold("Sources") + "\n" + sources_text(listing);
   return out;
 }
 

@@ -1,8 +1,6 @@
 // Bad inputs as files, ready for the reader or the program, with what must be said about them.
 #pragma once
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -70,7 +68,7 @@ inline void make_odd_file(const std::filesystem::path& folder, const std::string
 }
 
 /// All cases of tests/cli/bad_input_cases.json, each with its files in a folder of its own below
-/// `folder`. For root no file is unreadable, so that case is left out for root.
+/// `folder`.
 inline std::vector<Case> prepare(const std::string& source_folder,
                                  const std::filesystem::path& folder) {
   using Json = nlohmann::ordered_json;
@@ -78,7 +76,6 @@ inline std::vector<Case> prepare(const std::string& source_folder,
   std::vector<Case> cases;
   for (const Json& test : all["cases"]) {
     const std::string file = test.value("file", std::string("spec.json"));
-    if (file == "unreadable.json" && geteuid() == 0) continue;
     const std::filesystem::path place = folder / std::to_string(cases.size());
     write(place / "spec.json", spec_text(test, source_folder));
     make_odd_file(place, file);

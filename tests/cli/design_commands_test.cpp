@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/bad_input_cases.hpp"
 #include "support/run_program.hpp"
 
 using namespace tethercalc::test;
@@ -262,19 +261,4 @@ TEST_CASE("help and version exit with 0") {
   CHECK_THAT(run_tethercalc({"--help"}).out, Contains("optimize") && Contains("Exit codes"));
   CHECK_THAT(run_tethercalc({"--version"}).out, Catch::StartsWith("tethercalc "));
   CHECK(run_tethercalc({"optimize", "--help"}).exit_code == 0);
-}
-
-TEST_CASE("every kind of bad input is refused by the program with its message") {
-  const TemporaryFolder folder;
-  for (const bad_input::Case& bad : bad_input::prepare(TETHERCALC_SOURCE_DIR, folder.path())) {
-    std::vector<std::string> arguments{"optimize", bad.spec};
-    for (const std::string& change : bad.overrides) {
-      arguments.insert(arguments.end(), {"--set", change});
-    }
-    const Ran run = run_tethercalc(arguments);
-    INFO(bad.name << ": " << run.err);
-    CHECK(run.exit_code == 2);
-    CHECK(run.out.empty());
-    for (const std::string& fragment : bad.says) CHECK_THAT(run.err, Contains(fragment));
-  }
 }

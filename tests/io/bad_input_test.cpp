@@ -18,6 +18,8 @@ TEST_CASE("every kind of bad input is refused with a message that helps") {
   CHECK(cases.size() >= 40);
   for (const bad_input::Case& bad : cases) {
     INFO(bad.name);
+    // For root no file is unreadable; the test of the program leaves root for it.
+    if (bad.name == "an unreadable file" && geteuid() == 0) continue;
     try {
       (void)read_design(bad.spec, bad.overrides);
       FAIL_CHECK("was accepted");

@@ -21,7 +21,7 @@ struct LibraryListing {
 /// InputError for anything else.
 [[nodiscard]] LibraryListing list_library(const std::string& what);
 
-/// Numbers with the digits that distinguish them; sources below the table, one an entry.
+/// Numbers with the digits that distinguish them; sources below the table, each once.
 [[nodiscard]] std::string listing_text(const LibraryListing& listing, const TextStyle& style);
 /// An object an entry.
 [[nodiscard]] nlohmann::ordered_json listing_json(const LibraryListing& listing);
