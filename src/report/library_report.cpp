@@ -18,8 +18,14 @@ namespace {
 constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
 
 LibraryListing list_motors() {
-  LibraryListing listing{
-      {"id", "max_thrust_g", "max_power_W", "voltage_V", "propeller_in", "points", "source"}, {}};
+  LibraryListing listing{{{"id", "id"},
+                          {"max_thrust_g", "max thrust\ng"},
+                          {"max_power_W", "max power\nW"},
+                          {"voltage_V", "voltage\nV"},
+                          {"propeller_in", "propeller\nin"},
+                          {"points", "points"},
+                          {"source", ""}},
+                         {}};
   for (const MotorEntry& motor : library_motors()) {
     const auto points = static_cast<double>(motor.curve.vertices().size() - 1);
     listing.rows.push_back({motor.id, motor.curve.max_thrust() / unit::gram_force,
@@ -30,8 +36,12 @@ LibraryListing list_motors() {
 }
 
 LibraryListing list_conductors() {
-  LibraryListing listing{{"id", "resistivity_ohm_mm2_m", "temperature_coefficient_1_K",
-                          "density_g_cm3", "tensile_strength_MPa", "source"},
+  LibraryListing listing{{{"id", "id"},
+                          {"resistivity_ohm_mm2_m", "resistivity\nΩ·mm²/m"},
+                          {"temperature_coefficient_1_K", "temperature coefficient\n1/K"},
+                          {"density_g_cm3", "density\ng/cm³"},
+                          {"tensile_strength_MPa", "tensile strength\nMPa"},
+                          {"source", ""}},
                          {}};
   for (const ConductorEntry& entry : library_conductors()) {
     const Conductor& c = entry.conductor;
@@ -44,8 +54,12 @@ LibraryListing list_conductors() {
 }
 
 LibraryListing list_insulation() {
-  LibraryListing listing{{"id", "density_g_cm3", "rated_temperature_C", "thermal_conductivity_W_mK",
-                          "breakdown_strength_kV_mm", "source"},
+  LibraryListing listing{{{"id", "id"},
+                          {"density_g_cm3", "density\ng/cm³"},
+                          {"rated_temperature_C", "rated temperature\n°C"},
+                          {"thermal_conductivity_W_mK", "thermal conductivity\nW/(m·K)"},
+                          {"breakdown_kV_mm", "breakdown\nkV/mm"},
+                          {"source", ""}},
                          {}};
   for (const InsulationEntry& entry : library_insulation()) {
     listing.rows.push_back({entry.id, entry.density / unit::gram_per_cubic_centimetre,
@@ -57,7 +71,9 @@ LibraryListing list_insulation() {
 }
 
 LibraryListing list_sizes() {
-  LibraryListing listing{{"name", "standard", "cross_section_mm2"}, {}};
+  LibraryListing listing{
+      {{"name", "name"}, {"standard", "standard"}, {"cross_section_mm2", "cross-section\nmm²"}},
+      {}};
   for (const WireSize& size : wire_sizes()) {
     listing.rows.push_back({size.name, size.standard, size.area / unit::square_millimetre});
   }
@@ -102,12 +118,13 @@ LibraryListing list_library(const std::string& what) {
 
 std::string listing_text(const LibraryListing& listing, const TextStyle& style) {
   std::vector<TextTable::Column> columns;
-  const bool sourced = listing.keys.back() == "source";
-  const std::size_t shown = listing.keys.size() - (sourced ? 1 : 0);
+  const bool sourced = listing.columns.back().key == "source";
+  const std::size_t shown = listing.columns.size() - (sourced ? 1 : 0);
   for (std::size_t i = 0; i < shown; ++i) {
     const bool words =
         !listing.rows.empty() && std::holds_alternative<std::string>(listing.rows.front()[i]);
-    columns.push_back({listing.keys[i], words ? TextTable::Align::left : TextTable::Align::right});
+    columns.push_back(
+        {listing.columns[i].title, words ? TextTable::Align::left : TextTable::Align::right});
   }
   TextTable table(columns);
   for (const auto& row : listing.rows) {
@@ -126,7 +143,7 @@ nlohmann::ordered_json listing_json(const LibraryListing& listing) {
     nlohmann::ordered_json object;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const auto* text = std::get_if<std::string>(&row[i]);
-      object[listing.keys[i]] =
+      object[listing.columns[i].key] =
           text ? nlohmann::ordered_json(*text) : number_or_null(std::get<double>(row[i]));
     }
     rows.push_back(std::move(object));
@@ -136,7 +153,8 @@ nlohmann::ordered_json listing_json(const LibraryListing& listing) {
 
 std::string listing_csv(const LibraryListing& listing) {
   std::string out;
-  for (std::size_t i = 0; i < listing.keys.size(); ++i) out += (i ? "," : "") + listing.keys[i];
+  for (std::size_t i = 0; i < listing.columns.size(); ++i)
+    out += (i ? "," : "") + listing.columns[i].key;
   out += "\n";
   for (const auto& row : listing.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {

@@ -13,6 +13,12 @@ std::string in_colour(bool colour, const char* code, const std::string& text) {
   return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : text;
 }
 
+std::pair<std::string, std::string> title_lines(const std::string& title) {
+  const std::size_t end = title.find('\n');
+  if (end == std::string::npos) return {title, ""};
+  return {title.substr(0, end), title.substr(end + 1)};
+}
+
 }  // namespace
 
 std::string TextStyle::bold(const std::string& text) const { return in_colour(colour, "1", text); }
@@ -30,7 +36,8 @@ void TextTable::add(std::vector<std::string> cells, bool emphasis) {
 std::string TextTable::text(const TextStyle& style) const {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    std::size_t width = display_width(columns_[c].title);
+    const auto [upper, lower] = title_lines(columns_[c].title);
+    std::size_t width = std::max(display_width(upper), display_width(lower));
     for (const Row& row : rows_) width = std::max(width, display_width(row.cells[c]));
     widths.push_back(width);
   }
@@ -44,9 +51,15 @@ std::string TextTable::text(const TextStyle& style) const {
     out.erase(out.find_last_not_of(' ') + 1);
     return out;
   };
-  std::vector<std::string> titles;
-  for (const Column& column : columns_) titles.push_back(column.title);
-  std::string out = style.subdued(line(titles)) + "\n";
+  std::vector<std::string> upper_titles;
+  std::vector<std::string> lower_titles;
+  for (const Column& column : columns_) {
+    const auto [upper, lower] = title_lines(column.title);
+    upper_titles.push_back(upper);
+    lower_titles.push_back(lower);
+  }
+  std::string out = style.subdued(line(upper_titles)) + "\n";
+  if (!line(lower_titles).empty()) out += style.subdued(line(lower_titles)) + "\n";
   for (const Row& row : rows_) {
     out += (row.emphasis ? style.bold(line(row.cells)) : line(row.cells)) + "\n";
   }

@@ -10,11 +10,16 @@
 
 namespace tethercalc {
 
-/// A table of texts and numbers; keys of numbers end in their unit.
+/// A table of texts and numbers.
 struct LibraryListing {
   using Cell = std::variant<std::string, double>;  ///< a NaN is a number nobody stated
-  std::vector<std::string> keys;                   ///< of the columns
-  std::vector<std::vector<Cell>> rows;             ///< as long as keys
+  /// What a column is called.
+  struct Column {
+    std::string key;    ///< in JSON and CSV, ending in the unit of numbers, as in specs
+    std::string title;  ///< in tables, with the unit on a second line
+  };
+  std::vector<Column> columns;          ///< sources last, where there are any
+  std::vector<std::vector<Cell>> rows;  ///< as long as columns
 };
 
 /// What the library holds of `what`: "motors", "conductors", "insulation" or "sizes". Throws

@@ -24,7 +24,7 @@ class TextTable {
   enum class Align { left, right };
   /// A column's header and where its cells are pushed to.
   struct Column {
-    std::string title;           ///< also the least width
+    std::string title;           ///< in one line or, broken by a newline, in two
     Align align = Align::right;  ///< right for numbers
   };
 
