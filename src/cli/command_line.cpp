@@ -43,7 +43,7 @@ Format parse_format(const std::string& text) {
 void add_output(CLI::App& command, Output& output) {
   command.add_option_function<std::string>(
       "--format", [&output](const std::string& text) { output.format = parse_format(text); },
-      "table, json or csv");
+      "table (default), json or csv");
   command.add_option("--output", output.file, "Write to this file, whole or not at all");
 }
 
