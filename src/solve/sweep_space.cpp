@@ -15,6 +15,9 @@ template <class... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+// Clang deduces the arguments of aggregates without a guide only since version 17.
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 double power_of_ten(int exponent) {
   constexpr std::array<double, 23> exact{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
