@@ -26,6 +26,8 @@ namespace {
 
 constexpr double font_pt = 7.5;  // of 72 to the inch
 constexpr double millimetre_per_inch = 25.4;
+constexpr double column_mm = 85;
+constexpr double line_mm = 3.2;                           // 7.5 pt and the space between lines
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 /// The character that `text` begins with and its length in bytes; U+FFFD and 1 where the bytes are
@@ -163,38 +165,37 @@ std::string run_gnuplot(const std::string& script) {
   return content(out.get());
 }
 
+double height_over_width(const Figure& figure) { return figure.lines * line_mm / column_mm; }
+
 /// The command that chooses and sizes the terminal.
 std::string set_terminal(const Figure& figure, FigureFormat format, const FigureSize& size) {
   const double inches = size.width_mm / millimetre_per_inch;
-  const double ratio = figure.height_over_width;
+  const double ratio = height_over_width(figure);
   switch (format) {
     case FigureFormat::svg: {
       const double pixels = 96 * inches;  // CSS pixels
       return fmt::format(
           "set terminal svg noenhanced size {:.0f},{:.0f} fixed font 'sans-serif,{}' "
-          "background '#ffffff' name '{}'\n",
+          "background '#ffffff' name '{}'\ndot_scale = 0.75\n",
           pixels, pixels * ratio, font_pt * 96 / 72, figure.id);
     }
     case FigureFormat::png: {
       constexpr double dots = 300;
-      // gnuplot takes 72 pixels for an inch here.
+      constexpr double scale = dots / 96;  // gnuplot takes 96 dots for an inch here
       return fmt::format(
           "set terminal pngcairo noenhanced size {:.0f},{:.0f} font 'sans-serif,{}' fontscale {} "
-          "linewidth {} pointscale {} background '#ffffff'\n",
-          dots * inches, dots * inches * ratio, font_pt, dots / 72, dots / 72, dots / 72);
+          "linewidth {} pointscale {} dashlength 0.6 background '#ffffff'\n",
+          dots * inches, dots * inches * ratio, font_pt, scale, scale, scale);
     }
     case FigureFormat::pdf:
     case FigureFormat::script:
       return fmt::format(
           "set terminal pdfcairo noenhanced size {:.3f}in,{:.3f}in font 'sans-serif,{}' "
-          "fontscale 1 background '#ffffff'\n",
+          "fontscale 1 dashlength 0.6 background '#ffffff'\n",
           inches, inches * ratio, font_pt);
-    case FigureFormat::text: {
-      constexpr int rows_a_panel = 22;
+    case FigureFormat::text:
       return fmt::format("set terminal dumb noenhanced size {},{} {}\ncharacters = 1\n",
-                         size.columns, rows_a_panel * figure.panels + 2,
-                         size.colour ? "ansi256" : "mono");
-    }
+                         size.columns, figure.lines, size.colour ? "ansi256" : "mono");
   }
   return "";
 }
@@ -235,8 +236,9 @@ std::string standalone_script(const Figure& figure, const FigureSize& size) {
   return fmt::format(
       "# {0}\n# Draw it with: gnuplot {1}.gp > {1}.pdf\n"
       "# For another format change the next line, such as to\n"
-      "#   set terminal pngcairo size 1004,{2:.0f} font 'sans-serif,7.5' fontscale 4.17\n{3}{4}",
-      printable(figure.title, 200), figure.id, 1004 * figure.height_over_width,
+      "#   set terminal pngcairo size 1004,{2:.0f} noenhanced font 'sans-serif,7.5' \\\n"
+      "#     fontscale 3.125 linewidth 3.125 pointscale 3.125\n{3}{4}",
+      printable(figure.title, 200), figure.id, 1004 * height_over_width(figure),
       set_terminal(figure, FigureFormat::script, size), figure.script);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tethercalc/report/figure.hpp"
+
 namespace tethercalc::gnuplot {
 
 std::string number(double value) {
@@ -25,7 +27,11 @@ std::string line(std::string_view colour, int dash, double width) {
 }
 
 std::string point(std::string_view colour, int type, double size) {
-  return fmt::format("lc rgb '{}' pt {} ps {}", colour, type, size);
+  return fmt::format("lc rgb '{}' pt {} ps {}*dot_scale", colour, type, size);
+}
+
+std::string area(std::string_view colour, double opacity) {
+  return fmt::format("fc rgb '{}' fillstyle solid {} noborder", colour, opacity);
 }
 
 std::string prelude() {
@@ -34,10 +40,72 @@ std::string prelude() {
          "set encoding utf8\n"
          "set termoption noenhanced\n"
          "if (!exists('characters')) characters = 0\n"
+         "if (!exists('dot_scale')) dot_scale = 1\n"
          "set border lw 0.6\n"
          "set tics nomirror scale 0.6\n"
-         "set key noautotitle samplen 2.5 spacing 1.0\n"
+         "set key noautotitle samplen 2.6 Left reverse\n"
          "set datafile missing 'NaN'\n";
+}
+
+std::string Layout::panel(double top, double bottom) const {
+  return fmt::format(
+      "unset label\nunset arrow\nunset object\nunset xlabel\nunset ylabel\n"
+      "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+      "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+      left_, 1 - right_, height(top), height(bottom));
+}
+
+std::string Layout::above(double at, const std::string& left, const std::string& right) const {
+  return fmt::format(
+      "set label 100 {} at screen 0.01,{:.4f} left\nset label 101 {} at screen {:.4f},{:.4f} "
+      "right\n",
+      gnuplot_text(left), height(at), gnuplot_text(right), 1 - right_, height(at));
+}
+
+std::string Layout::below(double at, const std::string& words) const {
+  return fmt::format("set label 102 {} at screen {:.4f},{:.4f} center\n", gnuplot_text(words),
+                     (left_ + 1 - right_) / 2, height(at));
+}
+
+std::string Layout::legend(double top, std::size_t columns,
+                           std::span<const LegendEntry> entries) const {
+  std::string out = fmt::format(
+      "if (characters) {{\n  set key at screen {:.4f},{:.4f} left top horizontal maxcols {}\n"
+      "}} else {{\n  unset key\n",
+      left_, height(top - 0.5), columns);
+  constexpr double sample = 0.065;  // of the picture's width
+  const double start = 0.02;
+  const double width = (1 - start) / double(columns);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const LegendEntry& entry = entries[i];
+    const double x = start + width * double(i % columns);
+    const double y = height(top + double(i / columns));
+    switch (entry.sample) {
+      case LegendEntry::Sample::line:
+        out += fmt::format(
+            "  set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead {}\n", 110 + i,
+            x, y, x + sample, y, entry.style);
+        break;
+      case LegendEntry::Sample::point:
+        out += fmt::format("  set label {} '' at screen {:.4f},{:.4f} point {}\n", 150 + i,
+                           x + sample / 2, y, entry.style);
+        break;
+      case LegendEntry::Sample::area:
+        out += fmt::format(
+            "  set object {} rectangle from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} {}\n",
+            110 + i, x, y - 0.4 / lines_, x + sample, y + 0.4 / lines_, entry.style);
+        break;
+    }
+    const double letters = (width - sample - 0.02) / 0.0175;
+    out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} left\n", 110 + i,
+                       gnuplot_text(entry.words, std::size_t(letters)), x + sample + 0.015, y);
+  }
+  return out + "}\n";
+}
+
+std::string Layout::heading(const std::string& words) const {
+  return fmt::format("set label 103 {} at screen 0.5,{:.4f} center\n", gnuplot_text(words, 48),
+                     height(0.9));
 }
 
 Range with_margin(double lo, double hi, double margin) {

@@ -38,8 +38,56 @@ using Columns = std::vector<std::span<const double>>;
 /// Style of points: gnuplot's point type and a size.
 [[nodiscard]] std::string point(std::string_view colour, int type, double size = 0.6);
 
+/// Style of a shaded area.
+[[nodiscard]] std::string area(std::string_view colour, double opacity = 0.15);
+
 /// What every figure's script begins with: encoding, literal texts, thin frame and ticks.
 [[nodiscard]] std::string prelude();
+
+/// An entry of a legend.
+struct LegendEntry {
+  enum class Sample { line, point, area };
+  Sample sample = Sample::line;  ///< what stands before the words
+  std::string style;             ///< as from `line`, `point` or `area`
+  std::string words;             ///< plain text
+};
+
+/// Places plots and texts by lines of text, counted from the top of the picture, so that they keep
+/// out of each other's way in every terminal. Labels and arrows of a plot have tags below 100;
+/// those from 100 on are made here.
+class Layout {
+ public:
+  /// `lines` is the height of the picture, `left` and `right` the margins as shares of its width.
+  explicit Layout(int lines, double left = 0.125, double right = 0.03)
+      : lines_(lines), left_(left), right_(right) {}
+
+  /// Begins a plot with its frame from line `top` to line `bottom`; no label, arrow or shading of
+  /// an earlier one remains.
+  [[nodiscard]] std::string panel(double top, double bottom) const;
+
+  /// Texts along the edges of the plot: at the left end of line `at` what its vertical axis shows,
+  /// which needs no rotated letters so, and at the right end what its upper axis shows.
+  [[nodiscard]] std::string above(double at, const std::string& left,
+                                  const std::string& right = "") const;
+
+  /// What the horizontal axis shows, in the middle of line `at`.
+  [[nodiscard]] std::string below(double at, const std::string& words) const;
+
+  /// The legend from line `top` on, in `columns` columns, filled row by row. Where characters are
+  /// all there is, gnuplot's own key takes its place, from the titles of the plot.
+  [[nodiscard]] std::string legend(double top, std::size_t columns,
+                                   std::span<const LegendEntry> entries) const;
+
+  /// A line of text in the middle of the picture's first line.
+  [[nodiscard]] std::string heading(const std::string& words) const;
+
+ private:
+  [[nodiscard]] double height(double line) const { return 1 - line / lines_; }
+
+  int lines_;
+  double left_;
+  double right_;
+};
 
 /// A range that leaves `margin` of its length free on both sides of [lo, hi]; where that is empty,
 /// one around it.

@@ -11,6 +11,8 @@ namespace {
 namespace gp = gnuplot;
 namespace colour = gnuplot::colour;
 
+std::string feasible_style() { return gp::area(colour::green); }
+
 constexpr int samples = 240;  // a point every third of a millimetre of a column
 
 double square_millimetres(double area) { return area / unit::square_millimetre; }
@@ -54,13 +56,13 @@ View view_of(const OptimizeStudy& study) {
 
 /// What is drawn over the cross-section, in practical units.
 struct Curves {
-  std::vector<double> area;        ///< mm²
-  std::vector<double> available;   ///< g per motor, where headroom is demanded
-  std::vector<double> hover;       ///< necessary, g per motor
-  std::vector<double> forward;     ///< necessary, g per motor
-  std::vector<double> required;    ///< with headroom, g per motor
-  std::vector<double> hover_W;     ///< from the supply
-  std::vector<double> forward_W;   ///< from the supply
+  std::vector<double> area;       ///< mm²
+  std::vector<double> available;  ///< g per motor, where headroom is demanded
+  std::vector<double> hover;      ///< necessary, g per motor
+  std::vector<double> forward;    ///< necessary, g per motor
+  std::vector<double> required;   ///< with headroom, g per motor
+  std::vector<double> hover_W;    ///< from the supply
+  std::vector<double> forward_W;  ///< from the supply
 };
 
 std::vector<double> sampled_areas(const OptimizeStudy& study, const View& view) {
@@ -101,8 +103,8 @@ double least_of(std::span<const double> a, std::span<const double> b) {
 
 /// From zero to above what is asked for; what is far above that is cut off.
 gp::Range thrust_range(const Curves& curves) {
-  const double asked = std::max({gp::extent(curves.required).hi, gp::extent(curves.hover).hi,
-                                 gp::extent(curves.forward).hi});
+  const double asked = std::max(
+      {gp::extent(curves.required).hi, gp::extent(curves.hover).hi, gp::extent(curves.forward).hi});
   return {0, 1.08 * std::min(1.6 * asked, std::max(asked, gp::extent(curves.available).hi))};
 }
 
@@ -114,11 +116,10 @@ gp::Range power_range(const OptimizeStudy& study, const Curves& curves) {
   const double least = least_of(curves.hover_W, curves.forward_W);
   double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
   if (study.result.feasible) {
-    reference = std::max({reference, study.result.hover.total_power,
-                          study.result.forward.total_power});
+    reference =
+        std::max({reference, study.result.hover.total_power, study.result.forward.total_power});
   }
-  const double most =
-      std::max(gp::extent(curves.hover_W).hi, gp::extent(curves.forward_W).hi);
+  const double most = std::max(gp::extent(curves.hover_W).hi, gp::extent(curves.forward_W).hi);
   const double top = std::min(most, reference + 1.2 * (reference - 0.8 * least));
   return {least - 0.12 * (top - least), top};
 }
@@ -143,6 +144,8 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
     const double area = square_millimetres(size.area);
     if (size.standard != standard || area <= view.lo || area > view.hi) continue;
     std::string name = size.name;
+    // Thin sizes crowd at the beginning of a linear axis; there they say nothing.
+    if (along(view, area) < 0.06) continue;
     if (name.starts_with("AWG ")) name = name.substr(4);
     if (const auto space = name.find(' '); space != std::string::npos) name = name.substr(0, space);
     ticks.push_back({name, area, std::abs(std::log(area / middle)), false});
@@ -167,25 +170,24 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
   return list;
 }
 
-std::string top_axis(const View& view, std::string_view standard, std::string_view label,
-                     double middle) {
+/// The upper axis with the sizes of a standard.
+std::string top_axis(const OptimizeStudy& study, const View& view, std::string_view standard) {
+  const double middle = study.result.feasible
+                            ? square_millimetres(study.result.area)
+                            : std::sqrt(std::max(view.lo, 0.1 * view.hi) * view.hi);
   const std::string ticks = size_ticks(view, standard, middle);
-  if (ticks.empty()) return "unset x2tics\nunset x2label\n";
-  return fmt::format("set x2tics ({}) offset 0,-0.4\nset x2label {} offset 0,-0.9\n", ticks,
-                     gnuplot_text(label));
+  return ticks.empty() ? "unset x2tics\n" : fmt::format("set x2tics ({}) offset 0,-0.4\n", ticks);
 }
 
-/// Shaded ranges behind the curves, and a line at the optimum in front of them.
+/// Shaded ranges behind the curves, and a line at the optimum.
 std::string shading(const OptimizeStudy& study, const View& view) {
   std::string out = "if (!characters) {\n";
   for (const Interval& range : study.result.feasible_areas) {
     const double lo = std::max(view.lo, square_millimetres(range.lo));
     const double hi = std::min(view.hi, square_millimetres(range.hi));
     if (!(lo < hi)) continue;
-    out += fmt::format(
-        "  set object rectangle from {},graph 0 to {},graph 1 behind fc rgb '{}' "
-        "fillstyle solid 0.15 noborder\n",
-        gp::number(lo), gp::number(hi), colour::green);
+    out += fmt::format("  set object rectangle from {},graph 0 to {},graph 1 behind {}\n",
+                       gp::number(lo), gp::number(hi), feasible_style());
   }
   if (study.result.feasible) {
     const std::string at = gp::number(square_millimetres(study.result.area));
@@ -195,74 +197,84 @@ std::string shading(const OptimizeStudy& study, const View& view) {
   return out + "}\n";
 }
 
-/// One marked point with its words for the key.
-std::string marked(double x, double y, const std::string& style, const std::string& words) {
-  if (!std::isfinite(x) || !std::isfinite(y)) return "";
-  return fmt::format(", \\\n  '+' using ({}):({}) every ::0::0 with points {} title {}",
-                     gp::number(x), gp::number(y), style, gnuplot_text(words));
-}
+std::string area_words(double area) { return significant(square_millimetres(area), 3) + " mm²"; }
 
-std::string area_words(double area) { return significant(square_millimetres(area), 4) + " mm²"; }
-
-std::string thrust_panel(const OptimizeStudy& study, const View& view, const Curves& curves) {
-  const Requirements& need = study.file.design.requirements;
-  const double middle = curves.area[curves.area.size() / 2];
-  const double at = study.result.feasible ? square_millimetres(study.result.area) : middle;
-  const bool by_hover = need.headroom_at == Condition::hover;
-  std::string out = top_axis(view, "AWG", "AWG", at);
-  out += gp::set_range("y", thrust_range(curves));
-  out += "set ylabel 'thrust per motor (g)'\nset format x ''\nunset xlabel\n";
-  out += fmt::format(
-      "plot $curves using 1:2 with lines {} title 'available', \\\n"
-      "  $curves using 1:5 with lines {} title {}, \\\n"
-      "  $curves using 1:3 with lines {} title 'necessary in hover', \\\n"
-      "  $curves using 1:4 with lines {} title 'necessary forward'",
-      gp::line(colour::black, 1, 1.6), gp::line(colour::vermilion, 4, 1.4),
-      gnuplot_text(fmt::format("required in {}: {}×", by_hover ? "hover" : "forward",
-                               significant(need.thrust_headroom, 3))),
-      gp::line(colour::blue, 2), gp::line(colour::orange, 5));
-  const OptimizeStudy& s = study;
-  if (s.result.feasible) {
-    const OperatingPoint& judged = by_hover ? s.result.hover : s.result.forward;
-    out += marked(square_millimetres(s.result.area), judged.available_thrust / unit::gram_force,
-                  gp::point(colour::black, 13, 0.9), "");
-  } else if (s.best_headroom.value > 0) {
-    const auto best = evaluate(s.file.design, s.best_headroom.area, need.headroom_at);
-    out += marked(square_millimetres(best.cross_section),
-                  best.available_thrust / unit::gram_force, gp::point(colour::black, 9, 0.9),
-                  fmt::format("best headroom: {}×", significant(s.best_headroom.value, 3)));
+/// A plot under construction: its curves and marks, and the same for the legend.
+class Plot {
+ public:
+  void curve(int column, const std::string& style, const std::string& words) {
+    add(fmt::format("$curves using 1:{} with lines {}", column, style), words);
+    legend_.push_back({Sample::line, style, words});
   }
-  return out + "\n";
+
+  /// A marked point; without words it does not come up in the legend.
+  void mark(double x, double y, const std::string& style, const std::string& words) {
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    add(fmt::format("'+' using ({}):({}) every ::0::0 with points {}", gp::number(x), gp::number(y),
+                    style),
+        words);
+    if (!words.empty()) legend_.push_back({Sample::point, style, words});
+  }
+
+  void shaded(const std::string& style, const std::string& words) {
+    legend_.push_back({Sample::area, style, words});
+  }
+
+  [[nodiscard]] std::string text() const { return "plot " + parts_ + "\n"; }
+  [[nodiscard]] std::span<const gp::LegendEntry> legend() const { return legend_; }
+
+ private:
+  using Sample = gp::LegendEntry::Sample;
+
+  void add(const std::string& part, const std::string& words) {
+    parts_ += (parts_.empty() ? "" : ", \\\n  ") + part;
+    if (!words.empty()) parts_ += " title " + gnuplot_text(words);
+  }
+
+  std::string parts_;
+  std::vector<gp::LegendEntry> legend_;
+};
+
+Plot thrust_plot(const OptimizeStudy& study) {
+  const Requirements& need = study.file.design.requirements;
+  const bool by_hover = need.headroom_at == Condition::hover;
+  const std::string factor = significant(need.thrust_headroom, 2);
+  Plot plot;
+  plot.curve(2, gp::line(colour::black, 1, 1.6), "available");
+  plot.curve(3, gp::line(colour::blue, 2), "necessary in hover");
+  plot.curve(5, gp::line(colour::vermilion, 4, 1.4),
+             fmt::format("required, {}× {}", factor, by_hover ? "hover" : "forward"));
+  plot.curve(4, gp::line(colour::orange, 5), "necessary forward");
+  const Optimization& result = study.result;
+  if (result.feasible) {
+    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    plot.mark(square_millimetres(result.area), judged.available_thrust / unit::gram_force,
+              gp::point(colour::black, 13, 0.9), "");
+  } else if (study.best_headroom.value > 0) {
+    const auto best = evaluate(study.file.design, study.best_headroom.area, need.headroom_at);
+    plot.mark(square_millimetres(best.cross_section), best.available_thrust / unit::gram_force,
+              gp::point(colour::black, 9, 0.9),
+              fmt::format("best headroom, {}×", significant(study.best_headroom.value, 3)));
+  }
+  return plot;
 }
 
-std::string power_panel(const OptimizeStudy& study, const View& view, const Curves& curves) {
+Plot power_plot(const OptimizeStudy& study) {
   const Optimization& result = study.result;
-  const double middle = curves.area[curves.area.size() / 2];
-  const double at = result.feasible ? square_millimetres(result.area) : middle;
-  std::string out = top_axis(view, "IEC 60228", "IEC 60228 (mm²)", at);
-  out += gp::set_range("y", power_range(study, curves));
-  out +=
-      "set ylabel 'power from the supply (W)'\nset format x '%g'\n"
-      "set xlabel 'cross-section of one conductor (mm²)' offset 0,0.5\n";
-  out += fmt::format(
-      "plot $curves using 1:6 with lines {} title 'hover', \\\n"
-      "  $curves using 1:7 with lines {} title 'forward flight'",
-      gp::line(colour::blue, 2, 1.6), gp::line(colour::orange, 5, 1.6));
-  const MinimumPower& least = result.minimum_power;
-  out += marked(square_millimetres(least.area), least.power, gp::point(colour::green, 7, 0.8),
-                "least power: " + area_words(least.area));
+  Plot plot;
+  plot.curve(6, gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
     const bool by_hover = study.file.design.requirements.power_at == Condition::hover;
     const OperatingPoint& judged = by_hover ? result.hover : result.forward;
-    out += marked(square_millimetres(result.area), judged.total_power,
-                  gp::point(colour::black, 13, 0.9), "optimum: " + area_words(result.area));
+    plot.mark(square_millimetres(result.area), judged.total_power,
+              gp::point(colour::black, 13, 0.9), "optimum, " + area_words(result.area));
   }
-  if (!result.feasible_areas.empty()) {
-    out += fmt::format(
-        ", \\\n  keyentry with boxes fc rgb '{}' fillstyle solid 0.15 noborder title 'feasible'",
-        colour::green);
-  }
-  return out + "\n";
+  plot.curve(7, gp::line(colour::orange, 5, 1.6), "forward flight");
+  const MinimumPower& least = result.minimum_power;
+  plot.mark(square_millimetres(least.area), least.power, gp::point(colour::green, 7, 0.8),
+            "least power, " + area_words(least.area));
+  if (!result.feasible_areas.empty()) plot.shaded(feasible_style(), "feasible");
+  return plot;
 }
 
 std::string description_of(const OptimizeStudy& study) {
@@ -287,21 +299,31 @@ Figure optimum_figure(const OptimizeStudy& study) {
   figure.id = "optimum";
   figure.title = study.file.name;
   figure.description = description_of(study);
-  figure.panels = 2;
-  figure.height_over_width = 1.35;
-  figure.script = gp::prelude() + gp::data_block("curves", {curves.area, curves.available,
-                                                            curves.hover, curves.forward,
-                                                            curves.required, curves.hover_W,
-                                                            curves.forward_W});
+  figure.lines = 43;
+  const gp::Layout layout(figure.lines);
+  figure.script =
+      gp::prelude() +
+      gp::data_block("curves", {curves.area, curves.available, curves.hover, curves.forward,
+                                curves.required, curves.hover_W, curves.forward_W});
   figure.script += gp::set_range("x", {view.lo, view.hi}) + gp::set_range("x2", {view.lo, view.hi});
   if (view.logarithmic) figure.script += "set logscale x\nset logscale x2\n";
-  figure.script += fmt::format(
-      "set samples 2\nset lmargin 8\nset rmargin 2\nset key bmargin center horizontal maxcols 2\n"
-      "set multiplot layout 2,1 title {}\n",
-      gnuplot_text(study.file.name, 52));
-  figure.script += shading(study, view);
-  figure.script += thrust_panel(study, view, curves) + power_panel(study, view, curves);
-  figure.script += "unset multiplot\n";
+  figure.script += "set samples 2\nset multiplot\n";
+
+  const Plot thrust = thrust_plot(study);
+  figure.script += layout.panel(4, 18) + layout.heading(study.file.name) + shading(study, view);
+  figure.script += layout.above(2.4, "thrust per motor (g)", "AWG");
+  figure.script += layout.legend(19.2, 2, thrust.legend());
+  figure.script += top_axis(study, view, "AWG") + gp::set_range("y", thrust_range(curves));
+  figure.script += "set format x ''\n" + thrust.text();
+
+  const Plot power = power_plot(study);
+  figure.script += layout.panel(25.5, 36) + shading(study, view);
+  figure.script += layout.above(23.9, "power from the supply (W)", "IEC 60228 (mm²)");
+  figure.script += layout.below(38.4, "cross-section of one conductor (mm²)");
+  figure.script += layout.legend(40, 2, power.legend());
+  figure.script += top_axis(study, view, "IEC 60228");
+  figure.script += gp::set_range("y", power_range(study, curves));
+  figure.script += "set format x '%g'\n" + power.text() + "unset multiplot\n";
   return figure;
 }
 

@@ -1,8 +1,6 @@
 // A picture of a result: what it shows in words, and the gnuplot commands that draw it.
 #pragma once
 
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,12 +12,12 @@ namespace tethercalc {
 /// and every number comes from the result that the figure is made of; one that does not exist is a
 /// gap in its curve.
 struct Figure {
-  std::string id;           ///< letters, digits and dashes: "optimum"; begins the ids within its SVG
-  std::string title;        ///< one line
+  std::string id;     ///< letters, digits and dashes: "optimum"; begins the ids within its SVG
+  std::string title;  ///< one line
   std::string description;  ///< what it shows with its main numbers, for those who cannot see it
-  int panels = 1;           ///< one below the other
-  double height_over_width = 0.75;  ///< of the whole picture
-  std::string script;               ///< gnuplot commands with their data inline
+  int lines = 24;           ///< height in lines of text at one column's width (85 mm); the picture
+                            ///< keeps its proportions at other widths
+  std::string script;       ///< gnuplot commands with their data inline
 };
 
 /// What a figure is drawn as.
@@ -33,10 +31,10 @@ enum class FigureFormat {
 
 /// How large, and for what kind of terminal.
 struct FigureSize {
-  double width_mm = 85;   ///< 60 to 400; 85 is one column of a journal. Letters are 7.5 pt high at
-                          ///< every width, so that a wider picture holds more, not larger ones
-  int columns = 100;      ///< of `FigureFormat::text`, 40 to 400
-  bool colour = false;    ///< of `FigureFormat::text`: with the colour codes of a terminal
+  double width_mm = 85;  ///< 60 to 400; 85 is one column of a journal. Letters are 7.5 pt high at
+                         ///< every width, so that a wider picture holds more, not larger ones
+  int columns = 100;     ///< of `FigureFormat::text`, 40 to 400
+  bool colour = false;   ///< of `FigureFormat::text`: with the colour codes of a terminal
 };
 
 /// The drawn figure: the content of a file of that format. The script needs no gnuplot; everything
