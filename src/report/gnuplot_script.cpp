@@ -47,6 +47,30 @@ std::string prelude() {
          "set datafile missing 'NaN'\n";
 }
 
+void Plot::add(const std::string& part, const std::string& words) {
+  parts_ += (parts_.empty() ? "" : ", \\\n  ") + part;
+  if (!words.empty()) parts_ += " title " + gnuplot_text(words);
+}
+
+void Plot::curve(const std::string& data, const std::string& style, const std::string& words) {
+  add(data + " with lines " + style, words);
+  if (!words.empty()) legend_.push_back({LegendEntry::Sample::line, style, words});
+}
+
+void Plot::points(const std::string& data, const std::string& style, const std::string& words) {
+  add(data + " with points " + style, words);
+  if (!words.empty()) legend_.push_back({LegendEntry::Sample::point, style, words});
+}
+
+void Plot::mark(double x, double y, const std::string& style, const std::string& words) {
+  if (!std::isfinite(x) || !std::isfinite(y)) return;
+  points(fmt::format("'+' using ({}):({}) every ::0::0", number(x), number(y)), style, words);
+}
+
+std::string Plot::text(std::string_view command) const {
+  return fmt::format("{} {}\n", command, parts_);
+}
+
 std::string Layout::panel(double top, double bottom) const {
   return fmt::format(
       "unset label\nunset arrow\nunset object\nunset xlabel\nunset ylabel\n"

@@ -52,6 +52,31 @@ struct LegendEntry {
   std::string words;             ///< plain text
 };
 
+/// A `plot` command under construction, with its legend.
+class Plot {
+ public:
+  /// `data` as in "$curves using 1:2"; without words it stays out of the legend.
+  void curve(const std::string& data, const std::string& style, const std::string& words = "");
+  void points(const std::string& data, const std::string& style, const std::string& words = "");
+
+  /// One point, unless a coordinate does not exist.
+  void mark(double x, double y, const std::string& style, const std::string& words = "");
+
+  /// Anything else; `part` without its title.
+  void add(const std::string& part, const std::string& words = "");
+
+  /// A legend entry of something that is not plotted here.
+  void entry(LegendEntry entry) { legend_.push_back(std::move(entry)); }
+
+  /// The command, with its newline.
+  [[nodiscard]] std::string text(std::string_view command = "plot") const;
+  [[nodiscard]] std::span<const LegendEntry> legend() const { return legend_; }
+
+ private:
+  std::string parts_;
+  std::vector<LegendEntry> legend_;
+};
+
 /// Places plots and texts by lines of text, counted from the top of the picture, so that they keep
 /// out of each other's way in every terminal. Labels and arrows of a plot have tags below 100;
 /// those from 100 on are made here.

@@ -199,52 +199,16 @@ std::string shading(const OptimizeStudy& study, const View& view) {
 
 std::string area_words(double area) { return significant(square_millimetres(area), 3) + " mm²"; }
 
-/// A plot under construction: its curves and marks, and the same for the legend.
-class Plot {
- public:
-  void curve(int column, const std::string& style, const std::string& words) {
-    add(fmt::format("$curves using 1:{} with lines {}", column, style), words);
-    legend_.push_back({Sample::line, style, words});
-  }
-
-  /// A marked point; without words it does not come up in the legend.
-  void mark(double x, double y, const std::string& style, const std::string& words) {
-    if (!std::isfinite(x) || !std::isfinite(y)) return;
-    add(fmt::format("'+' using ({}):({}) every ::0::0 with points {}", gp::number(x), gp::number(y),
-                    style),
-        words);
-    if (!words.empty()) legend_.push_back({Sample::point, style, words});
-  }
-
-  void shaded(const std::string& style, const std::string& words) {
-    legend_.push_back({Sample::area, style, words});
-  }
-
-  [[nodiscard]] std::string text() const { return "plot " + parts_ + "\n"; }
-  [[nodiscard]] std::span<const gp::LegendEntry> legend() const { return legend_; }
-
- private:
-  using Sample = gp::LegendEntry::Sample;
-
-  void add(const std::string& part, const std::string& words) {
-    parts_ += (parts_.empty() ? "" : ", \\\n  ") + part;
-    if (!words.empty()) parts_ += " title " + gnuplot_text(words);
-  }
-
-  std::string parts_;
-  std::vector<gp::LegendEntry> legend_;
-};
-
-Plot thrust_plot(const OptimizeStudy& study) {
+gp::Plot thrust_plot(const OptimizeStudy& study) {
   const Requirements& need = study.file.design.requirements;
   const bool by_hover = need.headroom_at == Condition::hover;
   const std::string factor = significant(need.thrust_headroom, 2);
-  Plot plot;
-  plot.curve(2, gp::line(colour::black, 1, 1.6), "available");
-  plot.curve(3, gp::line(colour::blue, 2), "necessary in hover");
-  plot.curve(5, gp::line(colour::vermilion, 4, 1.4),
+  gp::Plot plot;
+  plot.curve("$curves using 1:2", gp::line(colour::black, 1, 1.6), "available");
+  plot.curve("$curves using 1:3", gp::line(colour::blue, 2), "necessary in hover");
+  plot.curve("$curves using 1:5", gp::line(colour::vermilion, 4, 1.4),
              fmt::format("required, {}× {}", factor, by_hover ? "hover" : "forward"));
-  plot.curve(4, gp::line(colour::orange, 5), "necessary forward");
+  plot.curve("$curves using 1:4", gp::line(colour::orange, 5), "necessary forward");
   const Optimization& result = study.result;
   if (result.feasible) {
     const OperatingPoint& judged = by_hover ? result.hover : result.forward;
@@ -259,21 +223,22 @@ Plot thrust_plot(const OptimizeStudy& study) {
   return plot;
 }
 
-Plot power_plot(const OptimizeStudy& study) {
+gp::Plot power_plot(const OptimizeStudy& study) {
   const Optimization& result = study.result;
-  Plot plot;
-  plot.curve(6, gp::line(colour::blue, 2, 1.6), "hover");
+  gp::Plot plot;
+  plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
     const bool by_hover = study.file.design.requirements.power_at == Condition::hover;
     const OperatingPoint& judged = by_hover ? result.hover : result.forward;
     plot.mark(square_millimetres(result.area), judged.total_power,
               gp::point(colour::black, 13, 0.9), "optimum, " + area_words(result.area));
   }
-  plot.curve(7, gp::line(colour::orange, 5, 1.6), "forward flight");
+  plot.curve("$curves using 1:7", gp::line(colour::orange, 5, 1.6), "forward flight");
   const MinimumPower& least = result.minimum_power;
   plot.mark(square_millimetres(least.area), least.power, gp::point(colour::green, 7, 0.8),
             "least power, " + area_words(least.area));
-  if (!result.feasible_areas.empty()) plot.shaded(feasible_style(), "feasible");
+  if (!result.feasible_areas.empty())
+    plot.entry({gp::LegendEntry::Sample::area, feasible_style(), "feasible"});
   return plot;
 }
 
@@ -309,14 +274,14 @@ Figure optimum_figure(const OptimizeStudy& study) {
   if (view.logarithmic) figure.script += "set logscale x\nset logscale x2\n";
   figure.script += "set samples 2\nset multiplot\n";
 
-  const Plot thrust = thrust_plot(study);
+  const gp::Plot thrust = thrust_plot(study);
   figure.script += layout.panel(4, 18) + layout.heading(study.file.name) + shading(study, view);
   figure.script += layout.above(2.4, "thrust per motor (g)", "AWG");
   figure.script += layout.legend(19.2, 2, thrust.legend());
   figure.script += top_axis(study, view, "AWG") + gp::set_range("y", thrust_range(curves));
   figure.script += "set format x ''\n" + thrust.text();
 
-  const Plot power = power_plot(study);
+  const gp::Plot power = power_plot(study);
   figure.script += layout.panel(25.5, 36) + shading(study, view);
   figure.script += layout.above(23.9, "power from the supply (W)", "IEC 60228 (mm²)");
   figure.script += layout.below(38.4, "cross-section of one conductor (mm²)");
