@@ -312,7 +312,7 @@ class CommandLine {
                        "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
                        "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
     command.add_option("--width-mm", plot_.width_mm,
-                       "Width of the figure, 60 to 400 (default: 85, one column of a journal)");
+                       "Width of the figure, 85 to 400 (default: 85, one column of a journal)");
     command
         .add_option("--motors", plot_.motors,
                     "motors: all, or names of the library and files, separated by commas")

@@ -89,9 +89,9 @@ int run_plot(const PlotOptions& options) {
     throw InputError("plot " + options.kind, "is drawn from one file: plot " + options.kind + " " +
                                                  std::string(kind.input));
   }
-  if (!(options.width_mm >= 60 && options.width_mm <= 400)) {
+  if (!(options.width_mm >= 85 && options.width_mm <= 400)) {
     throw InputError("--width-mm", std::to_string(options.width_mm) +
-                                       " is out of range; allowed is 60 to 400 mm");
+                                       " is out of range; allowed is 85 to 400 mm");
   }
   Output output;
   output.file = options.output;

@@ -97,7 +97,10 @@ std::string Layout::legend(double top, std::size_t columns,
       "if (characters) {{\n  set key at screen {:.4f},{:.4f} left top horizontal maxcols {}\n"
       "}} else {{\n  unset key\n",
       left_, height(top - 0.5), columns);
-  constexpr double sample = 0.065;  // of the picture's width
+  // Of the picture's width.
+  constexpr double sample = 0.065;
+  constexpr double cell = 0.115;
+  constexpr double letter = 0.0175;  // 7.5 pt in one column
   const double start = 0.02;
   const double width = (1 - start) / double(columns);
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -105,24 +108,32 @@ std::string Layout::legend(double top, std::size_t columns,
     const double x = start + width * double(i % columns);
     const double y = height(top + double(i / columns));
     switch (entry.sample) {
+      case LegendEntry::Sample::none:
+        break;
       case LegendEntry::Sample::line:
         out += fmt::format(
-            "  set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead {}\n", 110 + i,
-            x, y, x + sample, y, entry.style);
+            "  set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead {}\n",
+            1000 + i, x, y, x + sample, y, entry.style);
         break;
       case LegendEntry::Sample::point:
-        out += fmt::format("  set label {} '' at screen {:.4f},{:.4f} point {}\n", 150 + i,
+        out += fmt::format("  set label {} '' at screen {:.4f},{:.4f} point {}\n", 2000 + i,
                            x + sample / 2, y, entry.style);
         break;
       case LegendEntry::Sample::area:
         out += fmt::format(
             "  set object {} rectangle from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} {}\n",
-            110 + i, x, y - 0.4 / lines_, x + sample, y + 0.4 / lines_, entry.style);
+            1000 + i, x, y - 0.4 / lines_, x + sample, y + 0.4 / lines_, entry.style);
         break;
     }
-    const double letters = (width - sample - 0.02) / 0.0175;
-    out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} left\n", 110 + i,
+    const double cells = cell * double(entry.cells.size());
+    const double letters = (width - sample - 0.02 - cells) / letter;
+    out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} left\n", 1000 + i,
                        gnuplot_text(entry.words, std::size_t(letters)), x + sample + 0.015, y);
+    for (std::size_t c = 0; c < entry.cells.size(); ++c) {
+      const double right = 1 - right_ - cell * double(entry.cells.size() - 1 - c);
+      out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} right\n", 3000 + 10 * i + c,
+                         gnuplot_text(entry.cells[c]), right, y);
+    }
   }
   return out + "}\n";
 }

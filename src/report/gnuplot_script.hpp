@@ -46,10 +46,11 @@ using Columns = std::vector<std::span<const double>>;
 
 /// An entry of a legend.
 struct LegendEntry {
-  enum class Sample { line, point, area };
-  Sample sample = Sample::line;  ///< what stands before the words
-  std::string style;             ///< as from `line`, `point` or `area`
-  std::string words;             ///< plain text
+  enum class Sample { none, line, point, area };
+  Sample sample = Sample::line;      ///< what stands before the words
+  std::string style;                 ///< as from `line`, `point` or `area`
+  std::string words;                 ///< plain text
+  std::vector<std::string> cells{};  ///< further texts, in columns that end at the right margin
 };
 
 /// A `plot` command under construction, with its legend.

@@ -31,7 +31,7 @@ enum class FigureFormat {
 
 /// How large, and for what kind of terminal.
 struct FigureSize {
-  double width_mm = 85;  ///< 60 to 400; 85 is one column of a journal. Letters are 7.5 pt high at
+  double width_mm = 85;  ///< 85, one column of a journal, to 400. Letters are 7.5 pt high at
                          ///< every width, so that a wider picture holds more, not larger ones
   int columns = 100;     ///< of `FigureFormat::text`, 40 to 400
   bool colour = false;   ///< of `FigureFormat::text`: with the colour codes of a terminal
