@@ -318,6 +318,9 @@ class CommandLine {
                     "motors: all, or names of the library and files, separated by commas")
         ->delimiter(',')
         ->allow_extra_args(false);
+    command.add_option("--view", plot_.view,
+                       "drag: speed (default), or surface over airspeed and tilt");
+    add_flight(command, plot_.flight);
   }
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tethercalc/report/figure.hpp"
 
@@ -60,6 +61,18 @@ void Plot::curve(const std::string& data, const std::string& style, const std::s
 void Plot::points(const std::string& data, const std::string& style, const std::string& words) {
   add(data + " with points " + style, words);
   if (!words.empty()) legend_.push_back({LegendEntry::Sample::point, style, words});
+}
+
+void Plot::dots(const std::string& block, int x, int y, double width, std::string_view colour,
+                const std::string& words, double size) {
+  add(fmt::format("{} using {}:{}:({}):(0) with vectors nohead lc rgb '{}' lw {}", block, x, y,
+                  number(width), colour, size));
+  add(fmt::format("{} using {}:(characters ? ${} : NaN) with points pt {}", block, x, y,
+                  ++letters_),
+      words);
+  if (!words.empty()) {
+    legend_.push_back({LegendEntry::Sample::point, point(colour, 5, 0.35 * size), words});
+  }
 }
 
 void Plot::mark(double x, double y, const std::string& style, const std::string& words) {
@@ -141,6 +154,41 @@ std::string Layout::legend(double top, std::size_t columns,
 std::string Layout::heading(const std::string& words) const {
   return fmt::format("set label 103 {} at screen 0.5,{:.4f} center\n", gnuplot_text(words, 48),
                      height(0.9));
+}
+
+Series outline(std::span<const double> x, std::span<const double> y, std::size_t bins) {
+  Series out;
+  if (x.size() < 2) return out;
+  constexpr double gap = 5;  // mean steps
+  const double mean_step = (x.back() - x.front()) / double(x.size() - 1);
+  const double width = (x.back() - x.front()) / double(bins);
+  for (std::size_t first = 0; first < x.size();) {
+    std::size_t last = first;
+    std::size_t least = first;
+    std::size_t most = first;
+    while (last + 1 < x.size() && x[last + 1] < x[first] + width &&
+           x[last + 1] - x[last] <= gap * mean_step) {
+      ++last;
+      if (y[last] < y[least]) least = last;
+      if (y[last] > y[most]) most = last;
+    }
+    std::vector<std::size_t> kept{first, std::min(least, most), std::max(least, most), last};
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    for (const std::size_t i : kept) {
+      out.x.push_back(x[i]);
+      out.y.push_back(y[i]);
+    }
+    if (last + 1 < x.size() && x[last + 1] - x[last] > gap * mean_step) {
+      out.x.push_back(x[last]);
+      out.y.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    first = last + 1;
+  }
+  return out;
+}
+
+std::size_t thinning(std::size_t samples, std::size_t most) {
+  return samples <= most ? 1 : (samples + most - 1) / most;
 }
 
 Range with_margin(double lo, double hi, double margin) {
