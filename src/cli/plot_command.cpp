@@ -14,9 +14,11 @@
 #include "io/closest_name.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/report/design_figures.hpp"
 #include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -89,6 +91,12 @@ Figure diagnosis(const PlotOptions& options) {
   }
 }
 
+Figure sweep(const PlotOptions& options) {
+  const std::string& file = options.files.front();
+  const MappedFile content(file == "-" ? "/dev/stdin" : file);
+  return sweep_figure(parse_sweep_csv(content.text(), file, options.value), {options.x, options.y});
+}
+
 struct Kind {
   std::string_view name;
   std::string_view input;  ///< what FILE is
@@ -105,6 +113,7 @@ constexpr std::array kinds{
     Kind{"drag", "LOG...", "measured and fitted drag over airspeed", drag, true},
     Kind{"diagnosis", "SPEC", "what a log (--flight, --power) shows of the simulation's errors",
          diagnosis},
+    Kind{"sweep", "CSV", "a heat map or curves from what sweep wrote", sweep},
 };
 
 const Kind& find_kind(const std::string& name) {

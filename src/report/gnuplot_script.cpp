@@ -170,6 +170,12 @@ std::string Layout::legend(double top, std::size_t columns,
   return out + "}\n";
 }
 
+std::string Layout::colour_box(double top, double bottom) const {
+  return fmt::format(
+      "set colorbox horizontal user origin screen {:.4f},{:.4f} size screen {:.4f},{:.4f} border\n",
+      left_, height(bottom), 1 - left_ - right_, height(top) - height(bottom));
+}
+
 std::string Layout::heading(const std::string& words) const {
   return fmt::format("set label 103 {} at screen 0.5,{:.4f} center\n", gnuplot_text(words, 48),
                      height(0.9));

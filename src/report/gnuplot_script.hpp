@@ -118,6 +118,9 @@ class Layout {
   [[nodiscard]] std::string legend(double top, std::size_t columns,
                                    std::span<const LegendEntry> entries) const;
 
+  /// The scale of colours from line `top` to line `bottom`, as wide as the plot, its numbers below.
+  [[nodiscard]] std::string colour_box(double top, double bottom) const;
+
   /// A line of text in the middle of the picture's first line.
   [[nodiscard]] std::string heading(const std::string& words) const;
 
