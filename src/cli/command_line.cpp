@@ -15,6 +15,7 @@
 #include "cli/diagnose_command.hpp"
 #include "cli/log_commands.hpp"
 #include "cli/output.hpp"
+#include "cli/plot_command.hpp"
 #include "cli/sweep_command.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -107,6 +108,7 @@ class CommandLine {
     add_drag();
     add_diagnose();
     add_log();
+    add_plot();
     app_.footer("Exit codes: 0 done; 1 the honest answer is no; 2 bad input; 3 internal error.");
   }
 
@@ -301,6 +303,39 @@ class CommandLine {
     add_output(command, output_);
   }
 
+  void add_plot() {
+    CLI::App& command =
+        add("plot", "A figure of a result, drawn by gnuplot", [this] { return run_plot(plot_); });
+    command.add_option("KIND", plot_.kind, plot_kinds_help())->required();
+    command.add_option("FILE", plot_.files, "What it is drawn from")->required();
+    command
+        .add_option("--set", plot_.overrides, "Change a field of the spec: path=value; repeatable")
+        ->allow_extra_args(false);
+    command.add_option("--output", plot_.output,
+                       "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
+                       "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
+    command.add_option("--width-mm", plot_.width_mm,
+                       "Width of the figure, 85 to 400 (default: 85, one column of a journal)");
+    command
+        .add_option("--motors", plot_.motors,
+                    "motors: all, or names of the library and files, separated by commas")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--view", plot_.view,
+                       "drag: speed (default), or surface over airspeed and tilt");
+    command.add_option("--x", plot_.x, "sweep: the varied field along the horizontal axis");
+    command.add_option("--y", plot_.y, "sweep: the varied field along the vertical axis");
+    command.add_option("--value", plot_.value,
+                       "sweep: the column shown (default: forward.total_power_W)");
+    command.add_option("--flight", plot_.flight_log, "diagnosis: the flight log");
+    command.add_option("--power", plot_.power_log, "diagnosis: the power log");
+    command
+        .add_option("--base", plot_.base, "diagnosis: effects taken as part of the base model")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_flight(command, plot_.flight);
+  }
+
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
   void check_command(int argc, const char* const* argv) const {
     if (argc < 2) refuse("tethercalc", "a command is needed (tethercalc --help lists them)");
@@ -350,6 +385,7 @@ class CommandLine {
   DragOptions drag_;
   DiagnoseOptions diagnose_;
   std::string message_;
+  PlotOptions plot_;
 };
 
 }  // namespace

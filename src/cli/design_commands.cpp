@@ -13,6 +13,8 @@ namespace {
 
 DesignFile read(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
 
+}  // namespace
+
 std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
   std::vector<MotorEntry> motors;
   std::vector<InputProblem> problems;
@@ -30,8 +32,6 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
   if (!problems.empty()) throw InputError(std::move(problems));
   return motors;
 }
-
-}  // namespace
 
 int run_optimize(const SpecOptions& spec, const Output& output) {
   const OptimizeStudy answer = study(read(spec));

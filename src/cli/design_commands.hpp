@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/output.hpp"
+#include "tethercalc/io/library.hpp"
 
 namespace tethercalc::cli {
 
@@ -13,6 +14,10 @@ struct SpecOptions {
   std::string file;  ///< "-" is standard input
   std::vector<std::string> overrides;
 };
+
+/// The motors that `--motors` names: "all", names of the library, or files. Throws InputError with
+/// every name that there is none of.
+[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names);
 
 /// Each command returns its exit code and throws InputError for bad input.
 int run_optimize(const SpecOptions& spec, const Output& output);

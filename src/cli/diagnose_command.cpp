@@ -111,6 +111,14 @@ Told diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) 
   }
 }
 
+Told tell(const DiagnoseOptions& options, const DesignFile& file) {
+  if (options.flight_log.empty() == options.power_log.empty()) {
+    throw InputError("diagnose", "needs one measured log: --flight LOG or --power LOG");
+  }
+  return options.power_log.empty() ? diagnose_flight_log(options, file)
+                                   : diagnose_power_log(options, file);
+}
+
 std::string answer_text(const Told& told, const Output& output) {
   switch (output.format) {
     case Format::json:
@@ -124,13 +132,13 @@ std::string answer_text(const Told& told, const Output& output) {
 
 }  // namespace
 
+Diagnosis diagnose(const DiagnoseOptions& options) {
+  return tell(options, read_design(options.spec.file, options.spec.overrides)).diagnosis;
+}
+
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
-  if (options.flight_log.empty() == options.power_log.empty()) {
-    throw InputError("diagnose", "needs one measured log: --flight LOG or --power LOG");
-  }
   const DesignFile file = read_design(options.spec.file, options.spec.overrides);
-  Told told = options.power_log.empty() ? diagnose_flight_log(options, file)
-                                        : diagnose_power_log(options, file);
+  Told told = tell(options, file);
   add_impact(told, file);
   emit(output, options.into ? json_text(told.extended) : answer_text(told, output));
   return done;

@@ -6,6 +6,7 @@
 #include "cli/design_commands.hpp"
 #include "cli/flight_options.hpp"
 #include "cli/output.hpp"
+#include "tethercalc/diagnose/diagnosis.hpp"
 
 namespace tethercalc::cli {
 
@@ -17,6 +18,10 @@ struct DiagnoseOptions {
   FlightOptions flight;
   bool into = false;  ///< print the extended spec instead of the diagnosis
 };
+
+/// The diagnosis alone, without its impact on the design. Throws InputError for bad input.
+[[nodiscard]] Diagnosis diagnose(const DiagnoseOptions& options);
+
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
 
 }  // namespace tethercalc::cli

@@ -1,0 +1,180 @@
+#include "cli/plot_command.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+
+#include "cli/diagnose_command.hpp"
+#include "cli/log_commands.hpp"
+#include "io/closest_name.hpp"
+#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/mapped_file.hpp"
+#include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/diagnosis_figure.hpp"
+#include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/sweep_figure.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+DesignFile read_spec(const PlotOptions& options) {
+  return read_design(options.files.front(), options.overrides);
+}
+
+Figure optimum(const PlotOptions& options) { return optimum_figure(study(read_spec(options))); }
+
+Figure motors(const PlotOptions& options) {
+  const DesignFile file = read_spec(options);
+  const std::vector<std::string> all{"all"};
+  return motors_figure(
+      file,
+      compare_motors(file.design, chosen_motors(options.motors.empty() ? all : options.motors)));
+}
+
+/// A log is told by its name, a spec by its own; folders say nothing in a picture.
+std::string base_name(const std::string& file) {
+  return std::filesystem::path(file).filename().string();
+}
+
+Figure log(const PlotOptions& options) {
+  const std::string& file = options.files.front();
+  FlightOptions flight = options.flight;
+  if (!flight.mass_g) flight.mass_g = 1000;  // accelerations do not depend on it
+  try {
+    return log_figure(base_name(file), observe_part(read_flight_logs({file}, flight.core).front(),
+                                                    identification_options(flight)));
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+Figure drag(const PlotOptions& options) {
+  const std::vector<std::string> views{"speed", "surface"};
+  const bool surface = options.view == "surface";
+  if (!surface && !options.view.empty() && options.view != "speed") {
+    throw InputError("--view", "\"" + options.view +
+                                   "\" is no view of drag; allowed are speed and "
+                                   "surface" +
+                                   did_you_mean(options.view, views));
+  }
+  const DragIdentificationOptions how = identification_options(options.flight);
+  const std::vector<FlightLog> logs = read_flight_logs(options.files, options.flight.core);
+  const std::string name = logs.size() == 1 ? base_name(options.files.front())
+                                            : std::to_string(logs.size()) + " flights";
+  try {
+    const DragFlights fitted = fit_drag_flights(name, logs, how);
+    return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(logs.size() == 1 ? options.files.front() : "drag", error.what());
+  }
+}
+
+Figure diagnosis(const PlotOptions& options) {
+  DiagnoseOptions how;
+  how.spec = {options.files.front(), options.overrides};
+  how.flight_log = options.flight_log;
+  how.power_log = options.power_log;
+  how.base = options.base;
+  how.flight = options.flight;
+  const std::string& log = options.power_log.empty() ? options.flight_log : options.power_log;
+  const Diagnosis found = diagnose(how);
+  try {
+    return diagnosis_figure(base_name(log), found);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(log, error.what());
+  }
+}
+
+Figure sweep(const PlotOptions& options) {
+  const std::string& file = options.files.front();
+  const MappedFile content(file == "-" ? "/dev/stdin" : file);
+  return sweep_figure(parse_sweep_csv(content.text(), file, options.value), {options.x, options.y});
+}
+
+struct Kind {
+  std::string_view name;
+  std::string_view input;  ///< what FILE is
+  std::string_view help;
+  Figure (*draw)(const PlotOptions&);
+  bool many_files = false;
+};
+
+constexpr std::array kinds{
+    Kind{"optimum", "SPEC", "thrust and power over the cross-section", optimum},
+    Kind{"motors", "SPEC", "efficiency of motors, with what their best tethers ask of them",
+         motors},
+    Kind{"log", "LOG", "accelerations, drag and speed over time", log},
+    Kind{"drag", "LOG...", "measured and fitted drag over airspeed", drag, true},
+    Kind{"diagnosis", "SPEC", "what a log (--flight, --power) shows of the simulation's errors",
+         diagnosis},
+    Kind{"sweep", "CSV", "a heat map or curves from what sweep wrote", sweep},
+};
+
+const Kind& find_kind(const std::string& name) {
+  std::vector<std::string> names;
+  std::string list;
+  for (const Kind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.emplace_back(kind.name);
+    list += (list.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw InputError("plot", "there is no kind of figure \"" + name + "\"; allowed are " + list +
+                               did_you_mean(name, names));
+}
+
+/// Columns of the terminal: COLUMNS, what the terminal says, or 100 where there is none.
+int text_columns() {
+  constexpr int least = 40;
+  constexpr int most = 400;
+  if (const char* given = std::getenv("COLUMNS")) {
+    const int columns = std::atoi(given);
+    if (columns > 0) return std::clamp(columns, least, most);
+  }
+  winsize window{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0) {
+    return std::clamp<int>(window.ws_col, least, most);
+  }
+  return 100;
+}
+
+}  // namespace
+
+std::string plot_kinds_help() {
+  std::string out;
+  for (const Kind& kind : kinds) {
+    out += (out.empty() ? "" : "; ") + std::string(kind.name) + " " + std::string(kind.input) +
+           ": " + std::string(kind.help);
+  }
+  return out;
+}
+
+int run_plot(const PlotOptions& options) {
+  const Kind& kind = find_kind(options.kind);
+  // Told before a long computation, not after it.
+  const FigureFormat format =
+      options.output.empty() ? FigureFormat::text : figure_format(options.output, "--output");
+  if (options.files.size() != 1 && !kind.many_files) {
+    throw InputError("plot " + options.kind, "is drawn from one file: plot " + options.kind + " " +
+                                                 std::string(kind.input));
+  }
+  if (!(options.width_mm >= 85 && options.width_mm <= 400)) {
+    throw InputError("--width-mm", std::to_string(options.width_mm) +
+                                       " is out of range; allowed is 85 to 400 mm");
+  }
+  Output output;
+  output.file = options.output;
+  FigureSize size;
+  size.width_mm = options.width_mm;
+  size.columns = text_columns();
+  size.colour = style_for(output).colour;
+  emit(output, render(kind.draw(options), format, size));
+  return done;
+}
+
+}  // namespace tethercalc::cli

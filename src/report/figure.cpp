@@ -1,0 +1,282 @@
+#include "tethercalc/report/figure.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/closest_name.hpp"
+#include "tethercalc/io/input_error.hpp"
+
+extern "C" char** environ;
+
+namespace tethercalc {
+namespace {
+
+constexpr double font_pt = 7.5;  // of 72 to the inch
+constexpr double millimetre_per_inch = 25.4;
+constexpr double column_mm = 85;
+constexpr double line_mm = 3.2;                           // 7.5 pt and the space between lines
+constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
+
+/// The character that `text` begins with and its length in bytes; U+FFFD and 1 where the bytes are
+/// no UTF-8 (RFC 3629: shortest form, no surrogates).
+std::pair<std::uint32_t, std::size_t> first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+  };
+  const std::uint32_t lead = byte(0);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  constexpr std::pair bad{std::uint32_t{0xFFFD}, std::size_t{1}};
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return bad;
+  std::uint32_t character = lead & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return bad;
+    character = character << 6 | (byte(i) & 0x3F);
+  }
+  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
+  if (character < least[length] || character > 0x10FFFF || surrogate) return bad;
+  return {character, length};
+}
+
+/// What XML, terminals or readers stumble over: controls, non-characters, and marks that turn the
+/// direction of writing.
+bool unprintable(std::uint32_t c) {
+  return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200E && c <= 0x200F) ||
+         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) ||
+         (c >= 0xFDD0 && c <= 0xFDEF) || (c & 0xFFFE) == 0xFFFE;
+}
+
+/// One line of printable characters, at most `longest` of them.
+std::string printable(std::string_view text, std::size_t longest) {
+  std::vector<std::string> characters;
+  while (!text.empty() && characters.size() <= longest) {
+    const auto [character, length] = first_character(text);
+    const bool space = character == '\n' || character == '\r' || character == '\t';
+    if (space) {
+      characters.emplace_back(" ");
+    } else if (unprintable(character) || character == 0xFFFD) {
+      characters.emplace_back(replacement);
+    } else {
+      characters.emplace_back(text.substr(0, length));
+    }
+    text.remove_prefix(length);
+  }
+  if (characters.size() > longest) {
+    characters.resize(longest - 1);
+    characters.emplace_back("…");
+  }
+  std::string out;
+  for (const std::string& character : characters) out += character;
+  return out;
+}
+
+std::string xml_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+/// A file without a name, gone when closed.
+using Scratch = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+Scratch scratch_file() {
+  std::FILE* file = std::tmpfile();
+  if (file == nullptr) {
+    throw std::system_error(errno, std::generic_category(), "cannot make a temporary file");
+  }
+  return {file, std::fclose};
+}
+
+std::string content(std::FILE* file) {
+  std::rewind(file);
+  std::string out;
+  std::array<char, 1 << 14> chunk{};
+  for (std::size_t size = 0; (size = std::fread(chunk.data(), 1, chunk.size(), file)) > 0;) {
+    out.append(chunk.data(), size);
+  }
+  return out;
+}
+
+/// Runs gnuplot on `script` and returns what it draws. Standard input, output and error are files:
+/// nobody waits for anybody, whatever the sizes.
+std::string run_gnuplot(const std::string& script) {
+  const Scratch in = scratch_file();
+  const Scratch out = scratch_file();
+  const Scratch err = scratch_file();
+  if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() ||
+      std::fflush(in.get()) != 0) {
+    throw std::system_error(errno, std::generic_category(), "cannot write a temporary file");
+  }
+  std::rewind(in.get());
+
+  posix_spawn_file_actions_t actions{};
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ::fileno(in.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, ::fileno(out.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, ::fileno(err.get()), STDERR_FILENO);
+  std::array<char, 8> program{"gnuplot"};
+  std::array<char, 3> defaults{"-d"};  // no start-up file of the user
+  const std::array<char*, 3> arguments{program.data(), defaults.data(), nullptr};
+  pid_t child = 0;
+  const int error =
+      ::posix_spawnp(&child, program.data(), &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    throw InputError("gnuplot", "draws the figures and cannot be started (" +
+                                    std::generic_category().message(error) +
+                                    "); install the Debian package gnuplot-nox, or write the "
+                                    "script for it with --output FILE.gp");
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "gnuplot is lost");
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    throw std::runtime_error("gnuplot failed: " + content(err.get()));
+  }
+  return content(out.get());
+}
+
+double height_over_width(const Figure& figure) { return figure.lines * line_mm / column_mm; }
+
+/// The command that chooses and sizes the terminal.
+std::string set_terminal(const Figure& figure, FigureFormat format, const FigureSize& size) {
+  const double inches = size.width_mm / millimetre_per_inch;
+  const double ratio = height_over_width(figure);
+  switch (format) {
+    case FigureFormat::svg: {
+      const double pixels = 96 * inches;  // CSS pixels
+      return fmt::format(
+          "set terminal svg noenhanced size {:.0f},{:.0f} fixed font 'sans-serif,{}' "
+          "background '#ffffff' name '{}'\ndot_scale = 0.75\n",
+          pixels, pixels * ratio, font_pt * 96 / 72, figure.id);
+    }
+    case FigureFormat::png: {
+      constexpr double dots = 300;
+      constexpr double scale = dots / 96;  // gnuplot takes 96 dots for an inch here
+      return fmt::format(
+          "set terminal pngcairo noenhanced size {:.0f},{:.0f} font 'sans-serif,{}' fontscale {} "
+          "linewidth {} pointscale {} dashlength 0.6 background '#ffffff'\n",
+          dots * inches, dots * inches * ratio, font_pt, scale, scale, scale);
+    }
+    case FigureFormat::pdf:
+    case FigureFormat::script:
+      return fmt::format(
+          "set terminal pdfcairo noenhanced size {:.3f}in,{:.3f}in font 'sans-serif,{}' "
+          "fontscale 1 dashlength 0.6 background '#ffffff'\n",
+          inches, inches * ratio, font_pt);
+    case FigureFormat::text:
+      return fmt::format("set terminal dumb noenhanced size {},{} {}\ncharacters = 1\n",
+                         size.columns, figure.lines, size.colour ? "ansi256" : "mono");
+  }
+  return "";
+}
+
+/// gnuplot's SVG with title and description for those who cannot see it, and with ids that stay
+/// unique where several figures stand in one page.
+std::string finished_svg(const Figure& figure, std::string svg) {
+  const auto replace_all = [&svg](std::string_view from, const std::string& to) {
+    for (std::size_t at = 0; (at = svg.find(from, at)) != std::string::npos; at += to.size()) {
+      svg.replace(at, from.size(), to);
+    }
+  };
+  for (const char* name : {"gpDot", "gpPt", "textbox", "greybox", "gnuplot_canvas"}) {
+    const std::string own = figure.id + "-" + name;
+    replace_all(fmt::format("id='{}", name), "id='" + own);
+    replace_all(fmt::format("id=\"{}", name), "id=\"" + own);
+    replace_all(fmt::format("'#{}", name), "'#" + own);
+    replace_all(fmt::format("(#{})", name), "(#" + own + ")");
+  }
+  const std::size_t from = svg.find("<title>");
+  const std::string_view last = "</desc>";
+  const std::size_t to = svg.find(last, from);
+  if (from == std::string::npos || to == std::string::npos) {
+    throw std::runtime_error("gnuplot wrote an SVG without title and description");
+  }
+  constexpr std::size_t longest_description = 2000;
+  svg.replace(from, to + last.size() - from,
+              fmt::format("<title id=\"{0}-title\">{1}</title>\n<desc id=\"{0}-desc\">{2}</desc>",
+                          figure.id, xml_text(printable(figure.title, 200)),
+                          xml_text(printable(figure.description, longest_description))));
+  const std::string_view root = "<svg ";
+  svg.insert(svg.find(root) + root.size(),
+             fmt::format("role=\"img\" aria-labelledby=\"{0}-title {0}-desc\"", figure.id));
+  return svg;
+}
+
+std::string standalone_script(const Figure& figure, const FigureSize& size) {
+  return fmt::format(
+      "# {0}\n# Draw it with: gnuplot {1}.gp > {1}.pdf\n"
+      "# For another format change the next line, such as to\n"
+      "#   set terminal pngcairo size 1004,{2:.0f} noenhanced font 'sans-serif,7.5' \\\n"
+      "#     fontscale 3.125 linewidth 3.125 pointscale 3.125\n{3}{4}",
+      printable(figure.title, 200), figure.id, 1004 * height_over_width(figure),
+      set_terminal(figure, FigureFormat::script, size), figure.script);
+}
+
+}  // namespace
+
+std::string gnuplot_text(std::string_view text, std::size_t longest) {
+  std::string out = "'";
+  for (const char c : printable(text, longest)) {
+    if (c == '\'') out += '\'';
+    out += c;
+  }
+  return out + "'";
+}
+
+FigureFormat figure_format(std::string_view file, const std::string& where) {
+  const std::size_t dot = file.find_last_of("./");
+  const bool has_suffix = dot != std::string_view::npos && file[dot] == '.';
+  const std::string suffix(has_suffix ? file.substr(dot) : "");
+  constexpr std::array<std::pair<std::string_view, FigureFormat>, 5> formats{
+      {{".svg", FigureFormat::svg},
+       {".png", FigureFormat::png},
+       {".pdf", FigureFormat::pdf},
+       {".gp", FigureFormat::script},
+       {".txt", FigureFormat::text}}};
+  std::vector<std::string> names;
+  for (const auto& [name, format] : formats) {
+    if (name == suffix) return format;
+    names.emplace_back(name);
+  }
+  throw InputError(where, fmt::format("\"{}\" does not end in .svg, .png, .pdf, .gp (a script for "
+                                      "gnuplot) or .txt{}",
+                                      file, did_you_mean(suffix, names)));
+}
+
+std::string render(const Figure& figure, FigureFormat format, const FigureSize& size) {
+  if (format == FigureFormat::script) return standalone_script(figure, size);
+  std::string drawn = run_gnuplot(set_terminal(figure, format, size) + figure.script);
+  return format == FigureFormat::svg ? finished_svg(figure, std::move(drawn)) : drawn;
+}
+
+}  // namespace tethercalc

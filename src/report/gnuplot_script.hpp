@@ -1,0 +1,166 @@
+// Pieces of gnuplot scripts that all figures are put together from.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tethercalc::gnuplot {
+
+/// The eight colours of Okabe and Ito (2008), told apart with every common kind of colour vision,
+/// by what they stand for in all figures.
+namespace colour {
+inline constexpr std::string_view black = "#000000";
+inline constexpr std::string_view orange = "#E69F00";
+inline constexpr std::string_view sky = "#56B4E9";
+inline constexpr std::string_view green = "#009E73";
+inline constexpr std::string_view blue = "#0072B2";
+inline constexpr std::string_view vermilion = "#D55E00";
+inline constexpr std::string_view purple = "#CC79A7";
+inline constexpr std::string_view grey = "#999999";
+}  // namespace colour
+
+/// A number as gnuplot reads it: seven significant digits, `NaN` where it does not exist.
+[[nodiscard]] std::string number(double value);
+
+/// Columns of a data block.
+using Columns = std::vector<std::span<const double>>;
+
+/// A named block of inline data, `$name << EOD`, one row an element of the columns.
+[[nodiscard]] std::string data_block(std::string_view name, const Columns& columns);
+
+/// Style of a line: colour, dash type 1 (solid) to 5, and width in points.
+[[nodiscard]] std::string line(std::string_view colour, int dash, double width = 1.2);
+
+/// Style of points: gnuplot's point type and a size.
+[[nodiscard]] std::string point(std::string_view colour, int type, double size = 0.6);
+
+/// Style of a shaded area.
+[[nodiscard]] std::string area(std::string_view colour, double opacity = 0.15);
+
+/// What every figure's script begins with: encoding, literal texts, thin frame and ticks.
+[[nodiscard]] std::string prelude();
+
+/// An entry of a legend.
+struct LegendEntry {
+  enum class Sample { none, line, point, area };
+  Sample sample = Sample::line;      ///< what stands before the words
+  std::string style;                 ///< as from `line`, `point` or `area`
+  std::string words;                 ///< plain text
+  std::vector<std::string> cells{};  ///< further texts, in columns that end at the right margin
+};
+
+/// A `plot` command under construction, with its legend.
+class Plot {
+ public:
+  /// `data` as in "$curves using 1:2"; without words it stays out of the legend.
+  void curve(const std::string& data, const std::string& style, const std::string& words = "");
+  void points(const std::string& data, const std::string& style, const std::string& words = "");
+
+  /// Many small dots, of columns `x` and `y` of a block, such as "$samples"; `width` is a dot's in
+  /// the unit of x. They are strokes, which take a fifth of the room of points in a file, and
+  /// letters where characters are all there is.
+  void dots(const std::string& block, int x, int y, double width, std::string_view colour,
+            const std::string& words = "", double size = 1.3);
+
+  /// One point, unless a coordinate does not exist.
+  void mark(double x, double y, const std::string& style, const std::string& words = "");
+
+  /// Anything else; `part` without its title.
+  void add(const std::string& part, const std::string& words = "");
+
+  /// A legend entry of something that is not plotted here.
+  void entry(LegendEntry entry) { legend_.push_back(std::move(entry)); }
+
+  /// The command, with its newline.
+  [[nodiscard]] std::string text(std::string_view command = "plot") const;
+  [[nodiscard]] std::span<const LegendEntry> legend() const { return legend_; }
+
+ private:
+  std::string parts_;
+  std::vector<LegendEntry> legend_;
+  int letters_ = 0;  ///< used by dots
+};
+
+/// Places plots and texts by lines of text, counted from the top of the picture, so that they keep
+/// out of each other's way in every terminal. Labels and arrows of a plot have tags below 100;
+/// those from 100 on are made here.
+class Layout {
+ public:
+  /// `lines` is the height of the picture, `left` and `right` the margins as shares of its width.
+  explicit Layout(int lines, double left = 0.125, double right = 0.03)
+      : lines_(lines), left_(left), right_(right) {}
+
+  /// Begins a plot with its frame from line `top` to line `bottom`; no label, arrow or shading of
+  /// an earlier one remains.
+  [[nodiscard]] std::string panel(double top, double bottom) const;
+
+  /// The layout of one of two columns of equal plots, `second` or not, that share a vertical axis:
+  /// its numbers stand left of the first only.
+  [[nodiscard]] Layout column(bool second) const;
+
+  /// A line of text from the left edge of the picture on.
+  [[nodiscard]] std::string title(double at, const std::string& words) const;
+
+  /// Texts along the edges of the plot: at the left end of line `at` what its vertical axis shows,
+  /// which needs no rotated letters so, and at the right end what its upper axis shows.
+  [[nodiscard]] std::string above(double at, const std::string& left,
+                                  const std::string& right = "") const;
+
+  /// What the horizontal axis shows, in the middle of line `at`.
+  [[nodiscard]] std::string below(double at, const std::string& words) const;
+
+  /// The legend from line `top` on, in `columns` columns, filled row by row. Where characters are
+  /// all there is, gnuplot's own key takes its place, from the titles of the plot.
+  [[nodiscard]] std::string legend(double top, std::size_t columns,
+                                   std::span<const LegendEntry> entries) const;
+
+  /// The scale of colours from line `top` to line `bottom`, as wide as the plot, its numbers below.
+  [[nodiscard]] std::string colour_box(double top, double bottom) const;
+
+  /// A line of text in the middle of the picture's first line.
+  [[nodiscard]] std::string heading(const std::string& words) const;
+
+ private:
+  [[nodiscard]] double height(double line) const { return 1 - line / lines_; }
+
+  int lines_;
+  double left_;
+  double right_;
+  double edge_ = 0.01;  ///< where texts above a plot begin
+};
+
+/// A range that leaves `margin` of its length free on both sides of [lo, hi]; where that is empty,
+/// one around it.
+struct Range {
+  double lo = 0;
+  double hi = 1;
+};
+[[nodiscard]] Range with_margin(double lo, double hi, double margin = 0.05);
+
+/// A series thinned for drawing: of every one of `bins` equal stretches of `x` the first, least,
+/// greatest and last point, in their order, so that the drawn line covers what the whole one would.
+/// Gaps of more than five times the mean step become a gap in the line. `x` rises.
+struct Series {
+  std::vector<double> x;
+  std::vector<double> y;
+};
+[[nodiscard]] Series outline(std::span<const double> x, std::span<const double> y,
+                             std::size_t bins = 300);
+
+/// Every how manieth of `samples` is drawn so that there are at most `most`.
+[[nodiscard]] std::size_t thinning(std::size_t samples, std::size_t most);
+
+/// The least and greatest finite value; {0, 1} where there is none.
+[[nodiscard]] Range extent(std::span<const double> values);
+
+/// "set xtics step" with a round step that makes at most `most` of them on [lo, hi].
+[[nodiscard]] std::string set_tics(std::string_view axis, Range range, int most);
+
+/// "set xrange [lo:hi]" of `axis` ("x", "y", "x2" …), with its newline.
+[[nodiscard]] std::string set_range(std::string_view axis, Range range);
+
+}  // namespace tethercalc::gnuplot

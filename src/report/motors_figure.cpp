@@ -1,0 +1,290 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/gnuplot_script.hpp"
+#include "tethercalc/report/design_figures.hpp"
+
+namespace tethercalc {
+namespace {
+
+namespace gp = gnuplot;
+namespace colour = gnuplot::colour;
+
+/// Colour and dashes together tell 35 motors apart; beyond, numbers alone do.
+std::string style_of(std::size_t index, double width = 1.3) {
+  constexpr std::array colours{colour::blue,   colour::vermilion, colour::green, colour::orange,
+                               colour::purple, colour::sky,       colour::black};
+  return gp::line(colours[index % colours.size()], int(index % 5) + 1, width);
+}
+
+std::string dot_colour(std::size_t index) {
+  const std::string style = style_of(index);
+  return style.substr(0, style.find(" dt"));
+}
+
+constexpr const char* circle = " pt 6 ps 0.8*dot_scale lw 1.4";
+constexpr const char* dot = " pt 7 ps 0.6*dot_scale";
+constexpr const char* plus = " pt 1 ps 0.9*dot_scale lw 1.4";
+
+/// Efficiency over thrust, as far as it was measured: thrust in g, efficiency in g/W.
+struct EfficiencyCurve {
+  std::vector<double> thrust;
+  std::vector<double> efficiency;
+};
+
+double efficiency_at(const MotorCurve& curve, double thrust) {
+  return thrust / unit::gram_force / curve.power(thrust);
+}
+
+EfficiencyCurve efficiency_of(const MotorCurve& curve) {
+  EfficiencyCurve out;
+  const auto vertices = curve.vertices();
+  // Power is straight between the points, efficiency is not.
+  constexpr int steps = 12;
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const double from = i == 1 ? vertices[1].thrust : vertices[i - 1].thrust;
+    for (int k = i == 1 ? steps : 1; k <= steps; ++k) {
+      const double thrust = from + (vertices[i].thrust - from) * k / steps;
+      out.thrust.push_back(thrust / unit::gram_force);
+      out.efficiency.push_back(efficiency_at(curve, thrust));
+    }
+  }
+  return out;
+}
+
+/// A mark on a curve.
+struct Mark {
+  double thrust = 0;      ///< g
+  double efficiency = 0;  ///< g/W
+  std::string style;
+};
+
+Mark mark_on(const MotorCurve& curve, double thrust, const std::string& style) {
+  const double shown = std::min(thrust, curve.max_thrust());
+  return {shown / unit::gram_force, efficiency_at(curve, shown), style};
+}
+
+/// Circle, dot and plus of the paper's figure on motors.
+std::vector<Mark> marks_of(const MotorOptimum& motor, std::size_t index) {
+  if (!motor.result.feasible) return {};
+  const Requirements& need = motor.design.requirements;
+  const MotorCurve& curve = motor.design.drone.motor;
+  const auto at = [&](Condition condition) -> const OperatingPoint& {
+    return condition == Condition::hover ? motor.result.hover : motor.result.forward;
+  };
+  const std::string colour = dot_colour(index);
+  const double necessary = at(need.headroom_at).necessary_thrust;
+  std::vector<Mark> marks{mark_on(curve, necessary, colour + circle),
+                          mark_on(curve, need.thrust_headroom * necessary, colour + dot)};
+  if (motor.result.limited_by == Limit::minimum_power) {
+    marks.push_back(mark_on(curve, at(need.power_at).necessary_thrust, colour + plus));
+  }
+  return marks;
+}
+
+/// The first measured efficiency counts for smaller thrusts too (paper, section III): drawn thinly
+/// from where the drone hovers.
+void draw_assumed(gp::Plot& plot, const EfficiencyCurve& curve, std::span<const Mark> marks,
+                  std::size_t index) {
+  double least = curve.thrust.front();
+  for (const Mark& mark : marks) least = std::min(least, mark.thrust);
+  if (!(least < curve.thrust.front())) return;
+  const std::string y = gp::number(curve.efficiency.front());
+  plot.curve(fmt::format("'+' using ($0 < 1 ? {} : {}):({}) every ::0::1", gp::number(least),
+                         gp::number(curve.thrust.front()), y),
+             style_of(index, 0.5));
+}
+
+std::string name_of(const MotorOptimum& motor, std::size_t index) {
+  return fmt::format("{} {}", index + 1,
+                     motor.motor.name.empty() ? motor.motor.id : motor.motor.name);
+}
+
+/// What a motor's best tether is and draws; a word where there is none.
+struct Answer {
+  std::string area;
+  std::string power;
+};
+
+Answer answer_of(const MotorOptimum& motor) {
+  if (!motor.result.feasible) return {"", "infeasible"};
+  const bool by_hover = motor.design.requirements.power_at == Condition::hover;
+  const OperatingPoint& judged = by_hover ? motor.result.hover : motor.result.forward;
+  return {significant(motor.result.area / unit::square_millimetre, 3),
+          fixed(judged.total_power, 0)};
+}
+
+std::string words_of(const MotorOptimum& motor, std::size_t index) {
+  const Answer answer = answer_of(motor);
+  if (answer.area.empty()) return name_of(motor, index) + ": " + answer.power;
+  return fmt::format("{}: {} mm², {} W", name_of(motor, index), answer.area, answer.power);
+}
+
+/// A place in shares of the frame.
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+
+/// Numbers at the ends of the curves, each at the nearest place where it covers neither
+/// curves nor marks nor other numbers.
+class EndNumbers {
+ public:
+  EndNumbers(gp::Range x, gp::Range y) : x_(x), y_(y) {}
+
+  void keep_free(double x, double y) { taken_.push_back(share(x, y)); }
+
+  void keep_free(const EfficiencyCurve& curve) {
+    for (std::size_t i = 0; i < curve.thrust.size(); ++i) {
+      keep_free(curve.thrust[i], curve.efficiency[i]);
+    }
+  }
+
+  /// The label of `curve`, at that end of it where there is more room.
+  std::string label(std::size_t tag, const EfficiencyCurve& curve) {
+    const Found right = nearest_free(share(curve.thrust.back(), curve.efficiency.back()));
+    const Found left = nearest_free(share(curve.thrust.front(), curve.efficiency.front()));
+    const Place place = left.distance < right.distance ? left.place : right.place;
+    for (const double dx : {-0.5, 0.0, 0.5}) {
+      for (const double dy : {-0.5, 0.0, 0.5}) {
+        taken_.push_back({place.x + dx * width, place.y + dy * height});
+      }
+    }
+    return fmt::format("set label {} '{}' at graph {:.4f},{:.4f} center\n", tag, tag, place.x,
+                       place.y);
+  }
+
+ private:
+  // A number of two digits in 7.5 pt in one column.
+  static constexpr double width = 0.045;
+  static constexpr double height = 0.05;
+
+  [[nodiscard]] Place share(double x, double y) const {
+    return {(x - x_.lo) / (x_.hi - x_.lo), (y - y_.lo) / (y_.hi - y_.lo)};
+  }
+
+  [[nodiscard]] bool is_free(Place place) const {
+    if (place.x < width || place.x > 1 - width / 2 || place.y < height || place.y > 1 - height) {
+      return false;
+    }
+    return std::none_of(taken_.begin(), taken_.end(), [place](Place other) {
+      return std::abs(place.x - other.x) < width / 2 + 0.01 &&
+             std::abs(place.y - other.y) < height / 2;
+    });
+  }
+
+  struct Found {
+    Place place;
+    double distance = 0;
+  };
+
+  [[nodiscard]] Found nearest_free(Place end) const {
+    constexpr double farthest = 6;
+    for (double distance = 1; distance < farthest; distance += 0.25) {
+      for (const double angle : {0.0, -0.6, 0.6, -1.2, 1.2, -1.9, 1.9, -2.5, 2.5, 3.1}) {
+        const Place place{end.x + 0.7 * width * distance * std::cos(angle),
+                          end.y + 0.7 * height * distance * std::sin(angle)};
+        if (is_free(place)) return {place, distance};
+      }
+    }
+    return {end, farthest};
+  }
+
+  gp::Range x_;
+  gp::Range y_;
+  std::vector<Place> taken_;
+};
+
+/// Explains the marks, for the legend and for gnuplot's own key.
+void explain_marks(gp::Plot& plot, const Requirements& need) {
+  const auto explain = [&plot](const char* mark, const std::string& words) {
+    plot.points("NaN", fmt::format("lc rgb '{}'{}", colour::black, mark), words);
+  };
+  const char* where = need.headroom_at == Condition::hover ? "hover" : "forward flight";
+  explain(circle, fmt::format("necessary in {}", where));
+  explain(dot, fmt::format("required: {} times that", significant(need.thrust_headroom, 2)));
+  explain(plus, "where least power, not headroom, decides");
+}
+
+/// A table of the motors with the cross-section and the power of their best tethers, above what
+/// the marks mean.
+std::vector<gp::LegendEntry> legend_of(std::span<const MotorOptimum> ranking,
+                                       std::span<const gp::LegendEntry> plotted) {
+  std::vector<gp::LegendEntry> legend{{gp::LegendEntry::Sample::none, "", "", {"mm²", "W"}}};
+  legend.insert(legend.end(), plotted.begin(), plotted.end());
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    const Answer answer = answer_of(ranking[i]);
+    legend[i + 1].words = name_of(ranking[i], i);
+    legend[i + 1].cells = {answer.area, answer.power};
+  }
+  return legend;
+}
+
+std::string description_of(std::span<const MotorOptimum> ranking) {
+  std::string out =
+      "Efficiency in gram-force per watt over the thrust of one motor, a curve a motor, with the "
+      "thrust that each needs at its best tether. By rising power: ";
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    out += (i == 0 ? "" : "; ") + words_of(ranking[i], i);
+  }
+  return out + ".";
+}
+
+}  // namespace
+
+Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranking) {
+  Figure figure;
+  figure.id = "motors";
+  figure.title = "Motors for " + file.name;
+  figure.description = description_of(ranking);
+  constexpr double frame_bottom = 24;
+  constexpr double legend_top = 28.2;
+  figure.lines = int(legend_top) + 6 + int(ranking.size());
+  figure.script = gp::prelude();
+
+  std::vector<EfficiencyCurve> curves;
+  std::vector<double> thrusts{0};
+  std::vector<double> efficiencies;
+  gp::Plot plot;
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    curves.push_back(efficiency_of(ranking[i].design.drone.motor));
+    const EfficiencyCurve& curve = curves.back();
+    figure.script +=
+        gp::data_block(fmt::format("motor{}", i + 1), {curve.thrust, curve.efficiency});
+    plot.curve(fmt::format("$motor{} using 1:2", i + 1), style_of(i), words_of(ranking[i], i));
+    thrusts.push_back(curve.thrust.back());
+    efficiencies.insert(efficiencies.end(), curve.efficiency.begin(), curve.efficiency.end());
+  }
+  std::vector<std::vector<Mark>> marks;
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    marks.push_back(marks_of(ranking[i], i));
+    draw_assumed(plot, curves[i], marks[i], i);
+  }
+  for (const auto& own : marks) {
+    for (const Mark& mark : own) plot.mark(mark.thrust, mark.efficiency, mark.style);
+  }
+
+  explain_marks(plot, file.design.requirements);
+
+  const gp::Range thrust{0, 1.08 * gp::extent(thrusts).hi};
+  const auto [least, most] = gp::extent(efficiencies);
+  const gp::Range efficiency = gp::with_margin(least, most, 0.1);
+  EndNumbers numbers(thrust, efficiency);
+  for (const EfficiencyCurve& curve : curves) numbers.keep_free(curve);
+  for (const auto& own : marks) {
+    for (const Mark& mark : own) numbers.keep_free(mark.thrust, mark.efficiency);
+  }
+
+  const gp::Layout layout(figure.lines, 0.09, 0.045);
+  figure.script += "set samples 2\n" + layout.panel(3.6, frame_bottom) + layout.heading(file.name);
+  figure.script += layout.above(2.7, "efficiency (g/W)");
+  figure.script += layout.below(26.4, "thrust of one motor (g)");
+  figure.script += layout.legend(legend_top, 1, legend_of(ranking, plot.legend()));
+  figure.script += gp::set_range("x", thrust) + gp::set_range("y", efficiency);
+  for (std::size_t i = 0; i < curves.size(); ++i) figure.script += numbers.label(i + 1, curves[i]);
+  figure.script += plot.text();
+  return figure;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,301 @@
+#include <algorithm>
+#include <cmath>
+
+#include "report/gnuplot_script.hpp"
+#include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/limit_sentences.hpp"
+
+namespace tethercalc {
+namespace {
+
+namespace gp = gnuplot;
+namespace colour = gnuplot::colour;
+
+std::string feasible_style() { return gp::area(colour::green); }
+
+constexpr int samples = 240;  // a point every third of a millimetre of a column
+
+double square_millimetres(double area) { return area / unit::square_millimetre; }
+
+/// The cross-sections shown, mm².
+struct View {
+  double lo = 0;
+  double hi = 1;
+  bool logarithmic = false;
+};
+
+/// Cross-sections that the reader looks for, mm².
+std::vector<double> landmarks(const OptimizeStudy& study) {
+  const Optimization& result = study.result;
+  std::vector<double> areas;
+  const auto add = [&areas](double area) {
+    if (std::isfinite(area) && area > 0) areas.push_back(square_millimetres(area));
+  };
+  if (result.feasible) add(result.area);
+  add(result.minimum_power.area);
+  if (!result.feasible) add(study.best_headroom.area);
+  for (const Interval& range : result.feasible_areas) add(range.lo);
+  if (study.file.design.tether.cross_section) add(*study.file.design.tether.cross_section);
+  return areas;
+}
+
+View view_of(const OptimizeStudy& study) {
+  const std::vector<double> areas = landmarks(study);
+  if (areas.empty()) return {0.01, 10, true};  // nothing flies: the sizes that tethers have
+  const auto [least, most] = std::minmax_element(areas.begin(), areas.end());
+  constexpr double most_on_a_linear_axis = 8;
+  if (*most > most_on_a_linear_axis * *least) return {*least / 2.5, *most * 2.5, true};
+  double hi = 2.2 * *most;
+  // An upper edge of the feasible range is shown unless it would crowd the rest.
+  for (const Interval& range : study.result.feasible_areas) {
+    const double edge = square_millimetres(range.hi);
+    if (edge < 4 * *most) hi = std::max(hi, 1.15 * edge);
+  }
+  return {0, hi, false};
+}
+
+/// What is drawn over the cross-section, in practical units.
+struct Curves {
+  std::vector<double> area;       ///< mm²
+  std::vector<double> available;  ///< g per motor, where headroom is demanded
+  std::vector<double> hover;      ///< necessary, g per motor
+  std::vector<double> forward;    ///< necessary, g per motor
+  std::vector<double> required;   ///< with headroom, g per motor
+  std::vector<double> hover_W;    ///< from the supply
+  std::vector<double> forward_W;  ///< from the supply
+};
+
+std::vector<double> sampled_areas(const OptimizeStudy& study, const View& view) {
+  std::vector<double> areas;
+  for (int i = 0; i <= samples; ++i) {
+    const double share = double(i) / samples;
+    const double area = view.logarithmic ? view.lo * std::pow(view.hi / view.lo, share)
+                                         : view.lo + (view.hi - view.lo) * share;
+    if (area > 0) areas.push_back(area * unit::square_millimetre);
+  }
+  // The landmarks themselves, so that curves pass through what is marked on them.
+  for (const double area : landmarks(study)) areas.push_back(area * unit::square_millimetre);
+  std::sort(areas.begin(), areas.end());
+  return areas;
+}
+
+Curves curves_of(const OptimizeStudy& study, const View& view) {
+  const Design& design = study.file.design;
+  const bool by_hover = design.requirements.headroom_at == Condition::hover;
+  Curves curves;
+  for (const AreaPoints& row : evaluate_areas(design, sampled_areas(study, view))) {
+    const OperatingPoint& judged = by_hover ? row.hover : row.forward;
+    curves.area.push_back(square_millimetres(row.area));
+    curves.available.push_back(judged.available_thrust / unit::gram_force);
+    curves.hover.push_back(row.hover.necessary_thrust / unit::gram_force);
+    curves.forward.push_back(row.forward.necessary_thrust / unit::gram_force);
+    curves.required.push_back(design.requirements.thrust_headroom * judged.necessary_thrust /
+                              unit::gram_force);
+    curves.hover_W.push_back(row.hover.total_power);
+    curves.forward_W.push_back(row.forward.total_power);
+  }
+  return curves;
+}
+
+double least_of(std::span<const double> a, std::span<const double> b) {
+  return std::min(gp::extent(a).lo, gp::extent(b).lo);
+}
+
+/// From zero to above what is asked for; what is far above that is cut off.
+gp::Range thrust_range(const Curves& curves) {
+  const double asked = std::max(
+      {gp::extent(curves.required).hi, gp::extent(curves.hover).hi, gp::extent(curves.forward).hi});
+  return {0, 1.08 * std::min(1.6 * asked, std::max(asked, gp::extent(curves.available).hi))};
+}
+
+bool any_power(const Curves& curves) {
+  return std::any_of(curves.hover_W.begin(), curves.hover_W.end(),
+                     [](double power) { return std::isfinite(power); });
+}
+
+/// Around the least power; thin conductors need any amount.
+gp::Range power_range(const OptimizeStudy& study, const Curves& curves) {
+  if (!any_power(curves)) return {0, 1};
+  const double least = least_of(curves.hover_W, curves.forward_W);
+  double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
+  if (study.result.feasible) {
+    reference =
+        std::max({reference, study.result.hover.total_power, study.result.forward.total_power});
+  }
+  const double most = std::max(gp::extent(curves.hover_W).hi, gp::extent(curves.forward_W).hi);
+  const double top = std::min(most, reference + 1.2 * (reference - 0.8 * least));
+  return {least - 0.12 * (top - least), top};
+}
+
+/// Where `value` lies along the axis, 0 to 1.
+double along(const View& view, double value) {
+  return view.logarithmic ? std::log(value / view.lo) / std::log(view.hi / view.lo)
+                          : (value - view.lo) / (view.hi - view.lo);
+}
+
+/// Ticks of the sizes that `standard` names; those whose names would touch stay without one, the
+/// sizes next to `middle` (mm²) go first.
+std::string size_ticks(const View& view, std::string_view standard, double middle) {
+  struct Tick {
+    std::string name;
+    double area = 0;
+    double distance = 0;
+    bool named = false;
+  };
+  std::vector<Tick> ticks;
+  for (const WireSize& size : wire_sizes()) {
+    const double area = square_millimetres(size.area);
+    if (size.standard != standard || area <= view.lo || area > view.hi) continue;
+    std::string name = size.name;
+    // Thin sizes crowd at the beginning of a linear axis; there they say nothing.
+    if (along(view, area) < 0.06) continue;
+    if (name.starts_with("AWG ")) name = name.substr(4);
+    if (const auto space = name.find(' '); space != std::string::npos) name = name.substr(0, space);
+    ticks.push_back({name, area, std::abs(std::log(area / middle)), false});
+  }
+  std::vector<Tick*> order;
+  for (Tick& tick : ticks) order.push_back(&tick);
+  std::sort(order.begin(), order.end(),
+            [](const Tick* a, const Tick* b) { return a->distance < b->distance; });
+  constexpr double width_of_a_letter = 0.024;  // of the axis, 7.5 pt in one column
+  for (Tick* tick : order) {
+    tick->named = std::none_of(ticks.begin(), ticks.end(), [&](const Tick& other) {
+      const double letters = 0.5 * double(tick->name.size() + other.name.size()) + 1;
+      return other.named && std::abs(along(view, tick->area) - along(view, other.area)) <
+                                letters * width_of_a_letter;
+    });
+  }
+  std::string list;
+  for (const Tick& tick : ticks) {
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ",
+                        gnuplot_text(tick.named ? tick.name : ""), gp::number(tick.area));
+  }
+  return list;
+}
+
+/// The upper axis with the sizes of a standard.
+std::string top_axis(const OptimizeStudy& study, const View& view, std::string_view standard) {
+  const double middle = study.result.feasible
+                            ? square_millimetres(study.result.area)
+                            : std::sqrt(std::max(view.lo, 0.1 * view.hi) * view.hi);
+  const std::string ticks = size_ticks(view, standard, middle);
+  return ticks.empty() ? "unset x2tics\n" : fmt::format("set x2tics ({}) offset 0,-0.4\n", ticks);
+}
+
+/// Shaded ranges behind the curves, and a line at the optimum.
+std::string shading(const OptimizeStudy& study, const View& view) {
+  std::string out = "if (!characters) {\n";
+  for (const Interval& range : study.result.feasible_areas) {
+    const double lo = std::max(view.lo, square_millimetres(range.lo));
+    const double hi = std::min(view.hi, square_millimetres(range.hi));
+    if (!(lo < hi)) continue;
+    out += fmt::format("  set object rectangle from {},graph 0 to {},graph 1 behind {}\n",
+                       gp::number(lo), gp::number(hi), feasible_style());
+  }
+  if (study.result.feasible) {
+    const std::string at = gp::number(square_millimetres(study.result.area));
+    out += fmt::format("  set arrow from {0},graph 0 to {0},graph 1 nohead {1}\n", at,
+                       gp::line(colour::black, 3, 0.8));
+  }
+  return out + "}\n";
+}
+
+std::string area_words(double area) { return significant(square_millimetres(area), 3) + " mm²"; }
+
+gp::Plot thrust_plot(const OptimizeStudy& study) {
+  const Requirements& need = study.file.design.requirements;
+  const bool by_hover = need.headroom_at == Condition::hover;
+  const std::string factor = significant(need.thrust_headroom, 2);
+  gp::Plot plot;
+  plot.curve("$curves using 1:2", gp::line(colour::black, 1, 1.6), "available");
+  plot.curve("$curves using 1:3", gp::line(colour::blue, 2), "necessary in hover");
+  plot.curve("$curves using 1:5", gp::line(colour::vermilion, 4, 1.4),
+             fmt::format("required, {}× {}", factor, by_hover ? "hover" : "forward"));
+  plot.curve("$curves using 1:4", gp::line(colour::orange, 5), "necessary forward");
+  const Optimization& result = study.result;
+  if (result.feasible) {
+    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    plot.mark(square_millimetres(result.area), judged.available_thrust / unit::gram_force,
+              gp::point(colour::black, 13, 0.9), "");
+  } else if (study.best_headroom.value > 0) {
+    const auto best = evaluate(study.file.design, study.best_headroom.area, need.headroom_at);
+    plot.mark(square_millimetres(best.cross_section), best.available_thrust / unit::gram_force,
+              gp::point(colour::black, 9, 0.9),
+              fmt::format("best headroom, {}×", significant(study.best_headroom.value, 3)));
+  }
+  return plot;
+}
+
+gp::Plot power_plot(const OptimizeStudy& study) {
+  const Optimization& result = study.result;
+  gp::Plot plot;
+  plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
+  if (result.feasible) {
+    const bool by_hover = study.file.design.requirements.power_at == Condition::hover;
+    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    plot.mark(square_millimetres(result.area), judged.total_power,
+              gp::point(colour::black, 13, 0.9), "optimum, " + area_words(result.area));
+  }
+  plot.curve("$curves using 1:7", gp::line(colour::orange, 5, 1.6), "forward flight");
+  const MinimumPower& least = result.minimum_power;
+  plot.mark(square_millimetres(least.area), least.power, gp::point(colour::green, 7, 0.8),
+            "least power, " + area_words(least.area));
+  if (!result.feasible_areas.empty())
+    plot.entry({gp::LegendEntry::Sample::area, feasible_style(), "feasible"});
+  return plot;
+}
+
+std::string description_of(const OptimizeStudy& study) {
+  const Design& design = study.file.design;
+  const Optimization& result = study.result;
+  std::string out =
+      "Two diagrams over the cross-section of one conductor: thrust per motor, available, "
+      "necessary and required; and power from the supply in hover and in forward flight. ";
+  if (!result.feasible) return out + infeasible_sentence(design, result);
+  out += fmt::format("The optimum is {}, drawing {} W in hover and {} W in forward flight. ",
+                     area_words(result.area), fixed(result.hover.total_power, 1),
+                     fixed(result.forward.total_power, 1));
+  return out + limit_sentence(design, result);
+}
+
+}  // namespace
+
+Figure optimum_figure(const OptimizeStudy& study) {
+  const View view = view_of(study);
+  const Curves curves = curves_of(study, view);
+  Figure figure;
+  figure.id = "optimum";
+  figure.title = study.file.name;
+  figure.description = description_of(study);
+  figure.lines = 43;
+  const gp::Layout layout(figure.lines);
+  figure.script =
+      gp::prelude() +
+      gp::data_block("curves", {curves.area, curves.available, curves.hover, curves.forward,
+                                curves.required, curves.hover_W, curves.forward_W});
+  figure.script += gp::set_range("x", {view.lo, view.hi}) + gp::set_range("x2", {view.lo, view.hi});
+  if (view.logarithmic) figure.script += "set logscale x\nset logscale x2\n";
+  figure.script += "set samples 2\nset multiplot\n";
+
+  const gp::Plot thrust = thrust_plot(study);
+  figure.script += layout.panel(4, 18) + layout.heading(study.file.name) + shading(study, view);
+  figure.script += layout.above(2.4, "thrust per motor (g)", "AWG");
+  figure.script += layout.legend(19.2, 2, thrust.legend());
+  figure.script += top_axis(study, view, "AWG") + gp::set_range("y", thrust_range(curves));
+  figure.script += "set format x ''\n" + thrust.text();
+
+  const gp::Plot power = power_plot(study);
+  figure.script += layout.panel(25.5, 36) + shading(study, view);
+  figure.script += layout.above(23.9, "power from the supply (W)", "IEC 60228 (mm²)");
+  figure.script += layout.below(38.4, "cross-section of one conductor (mm²)");
+  figure.script += layout.legend(40, 2, power.legend());
+  figure.script += top_axis(study, view, "IEC 60228");
+  figure.script += gp::set_range("y", power_range(study, curves));
+  if (!any_power(curves)) {
+    figure.script += "set label 1 'cannot be delivered' at graph 0.5,0.5 center\n";
+  }
+  figure.script += "set format x '%g'\n" + power.text() + "unset multiplot\n";
+  return figure;
+}
+
+}  // namespace tethercalc
