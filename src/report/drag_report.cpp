@@ -88,17 +88,25 @@ std::string percent_of(double error, double value) {
   return std::isfinite(error) && value != 0 ? fixed(100 * error / std::abs(value), 2) + " %" : "–";
 }
 
+/// "wind_m_s[1]", as results name the second log's wind, for readers who count from one.
+std::string title_of(const FittedParameter& parameter) {
+  const std::size_t bracket = parameter.name.find('[');
+  if (bracket == std::string::npos) return parameter.name;
+  const int index = std::stoi(parameter.name.substr(bracket + 1));
+  return fmt::format("{}, log {}", parameter.name.substr(0, bracket), index + 1);
+}
+
 std::string parameter_table(const DragFit& fit, const TextStyle& style) {
   TextTable table({{"", TextTable::Align::left},
                    {"value"},
-                   {"±", TextTable::Align::right},
+                   {"std. error", TextTable::Align::right},
                    {"95 % interval", TextTable::Align::right},
-                   {"± if independent", TextTable::Align::right},
+                   {"std. error if independent", TextTable::Align::right},
                    {"", TextTable::Align::left}});
   for (const FittedParameter& p : fit.parameters) {
     const Estimate& e = p.estimate;
     const bool held = p.at_bound != Bound::none;
-    table.add({p.name, parameter_number(p, e.value), percent_of(e.standard_error, e.value),
+    table.add({title_of(p), parameter_number(p, e.value), percent_of(e.standard_error, e.value),
                held ? "–" : parameter_number(p, e.lower) + " … " + parameter_number(p, e.upper),
                percent_of(e.standard_error_independent, e.value),
                held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
@@ -135,11 +143,13 @@ constexpr double well_determined = 0.05;
 std::string entangled_sentence(const DragFit& fit) {
   const std::vector<EntangledPair> pairs = entangled_pairs(fit);
   if (pairs.empty()) return "";
-  std::string out = "Hardly told apart by this flight, so that only together they mean something: ";
+  std::string out = fmt::format(
+      "Hardly told apart by {}, so that only together they mean something: ",
+      fit.covariance_by_flight.size() > 1 ? "these flights" : "this flight");
   for (const EntangledPair& pair : pairs) {
     out += fmt::format("{}{} and {} (correlation {})", &pair == &pairs.front() ? "" : ", ",
-                       fit.parameters[pair.first].name, fit.parameters[pair.second].name,
-                       fixed(pair.correlation, 3));
+                       title_of(fit.parameters[pair.first]),
+                       title_of(fit.parameters[pair.second]), fixed(pair.correlation, 3));
   }
   return out + ".";
 }
@@ -197,7 +207,7 @@ std::vector<std::string> drag_warnings(const DragFit& fit) {
     out.push_back(
         fmt::format("{} wants to leave its {} bound {}: the flight lacks what would determine it. "
                     "The errors of the others take it as known.",
-                    p.name, bound_name(p.at_bound), parameter_number(p, p.estimate.value)));
+                    title_of(p), bound_name(p.at_bound), parameter_number(p, p.estimate.value)));
   }
   const std::vector<SteadyDrag> table = steady_drag_table(fit);
   const bool may_be_none = std::any_of(
