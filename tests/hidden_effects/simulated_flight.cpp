@@ -11,10 +11,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double gravity = 9.80665;
-constexpr double step = 0.01;  // s, integration
-constexpr int steps_per_sample = 10;
+constexpr double step = 0.01;           // s, integration
 constexpr double pitch_rate = 0.6;      // rad/s, as fast as the pilot tilts the drone
 constexpr double response_time = 0.12;  // s, attitude controller
+constexpr double climb_period = 120;    // s
 
 using Random = std::mt19937_64;
 
@@ -83,7 +83,7 @@ FlightLog fly(const HiddenFlight& h) {
   Pilot pilot(h.steepest_pitch);
   Wander gust(h.gust_std, h.gust_time);
   Wander rolling(h.roll_std * degree, 1.0);
-  Wander sideways(0.35, 2.0);
+  Wander sideways(0.35, 4.5);
   Wander sinking(0.4, 1.5);
   std::deque<double> pitch_on_its_way;
   const auto delay_steps =
@@ -106,8 +106,11 @@ FlightLog fly(const HiddenFlight& h) {
     yaw += std::clamp(wanted_yaw - yaw, -0.5 * step, 0.5 * step);
     const double tilt = pilot.tilt(time, random);
     const double roll = rolling.next(random);
+    const double right = sideways.next(random);
     const double old_down = down;
-    down += (sinking.next(random) - down) * step / 0.6;  // smooth: the drone has inertia
+    const double climbing = -h.climb * std::numbers::pi / climb_period *
+                            std::sin(2 * std::numbers::pi * time / climb_period);
+    down += (sinking.next(random) + climbing - down) * step / 0.6;  // smooth: inertia
     const double down_acceleration = (down - old_down) / step;
     height -= down * step;
     const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
@@ -121,8 +124,7 @@ FlightLog fly(const HiddenFlight& h) {
 
     pitch_on_its_way.push_back(-tilt);
     if (pitch_on_its_way.size() > delay_steps + 1) pitch_on_its_way.pop_front();
-    if (k % steps_per_sample == 0) {
-      const double right = sideways.next(random);
+    if (k % static_cast<std::size_t>(h.steps_per_sample) == 0) {
       const auto hundredth = [](double angle) {
         return std::round(angle / degree * 100) / 100 * degree;
       };

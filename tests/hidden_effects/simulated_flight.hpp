@@ -29,6 +29,8 @@ struct HiddenFlight {
   double roll_std = 2.0;       ///< deg
   bool yaw_turns = false;      ///< a new heading every 40 s
   double steepest_pitch = 30;  ///< deg
+  int steps_per_sample = 10;   ///< of 10 ms: 10 Hz
+  double climb = 0;            ///< m, a climb to this height and back every two minutes
 
   double attitude_delay = 0;  ///< s, attitude is logged this late
   double pitch_trim = 0;      ///< deg, logged minus true pitch
@@ -46,7 +48,7 @@ struct HiddenFlight {
   double height_drag = 0;  ///< 1/m: drag grows by this part with each metre
 };
 
-/// 10 Hz from take-off to landing.
+/// From take-off to landing.
 [[nodiscard]] FlightLog fly(const HiddenFlight& hidden);
 
 /// Replaces `part` of all pitch and forward-speed samples by values far off.
