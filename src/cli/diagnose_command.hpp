@@ -15,7 +15,8 @@ struct DiagnoseOptions {
   std::string power_log;
   std::vector<std::string> base;  ///< ids of effects that are part of the base model
   FlightOptions flight;
-  bool into = false;  ///< print the extended spec instead of the diagnosis
+  bool into = false;      ///< print the extended spec instead of the diagnosis
+  std::string into_file;  ///< write it there instead, beside the diagnosis
 };
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
 

@@ -204,8 +204,8 @@ BlockFit Search::fit(const Freed& free, const BlockFit* near) const {
 double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
   if (!group(g).replaces) return wald_p_value(g, without, with);
   Freed both = with.freed;
-  const auto replaced = std::find(without.freed.groups.begin(), without.freed.groups.end(),
-                                  *group(g).replaces);
+  const auto replaced =
+      std::find(without.freed.groups.begin(), without.freed.groups.end(), *group(g).replaces);
   if (replaced == without.freed.groups.end()) return wald_p_value(g, without, with);
   both.groups.insert(std::upper_bound(both.groups.begin(), both.groups.end(), *replaced),
                      *replaced);
@@ -536,6 +536,7 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
 
   if (unnamed_.empty()) return;
   result.unnamed.regressors = unnamed_;
+  result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
   for (const std::size_t u : unnamed_) {
     const std::string& channel = record_.problem().unnamed[u].channel;
     auto& channels = result.unnamed.channels;

@@ -46,8 +46,8 @@ class Pilot {
   double tilt(double time, Random& random) {
     if (time >= until_) {
       direction_ = -direction_;
-      const bool pause = uniform(random, 0, 1) < 0.1 ||
-                         (pattern_ == Pattern::hover_first && time < duration_ / 3);
+      const bool pause =
+          uniform(random, 0, 1) < 0.1 || (pattern_ == Pattern::hover_first && time < duration_ / 3);
       wanted_ = pause ? 0 : direction_ * uniform(random, 0.2, 1) * steepest_;
       until_ = time + uniform(random, 2.5, 8);
       if (pattern_ == Pattern::long_forward && direction_ > 0) {
@@ -97,6 +97,7 @@ FlightLog fly(const HiddenFlight& h) {
   const double delay_steps = std::max(0.0, h.attitude_delay / step);
 
   double speed = 0;
+  double last_tilt = 0;
   double down = 0;
   double height = 10;
   double yaw = uniform(random, 0, 2 * std::numbers::pi);
@@ -133,24 +134,26 @@ FlightLog fly(const HiddenFlight& h) {
     };
     const double halfway = speed + acceleration(speed) * step / 2;
 
-    // The front two lie on either side of the delay.
-    pitch_on_its_way.push_back(-tilt);
-    if (static_cast<double>(pitch_on_its_way.size()) > delay_steps + 2) pitch_on_its_way.pop_front();
+    // Each tilt acts from one step to the next: at a step it is between the two. The front two lie
+    // on either side of the delay.
+    pitch_on_its_way.push_back(-(tilt + last_tilt) / 2);
+    last_tilt = tilt;
+    if (static_cast<double>(pitch_on_its_way.size()) > delay_steps + 2)
+      pitch_on_its_way.pop_front();
     const double part = delay_steps - std::floor(delay_steps);
-    const double late_pitch =
-        pitch_on_its_way.size() < 2
-            ? pitch_on_its_way.front()
-            : part * pitch_on_its_way[0] + (1 - part) * pitch_on_its_way[1];
+    const double late_pitch = pitch_on_its_way.size() < 2
+                                  ? pitch_on_its_way.front()
+                                  : part * pitch_on_its_way[0] + (1 - part) * pitch_on_its_way[1];
     if (k % static_cast<std::size_t>(h.steps_per_sample) == 0) {
       const auto hundredth = [](double angle) {
         return std::round(angle / degree * 100) / 100 * degree;
       };
       log.time.push_back(10 + time);
       log.roll.push_back(hundredth(roll + h.angle_noise * degree * normal(random)));
-      log.pitch.push_back(hundredth(late_pitch + h.pitch_trim * degree +
-                                    h.pitch_drift * degree *
-                                        std::sin(2 * std::numbers::pi * time / 200) +
-                                    h.angle_noise * degree * normal(random)));
+      log.pitch.push_back(
+          hundredth(late_pitch + h.pitch_trim * degree +
+                    h.pitch_drift * degree * std::sin(2 * std::numbers::pi * time / 200) +
+                    h.angle_noise * degree * normal(random)));
       log.yaw.push_back(hundredth(yaw));
       const double forward = speed + h.speed_noise * normal(random);
       const auto rounded = [&h](double v) {
