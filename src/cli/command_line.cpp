@@ -280,6 +280,7 @@ class CommandLine {
     CLI::App& command =
         add("diagnose", "What the simulation of a measured flight gets wrong, and why", [this] {
           diagnose_.spec = spec_;
+          diagnose_.into = diagnose_into_->count() > 0;
           return run_diagnose(diagnose_, output_);
         });
     add_spec(command, spec_);
@@ -291,7 +292,11 @@ class CommandLine {
         ->delimiter(',')
         ->allow_extra_args(false);
     add_flight(command, diagnose_.flight);
-    command.add_flag("--into", diagnose_.into, "Print the extended spec instead of the diagnosis");
+    diagnose_into_ = command
+                         .add_option("--into", diagnose_.into_file,
+                                     "Write the extended spec to this file; without a name print "
+                                     "it instead of the diagnosis")
+                         ->expected(0, 1);
     add_output(command, output_);
   }
 
@@ -384,6 +389,7 @@ class CommandLine {
   std::string what_;
   DragOptions drag_;
   DiagnoseOptions diagnose_;
+  CLI::Option* diagnose_into_ = nullptr;
   std::string message_;
   PlotOptions plot_;
 };

@@ -11,6 +11,7 @@
 
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_structure.hpp"
+#include "diagnose/unit_checks.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/diagnose/flight_prediction.hpp"
@@ -32,6 +33,7 @@ constexpr double gap_factor = 1.5;
 /// whole log.
 constexpr double time_stamp_uncertainty = 0.05;
 
+constexpr const char* unit_of_flights = "m/s²";
 constexpr const char* areas_group = "drag areas";
 constexpr const char* vertical_group = "vertical acceleration";
 
@@ -93,6 +95,7 @@ FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosi
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }
   data.step = median_step(data.observations.time);
+  check_flight_units(data.observations, data.step);
   const std::vector<bool> usable = usable_samples(log, data.faults, data.observations, data.step);
   const auto count = static_cast<std::size_t>(std::count(usable.begin(), usable.end(), true));
   data.usable = static_cast<double>(count) * data.step;
@@ -363,6 +366,8 @@ Unexplained Report::unexplained() const {
   if (!out.detected) return out;
   out.channels = selection_.unnamed.channels;
   out.share_percent = selection_.unnamed.share_percent;
+  out.size = selection_.extended.holdout_rmse * std::sqrt(out.share_percent / 100);
+  out.size_unit = unit_of_flights;
   out.regressor = problem_.unnamed[selection_.unnamed.regressors.front()].shape;
   out.shape = fmt::format(
       "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
@@ -559,7 +564,7 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
     }
   }
   d.kind = "flight";
-  d.unit = "m/s²";
+  d.unit = unit_of_flights;
   d.quantity = "forward acceleration";
   for (ComparedSeries& series : d.compared) {
     series.quantity = d.quantity;

@@ -66,6 +66,10 @@ std::string TextTable::text(const TextStyle& style) const {
   return out;
 }
 
+std::string TitledTable::text(const TextStyle& style) const {
+  return "\n" + style.bold(title) + "\n" + table.text(style);
+}
+
 std::string fixed(double value, int decimals) {
   if (!std::isfinite(value)) return "–";
   const std::string text = fmt::format("{:.{}f}", value, decimals);

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/report/text_table.hpp"
@@ -19,12 +21,34 @@ namespace tethercalc {
 [[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis,
                                                     const nlohmann::ordered_json& extended);
 
+/// What stands above some paragraphs of a story.
+struct StoryHeading {
+  std::string text;  ///< one line
+};
+/// A heading, a paragraph, or a table.
+using StoryPart = std::variant<StoryHeading, std::string, TitledTable>;
+
 /// The story: what was predicted and measured, where the error comes from, each finding in two
 /// sentences, what stays unexplained, what the design gains, and what could not be tested.
+/// Paragraphs carry the colours that `style` allows.
+[[nodiscard]] std::vector<StoryPart> diagnosis_story(const Diagnosis& diagnosis,
+                                                     const TextStyle& style = {});
+
+/// The story as text.
 [[nodiscard]] std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style);
 
 /// A header and one row a parameter of a finding:
 /// effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent.
-[[nodiscard]] std::string diagnosis_csv(const Diagnosis& diagnosis);
+[[nodiscard]] std::string diagnosis_csv(const std::vector<Finding>& findings);
+
+/// A flight log and a power log of one drone: the lists of both in one, what of the two design
+/// impacts `power` carries, and each diagnosis by itself under "flight" and "power".
+[[nodiscard]] nlohmann::ordered_json joint_diagnosis_json(const Diagnosis& flight,
+                                                          const Diagnosis& power,
+                                                          const nlohmann::ordered_json& extended);
+
+/// Both stories, then the design impact that `power` carries.
+[[nodiscard]] std::string joint_diagnosis_text(Diagnosis flight, Diagnosis power,
+                                               const TextStyle& style);
 
 }  // namespace tethercalc
