@@ -95,40 +95,29 @@ void add_condition_row(TextTable& table, const char* name, const OperatingPoint&
              fixed(point.pitch / unit::degree, 1)});
 }
 
-std::string answer_text(const OptimizeStudy& study, const TextStyle& style) {
+Answer feasible_answer(const OptimizeStudy& study) {
   const Optimization& result = study.result;
   const Design& design = study.file.design;
-  std::string out = style.good(
-      style.bold(fmt::format("Fly {} of {}.", area_words(result.area), study.file.conductor.id)));
-  out += "\n" + wrapped(limit_sentence(design, result));
   const OperatingPoint& hover = result.hover;
-  out += wrapped(fmt::format(
+  Answer out;
+  out.headline = fmt::format("Fly {} of {}.", area_words(result.area), study.file.conductor.id);
+  out.sentences.push_back(limit_sentence(design, result));
+  out.sentences.push_back(fmt::format(
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",
       significant(design.tether.length, 3), fixed(hover.tether_mass / unit::gram, 1),
       significant(hover.tether_resistance, 4), fixed(hover.takeoff_mass / unit::gram, 0)));
-  for (const std::string& sentence : cable_sentences(design, hover, result.forward)) {
-    out += wrapped(sentence);
+  for (std::string& sentence : cable_sentences(design, hover, result.forward)) {
+    out.sentences.push_back(std::move(sentence));
   }
   const double speed = airspeed(design, Condition::forward);
-  out +=
-      wrapped(fmt::format("It draws {} W in hover and {} W in forward flight at {} m/s ({} km/h).",
-                          fixed(hover.total_power, 1), fixed(result.forward.total_power, 1),
-                          fixed(speed, 2), fixed(3.6 * speed, 1)));
-  TextTable table({{"", TextTable::Align::left},
-                   {"supply W"},
-                   {"drone W"},
-                   {"lost W"},
-                   {"lost %"},
-                   {"current A"},
-                   {"at drone V"},
-                   {"headroom"},
-                   {"tilt deg"}});
-  add_condition_row(table, "hover", hover);
-  add_condition_row(table, "forward", result.forward);
-  return out + "\n" + table.text(style);
+  out.sentences.push_back(
+      fmt::format("It draws {} W in hover and {} W in forward flight at {} m/s ({} km/h).",
+                  fixed(hover.total_power, 1), fixed(result.forward.total_power, 1),
+                  fixed(speed, 2), fixed(3.6 * speed, 1)));
+  return out;
 }
 
-std::string remedy_text(const Design& design, const Remedy& remedy) {
+std::string remedy_words(const Design& design, const Remedy& remedy) {
   switch (remedy.quantity) {
     case Quantity::supply_voltage:
       return fmt::format("a supply of {} V instead of {} V", significant(remedy.value, 3),
@@ -146,40 +135,33 @@ std::string remedy_text(const Design& design, const Remedy& remedy) {
   return "";
 }
 
-std::string refusal_text(const OptimizeStudy& study, const TextStyle& style) {
+Answer refusal(const OptimizeStudy& study) {
   const Design& design = study.file.design;
-  std::string out = style.bad(style.bold("This design cannot fly as required."));
-  out += "\n" + wrapped(infeasible_sentence(design, study.result));
-  if (study.remedies.empty()) {
-    return out + wrapped(
-                     "No single change of supply voltage, drone mass, tether length or airspeed "
-                     "would make it feasible.");
+  Answer out{
+      "This design cannot fly as required.", {infeasible_sentence(design, study.result)}, {}};
+  out.sentences.push_back(
+      study.remedies.empty()
+          ? "No single change of supply voltage, drone mass, tether length or airspeed would make "
+            "it feasible."
+          : "Any one of these changes would make it feasible:");
+  for (const Remedy& remedy : study.remedies) {
+    out.remedies.push_back(remedy_words(design, remedy));
   }
-  out += "Any one of these changes would make it feasible:\n";
-  for (const Remedy& remedy : study.remedies) out += "  " + remedy_text(design, remedy) + "\n";
   return out;
 }
 
-std::string sizes_text(const OptimizeStudy& study, const TextStyle& style) {
-  TextTable table({{"size", TextTable::Align::left},
-                   {"mm²"},
-                   {"tether g"},
-                   {"hover W"},
-                   {"forward W"},
-                   {"headroom"},
-                   {"", TextTable::Align::left}});
-  const Design& design = study.file.design;
-  const Condition headroom_at = design.requirements.headroom_at;
-  for (const SizePoints& size : study.sizes) {
-    const AreaPoints& p = size.points;
-    const OperatingPoint& judged = headroom_at == Condition::hover ? p.hover : p.forward;
-    const std::string fault = shortcoming(design, p);
-    table.add({size.name, significant(square_millimetres(p.area), 4),
-               fixed(p.hover.tether_mass / unit::gram, 0), fixed(p.hover.total_power, 1),
-               fixed(p.forward.total_power, 1), fixed(judged.headroom, 2),
-               fault.empty() ? "meets every requirement" : fault});
-  }
-  return "\n" + style.bold("Sizes that can be bought") + "\n" + table.text(style);
+std::string answer_text(const OptimizeStudy& study, const TextStyle& style) {
+  const Answer told = answer(study);
+  const std::string headline = style.bold(told.headline);
+  std::string out = (study.result.feasible ? style.good(headline) : style.bad(headline)) + "\n";
+  for (const std::string& sentence : told.sentences) out += wrapped(sentence);
+  for (const std::string& remedy : told.remedies) out += "  " + remedy + "\n";
+  if (study.result.feasible) out += "\n" + condition_table(study).table.text(style);
+  return out;
+}
+
+std::string titled(const TitledTable& table, const TextStyle& style) {
+  return "\n" + style.bold(table.title) + "\n" + table.table.text(style);
 }
 
 std::string mark(const OptimizeStudy& study, const AreaPoints& row) {
@@ -189,34 +171,6 @@ std::string mark(const OptimizeStudy& study, const AreaPoints& row) {
   if (row.area == result.minimum_power.area)
     marks += marks.empty() ? "least power" : ", least power";
   return marks;
-}
-
-std::string power_table_text(const OptimizeStudy& study, const TextStyle& style) {
-  TextTable table({{"mm²"},
-                   {"tether g"},
-                   {"available g"},
-                   {"needed g"},
-                   {"headroom"},
-                   {"hover W"},
-                   {"forward W"},
-                   {"lost %"},
-                   {"", TextTable::Align::left}});
-  const bool by_hover = study.file.design.requirements.headroom_at == Condition::hover;
-  for (const AreaPoints& row : study.table) {
-    const OperatingPoint& judged = by_hover ? row.hover : row.forward;
-    table.add(
-        {significant(square_millimetres(row.area), 4), fixed(row.hover.tether_mass / unit::gram, 0),
-         fixed(judged.available_thrust / unit::gram_force, 0),
-         fixed(judged.necessary_thrust / unit::gram_force, 0), fixed(judged.headroom, 2),
-         fixed(row.hover.total_power, 1), fixed(row.forward.total_power, 1), lost_share(judged),
-         mark(study, row)},
-        row.area == study.result.area);
-  }
-  return "\n" +
-         style.bold(
-             fmt::format("Power against cross-section (thrust per motor, headroom and loss in {})",
-                         condition_words(study.file.design.requirements.headroom_at))) +
-         "\n" + table.text(style);
 }
 
 ordered_json table_json(std::span<const AreaPoints> table) {
@@ -356,11 +310,106 @@ OptimizeStudy study(DesignFile file) {
   return study;
 }
 
+Answer answer(const OptimizeStudy& study) {
+  return study.result.feasible ? feasible_answer(study) : refusal(study);
+}
+
+TitledTable condition_table(const OptimizeStudy& study) {
+  TextTable table({{"", TextTable::Align::left},
+                   {"supply W"},
+                   {"drone W"},
+                   {"lost W"},
+                   {"lost %"},
+                   {"current A"},
+                   {"at drone V"},
+                   {"headroom"},
+                   {"tilt deg"}});
+  add_condition_row(table, "hover", study.result.hover);
+  add_condition_row(table, "forward", study.result.forward);
+  return {"The optimum in flight", std::move(table)};
+}
+
+TitledTable sizes_table(const OptimizeStudy& study) {
+  TextTable table({{"size", TextTable::Align::left},
+                   {"mm²"},
+                   {"tether g"},
+                   {"hover W"},
+                   {"forward W"},
+                   {"headroom"},
+                   {"", TextTable::Align::left}});
+  const Design& design = study.file.design;
+  const Condition headroom_at = design.requirements.headroom_at;
+  for (const SizePoints& size : study.sizes) {
+    const AreaPoints& p = size.points;
+    const OperatingPoint& judged = headroom_at == Condition::hover ? p.hover : p.forward;
+    const std::string fault = shortcoming(design, p);
+    table.add({size.name, significant(square_millimetres(p.area), 4),
+               fixed(p.hover.tether_mass / unit::gram, 0), fixed(p.hover.total_power, 1),
+               fixed(p.forward.total_power, 1), fixed(judged.headroom, 2),
+               fault.empty() ? "meets every requirement" : fault});
+  }
+  return {"Sizes that can be bought", std::move(table)};
+}
+
+TitledTable power_table(const OptimizeStudy& study) {
+  TextTable table({{"mm²"},
+                   {"tether g"},
+                   {"available g"},
+                   {"needed g"},
+                   {"headroom"},
+                   {"hover W"},
+                   {"forward W"},
+                   {"lost %"},
+                   {"", TextTable::Align::left}});
+  const bool by_hover = study.file.design.requirements.headroom_at == Condition::hover;
+  for (const AreaPoints& row : study.table) {
+    const OperatingPoint& judged = by_hover ? row.hover : row.forward;
+    table.add(
+        {significant(square_millimetres(row.area), 4), fixed(row.hover.tether_mass / unit::gram, 0),
+         fixed(judged.available_thrust / unit::gram_force, 0),
+         fixed(judged.necessary_thrust / unit::gram_force, 0), fixed(judged.headroom, 2),
+         fixed(row.hover.total_power, 1), fixed(row.forward.total_power, 1), lost_share(judged),
+         mark(study, row)},
+        row.area == study.result.area);
+  }
+  return {fmt::format("Power against cross-section (thrust per motor, headroom and loss in {})",
+                      condition_words(study.file.design.requirements.headroom_at)),
+          std::move(table)};
+}
+
+TitledTable operating_table(const Design& design, Condition condition,
+                            std::span<const AreaPoints> areas) {
+  TextTable table({{"mm²"},
+                   {"ohm"},
+                   {"tether g"},
+                   {"tilt deg"},
+                   {"avail. g"},
+                   {"needed g"},
+                   {"headroom"},
+                   {"supply W"},
+                   {"lost W"},
+                   {"A"},
+                   {"V"}});
+  for (const AreaPoints& row : areas) {
+    const OperatingPoint& p = condition == Condition::hover ? row.hover : row.forward;
+    table.add({significant(square_millimetres(p.cross_section), 4),
+               significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
+               fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
+               fixed(p.necessary_thrust / unit::gram_force, 0), fixed(p.headroom, 2),
+               fixed(p.total_power, 1), fixed(p.tether_loss, 1), fixed(p.current, 2),
+               fixed(p.received_voltage, 1)});
+  }
+  return {fmt::format("{} at {} m/s airspeed, thrust per motor",
+                      condition == Condition::hover ? "Hover" : "Forward flight",
+                      fixed(airspeed(design, condition), 2)),
+          std::move(table)};
+}
+
 std::string optimize_text(const OptimizeStudy& study, const TextStyle& style) {
   std::string out = style.bold(study.file.name) + "\n\n";
-  out += study.result.feasible ? answer_text(study, style) : refusal_text(study, style);
-  if (!study.sizes.empty()) out += sizes_text(study, style);
-  if (!study.table.empty()) out += power_table_text(study, style);
+  out += answer_text(study, style);
+  if (!study.sizes.empty()) out += titled(sizes_table(study), style);
+  if (!study.table.empty()) out += titled(power_table(study), style);
   const std::string notes = warnings_text(study.file, style);
   return notes.empty() ? out : out + "\n" + notes;
 }
@@ -421,31 +470,8 @@ std::string optimize_csv(const OptimizeStudy& study) {
 std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
                           const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n";
-  for (const bool hover : {true, false}) {
-    const double speed = airspeed(file.design, hover ? Condition::hover : Condition::forward);
-    out += "\n" + style.bold(hover ? "Hover" : "Forward flight") +
-           fmt::format(" at {} m/s airspeed, thrust per motor\n", fixed(speed, 2));
-    TextTable text({{"mm²"},
-                    {"ohm"},
-                    {"tether g"},
-                    {"tilt deg"},
-                    {"avail. g"},
-                    {"needed g"},
-                    {"headroom"},
-                    {"supply W"},
-                    {"lost W"},
-                    {"A"},
-                    {"V"}});
-    for (const AreaPoints& row : table) {
-      const OperatingPoint& p = hover ? row.hover : row.forward;
-      text.add({significant(square_millimetres(p.cross_section), 4),
-                significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
-                fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
-                fixed(p.necessary_thrust / unit::gram_force, 0), fixed(p.headroom, 2),
-                fixed(p.total_power, 1), fixed(p.tether_loss, 1), fixed(p.current, 2),
-                fixed(p.received_voltage, 1)});
-    }
-    out += text.text(style);
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    out += titled(operating_table(file.design, condition, table), style);
   }
   if (file.design.tether.ambient_temperature_C) {
     for (const AreaPoints& row : table) {
@@ -514,8 +540,7 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
   return ranking;
 }
 
-std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> ranking,
-                         const TextStyle& style) {
+TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking) {
   TextTable table({{"motor", TextTable::Align::left},
                    {"mm²"},
                    {"tether g"},
@@ -523,24 +548,37 @@ std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> r
                    {"forward W"},
                    {"headroom"},
                    {"limited by", TextTable::Align::left}});
-  const bool by_hover = file.design.requirements.headroom_at == Condition::hover;
-  std::string refused;
+  const bool by_hover = design.requirements.headroom_at == Condition::hover;
   for (const MotorOptimum& entry : ranking) {
     const Optimization& r = entry.result;
-    if (!r.feasible) {
-      refused += fmt::format("  {}: {}\n", entry.motor.id, infeasible_words(entry.design, r));
-      continue;
-    }
+    if (!r.feasible) continue;
     table.add({entry.motor.id, significant(square_millimetres(r.area), 4),
                fixed(r.hover.tether_mass / unit::gram, 0), fixed(r.hover.total_power, 1),
                fixed(r.forward.total_power, 1), fixed((by_hover ? r.hover : r.forward).headroom, 2),
                std::string(limit_name(r.limited_by))});
   }
-  std::string out = style.bold(file.name) + "\n\n";
-  out += fmt::format("Motors by power in {}, each with its own best tether\n",
-                     condition_words(file.design.requirements.power_at));
-  out += table.text(style);
-  if (!refused.empty()) out += "\n" + style.bold("Not feasible") + "\n" + refused;
+  return {fmt::format("Motors by power in {}, each with its own best tether",
+                      condition_words(design.requirements.power_at)),
+          std::move(table)};
+}
+
+std::vector<std::string> refused_motors(std::span<const MotorOptimum> ranking) {
+  std::vector<std::string> refused;
+  for (const MotorOptimum& entry : ranking) {
+    if (entry.result.feasible) continue;
+    refused.push_back(entry.motor.id + ": " + infeasible_words(entry.design, entry.result));
+  }
+  return refused;
+}
+
+std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> ranking,
+                         const TextStyle& style) {
+  const TitledTable motors = motor_table(file.design, ranking);
+  std::string out = style.bold(file.name) + "\n\n" + motors.title + "\n";
+  out += motors.table.text(style);
+  const std::vector<std::string> refused = refused_motors(ranking);
+  if (!refused.empty()) out += "\n" + style.bold("Not feasible") + "\n";
+  for (const std::string& motor : refused) out += "  " + motor + "\n";
   return out;
 }
 

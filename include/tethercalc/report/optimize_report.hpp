@@ -49,6 +49,29 @@ struct OptimizeStudy {
 /// Why a point cannot be used in this design, in words; empty where it can.
 [[nodiscard]] std::string shortcoming(const Design& design, const AreaPoints& points);
 
+/// The answer in words.
+struct Answer {
+  std::string headline;                ///< the cable to fly, or that none can
+  std::vector<std::string> sentences;  ///< why, and what that means in flight
+  std::vector<std::string> remedies;   ///< changes that help where none can: "a supply of …"
+};
+
+/// What is told of a design before any table.
+[[nodiscard]] Answer answer(const OptimizeStudy& study);
+
+/// Power, current, voltage and headroom of the optimum, a row a condition. For a feasible result.
+[[nodiscard]] TitledTable condition_table(const OptimizeStudy& study);
+
+/// `study.sizes`, with what keeps each from being usable.
+[[nodiscard]] TitledTable sizes_table(const OptimizeStudy& study);
+
+/// `study.table`, the optimum emphasised.
+[[nodiscard]] TitledTable power_table(const OptimizeStudy& study);
+
+/// Everything about steady flight in one condition, a row an area.
+[[nodiscard]] TitledTable operating_table(const Design& design, Condition condition,
+                                          std::span<const AreaPoints> areas);
+
 /// Opens with the answer in sentences, then standard sizes and the power table; 100 columns at
 /// most.
 [[nodiscard]] std::string optimize_text(const OptimizeStudy& study, const TextStyle& style);
@@ -79,6 +102,12 @@ struct MotorOptimum {
 /// last by falling best headroom.
 [[nodiscard]] std::vector<MotorOptimum> compare_motors(const Design& design,
                                                        std::vector<MotorEntry> motors);
+/// The feasible motors of a ranking of `compare_motors`.
+[[nodiscard]] TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking);
+
+/// The infeasible ones, each with the reason in a few words.
+[[nodiscard]] std::vector<std::string> refused_motors(std::span<const MotorOptimum> ranking);
+
 /// The ranking as a table, the infeasible motors below it with the reason.
 [[nodiscard]] std::string compare_text(const DesignFile& file,
                                        std::span<const MotorOptimum> ranking,

@@ -1,4 +1,4 @@
-// Aligned tables for a terminal.
+// Tables of texts, aligned for a terminal.
 #pragma once
 
 #include <string>
@@ -38,13 +38,25 @@ class TextTable {
   /// The whole table, each line indented by two spaces and ended by a newline.
   [[nodiscard]] std::string text(const TextStyle& style = {}) const;
 
- private:
+  /// One line of the table.
   struct Row {
-    std::vector<std::string> cells;
-    bool emphasis = false;
+    std::vector<std::string> cells;  ///< one a column
+    bool emphasis = false;           ///< the one to look at
   };
+  /// As given to the constructor.
+  [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
+  /// In the order they were added.
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+ private:
   std::vector<Column> columns_;
   std::vector<Row> rows_;
+};
+
+/// A table and what it shows.
+struct TitledTable {
+  std::string title;  ///< without a full stop
+  TextTable table;    ///< its rows
 };
 
 /// `value` with `decimals` places; a dash where it does not exist (NaN or infinite).
