@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "tethercalc/report/csv_cell.hpp"
@@ -63,7 +64,7 @@ class Story {
  public:
   Story(const Diagnosis& diagnosis, const TextStyle& style) : d_(diagnosis), style_(style) {}
 
-  std::string tell() {
+  std::vector<StoryPart> tell() {
     if (std::isfinite(d_.base.holdout_rmse)) {
       open();
       budget();
@@ -73,12 +74,12 @@ class Story {
     }
     not_tested();
     notes();
-    return out_;
+    return std::move(out_);
   }
 
  private:
-  void paragraph(const std::string& text) { out_ += wrapped(text) + "\n"; }
-  void heading(const std::string& text) { out_ += "\n" + style_.bold(text) + "\n"; }
+  void paragraph(std::string text) { out_.emplace_back(std::move(text)); }
+  void heading(std::string text) { out_.emplace_back(StoryHeading{std::move(text)}); }
 
   void open() {
     const double gain =
@@ -109,7 +110,6 @@ class Story {
 
   void budget() {
     if (d_.budget.findings.size() != d_.findings.size() || d_.budget.noise <= 0) return;
-    heading("Where the squared error comes from");
     TextTable table(
         {{"source", TextTable::Align::left}, {"stage", TextTable::Align::left}, {"share"}});
     for (std::size_t k = 0; k < d_.findings.size(); ++k) {
@@ -118,7 +118,7 @@ class Story {
     }
     table.add({"unexplained", "", fmt::format("{:.1f} %", d_.budget.unexplained)});
     table.add({"noise", "", fmt::format("{:.1f} %", d_.budget.noise)});
-    out_ += table.text(style_);
+    out_.emplace_back(TitledTable{"Where the squared error comes from", std::move(table)});
   }
 
   void finding(const Finding& f) {
@@ -184,7 +184,7 @@ class Story {
 
   const Diagnosis& d_;
   const TextStyle& style_;
-  std::string out_;
+  std::vector<StoryPart> out_;
 };
 
 }  // namespace
@@ -249,8 +249,22 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   return out;
 }
 
-std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style) {
+std::vector<StoryPart> diagnosis_story(const Diagnosis& diagnosis, const TextStyle& style) {
   return Story(diagnosis, style).tell();
+}
+
+std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style) {
+  std::string out;
+  for (const StoryPart& part : diagnosis_story(diagnosis, style)) {
+    if (const auto* heading = std::get_if<StoryHeading>(&part)) {
+      out += "\n" + style.bold(heading->text) + "\n";
+    } else if (const auto* table = std::get_if<TitledTable>(&part)) {
+      out += table->text(style);
+    } else {
+      out += wrapped(std::get<std::string>(part)) + "\n";
+    }
+  }
+  return out;
 }
 
 std::string diagnosis_csv(const Diagnosis& diagnosis) {

@@ -160,10 +160,6 @@ std::string answer_text(const OptimizeStudy& study, const TextStyle& style) {
   return out;
 }
 
-std::string titled(const TitledTable& table, const TextStyle& style) {
-  return "\n" + style.bold(table.title) + "\n" + table.table.text(style);
-}
-
 std::string mark(const OptimizeStudy& study, const AreaPoints& row) {
   const Optimization& result = study.result;
   std::string marks = shortcoming(study.file.design, row).empty() ? "feasible" : "";
@@ -408,8 +404,8 @@ TitledTable operating_table(const Design& design, Condition condition,
 std::string optimize_text(const OptimizeStudy& study, const TextStyle& style) {
   std::string out = style.bold(study.file.name) + "\n\n";
   out += answer_text(study, style);
-  if (!study.sizes.empty()) out += titled(sizes_table(study), style);
-  if (!study.table.empty()) out += titled(power_table(study), style);
+  if (!study.sizes.empty()) out += sizes_table(study).text(style);
+  if (!study.table.empty()) out += power_table(study).text(style);
   const std::string notes = warnings_text(study.file, style);
   return notes.empty() ? out : out + "\n" + notes;
 }
@@ -471,7 +467,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
                           const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n";
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    out += titled(operating_table(file.design, condition, table), style);
+    out += operating_table(file.design, condition, table).text(style);
   }
   if (file.design.tether.ambient_temperature_C) {
     for (const AreaPoints& row : table) {

@@ -66,6 +66,10 @@ std::string TextTable::text(const TextStyle& style) const {
   return out;
 }
 
+std::string TitledTable::text(const TextStyle& style) const {
+  return "\n" + style.bold(title) + "\n" + table.text(style);
+}
+
 std::string fixed(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
 }

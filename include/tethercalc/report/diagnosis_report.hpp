@@ -3,6 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/report/text_table.hpp"
@@ -19,8 +21,20 @@ namespace tethercalc {
 [[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis,
                                                     const nlohmann::ordered_json& extended);
 
+/// What stands above some paragraphs of a story.
+struct StoryHeading {
+  std::string text;  ///< one line
+};
+/// A heading, a paragraph, or a table.
+using StoryPart = std::variant<StoryHeading, std::string, TitledTable>;
+
 /// The story: what was predicted and measured, where the error comes from, each finding in two
 /// sentences, what stays unexplained, what the design gains, and what could not be tested.
+/// Paragraphs carry the colours that `style` allows.
+[[nodiscard]] std::vector<StoryPart> diagnosis_story(const Diagnosis& diagnosis,
+                                                     const TextStyle& style = {});
+
+/// The story as text.
 [[nodiscard]] std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style);
 
 /// A header and one row a parameter of a finding:

@@ -57,6 +57,9 @@ class TextTable {
 struct TitledTable {
   std::string title;  ///< without a full stop
   TextTable table;    ///< its rows
+
+  /// An empty line, the title, and the table.
+  [[nodiscard]] std::string text(const TextStyle& style = {}) const;
 };
 
 /// `value` with `decimals` places; a dash where it does not exist (NaN or infinite).
