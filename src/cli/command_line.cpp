@@ -312,12 +312,15 @@ class CommandLine {
                        "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
                        "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
     command.add_option("--width-mm", plot_.width_mm,
-                       "Width of the figure, 60 to 400 (default: 85, one column of a journal)");
+                       "Width of the figure, 85 to 400 (default: 85, one column of a journal)");
     command
         .add_option("--motors", plot_.motors,
                     "motors: all, or names of the library and files, separated by commas")
         ->delimiter(',')
         ->allow_extra_args(false);
+    command.add_option("--view", plot_.view,
+                       "drag: speed (default), or surface over airspeed and tilt");
+    add_flight(command, plot_.flight);
   }
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".

@@ -62,24 +62,31 @@ int run_log(const std::string& file, const std::string& message, const Output& o
   return done;
 }
 
-int run_drag(const DragOptions& options, const Output& output) {
-  DragIdentificationOptions identification;
-  identification.conditions.mass = checked_mass(options.flight.mass_g);
-  if (const auto density = air_density(options.flight)) {
-    identification.conditions.air_density = *density;
-  }
-  identification.from = log_position("--from", options.flight.from);
-  identification.to = log_position("--to", options.flight.to);
-  identification.pitch_offset = pitch_offset(options.flight);
+DragIdentificationOptions identification_options(const FlightOptions& flight) {
+  DragIdentificationOptions options;
+  options.conditions.mass = checked_mass(flight.mass_g);
+  if (const auto density = air_density(flight)) options.conditions.air_density = *density;
+  options.from = log_position("--from", flight.from);
+  options.to = log_position("--to", flight.to);
+  options.pitch_offset = pitch_offset(flight);
+  return options;
+}
 
+std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, int core) {
   std::vector<FlightLog> logs;
-  for (const std::string& name : options.logs) {
-    FlightLogReading reading = read_flight_log(name, {options.flight.core});
+  for (const std::string& name : names) {
+    FlightLogReading reading = read_flight_log(name, {core});
     for (const std::string& note : reading.notes) {
       std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
     }
     logs.push_back(std::move(reading.log));
   }
+  return logs;
+}
+
+int run_drag(const DragOptions& options, const Output& output) {
+  const DragIdentificationOptions identification = identification_options(options.flight);
+  const std::vector<FlightLog> logs = read_flight_logs(options.logs, options.flight.core);
   DragIdentification result;
   try {
     result = identify_drag(logs, identification);

@@ -6,11 +6,19 @@
 
 #include "cli/flight_options.hpp"
 #include "cli/output.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 
 namespace tethercalc::cli {
 
 /// What a DataFlash log holds, or all messages of one name as CSV.
 int run_log(const std::string& file, const std::string& message, const Output& output);
+
+/// What the options say about the flight, checked; the mass must be given.
+[[nodiscard]] DragIdentificationOptions identification_options(const FlightOptions& flight);
+
+/// The logs of these names; what was amiss with them is told on standard error.
+[[nodiscard]] std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
+                                                      int core);
 
 struct DragOptions {
   std::vector<std::string> logs;

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
 
+#include "cli/log_commands.hpp"
 #include "io/closest_name.hpp"
+#include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/flight_figures.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -29,17 +33,58 @@ Figure motors(const PlotOptions& options) {
       compare_motors(file.design, chosen_motors(options.motors.empty() ? all : options.motors)));
 }
 
+/// A log is told by its name, a spec by its own; folders say nothing in a picture.
+std::string base_name(const std::string& file) {
+  return std::filesystem::path(file).filename().string();
+}
+
+Figure log(const PlotOptions& options) {
+  const std::string& file = options.files.front();
+  FlightOptions flight = options.flight;
+  if (!flight.mass_g) flight.mass_g = 1000;  // accelerations do not depend on it
+  try {
+    return log_figure(base_name(file), observe_part(read_flight_logs({file}, flight.core).front(),
+                                                    identification_options(flight)));
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(file, error.what());
+  }
+}
+
+Figure drag(const PlotOptions& options) {
+  const std::vector<std::string> views{"speed", "surface"};
+  const bool surface = options.view == "surface";
+  if (!surface && !options.view.empty() && options.view != "speed") {
+    throw InputError("--view", "\"" + options.view +
+                                   "\" is no view of drag; allowed are speed and "
+                                   "surface" +
+                                   did_you_mean(options.view, views));
+  }
+  const DragIdentificationOptions how = identification_options(options.flight);
+  const std::vector<FlightLog> logs = read_flight_logs(options.files, options.flight.core);
+  const std::string name = logs.size() == 1 ? base_name(options.files.front())
+                                            : std::to_string(logs.size()) + " flights";
+  try {
+    const DragFlights fitted = fit_drag_flights(name, logs, how);
+    return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(logs.size() == 1 ? options.files.front() : "drag", error.what());
+  }
+}
+
 struct Kind {
   std::string_view name;
   std::string_view input;  ///< what FILE is
   std::string_view help;
   Figure (*draw)(const PlotOptions&);
+  bool many_files = false;
 };
 
 constexpr std::array kinds{
     Kind{"optimum", "SPEC", "thrust and power over the cross-section", optimum},
     Kind{"motors", "SPEC", "efficiency of motors, with what their best tethers ask of them",
          motors},
+    Kind{"log", "LOG", "accelerations, drag and speed over time", log},
+    Kind{"drag", "LOG...", "measured and fitted drag over airspeed", drag, true},
 };
 
 const Kind& find_kind(const std::string& name) {
@@ -85,13 +130,13 @@ int run_plot(const PlotOptions& options) {
   // Told before a long computation, not after it.
   const FigureFormat format =
       options.output.empty() ? FigureFormat::text : figure_format(options.output, "--output");
-  if (options.files.size() != 1) {
+  if (options.files.size() != 1 && !kind.many_files) {
     throw InputError("plot " + options.kind, "is drawn from one file: plot " + options.kind + " " +
                                                  std::string(kind.input));
   }
-  if (!(options.width_mm >= 60 && options.width_mm <= 400)) {
+  if (!(options.width_mm >= 85 && options.width_mm <= 400)) {
     throw InputError("--width-mm", std::to_string(options.width_mm) +
-                                       " is out of range; allowed is 60 to 400 mm");
+                                       " is out of range; allowed is 85 to 400 mm");
   }
   Output output;
   output.file = options.output;

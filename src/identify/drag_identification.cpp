@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 namespace tethercalc {
-namespace {
 
 Observations observe_part(const FlightLog& log, const DragIdentificationOptions& options) {
   validate(log);
@@ -11,8 +10,6 @@ Observations observe_part(const FlightLog& log, const DragIdentificationOptions&
   const SampleRange range = chosen ? select_range(log, options.from, options.to) : moving_part(log);
   return observe(log, range, options.pitch_offset, options.conditions.gravity);
 }
-
-}  // namespace
 
 DragIdentification identify_drag(std::span<const FlightLog> logs,
                                  const DragIdentificationOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tethercalc/report/figure.hpp"
 
@@ -62,6 +63,18 @@ void Plot::points(const std::string& data, const std::string& style, const std::
   if (!words.empty()) legend_.push_back({LegendEntry::Sample::point, style, words});
 }
 
+void Plot::dots(const std::string& block, int x, int y, double width, std::string_view colour,
+                const std::string& words, double size) {
+  add(fmt::format("{} using {}:{}:({}):(0) with vectors nohead lc rgb '{}' lw {}", block, x, y,
+                  number(width), colour, size));
+  add(fmt::format("{} using {}:(characters ? ${} : NaN) with points pt {}", block, x, y,
+                  ++letters_),
+      words);
+  if (!words.empty()) {
+    legend_.push_back({LegendEntry::Sample::point, point(colour, 5, 0.35 * size), words});
+  }
+}
+
 void Plot::mark(double x, double y, const std::string& style, const std::string& words) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
   points(fmt::format("'+' using ({}):({}) every ::0::0", number(x), number(y)), style, words);
@@ -97,7 +110,10 @@ std::string Layout::legend(double top, std::size_t columns,
       "if (characters) {{\n  set key at screen {:.4f},{:.4f} left top horizontal maxcols {}\n"
       "}} else {{\n  unset key\n",
       left_, height(top - 0.5), columns);
-  constexpr double sample = 0.065;  // of the picture's width
+  // Of the picture's width.
+  constexpr double sample = 0.065;
+  constexpr double cell = 0.115;
+  constexpr double letter = 0.0175;  // 7.5 pt in one column
   const double start = 0.02;
   const double width = (1 - start) / double(columns);
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -105,24 +121,32 @@ std::string Layout::legend(double top, std::size_t columns,
     const double x = start + width * double(i % columns);
     const double y = height(top + double(i / columns));
     switch (entry.sample) {
+      case LegendEntry::Sample::none:
+        break;
       case LegendEntry::Sample::line:
         out += fmt::format(
-            "  set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead {}\n", 110 + i,
-            x, y, x + sample, y, entry.style);
+            "  set arrow {} from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead {}\n",
+            1000 + i, x, y, x + sample, y, entry.style);
         break;
       case LegendEntry::Sample::point:
-        out += fmt::format("  set label {} '' at screen {:.4f},{:.4f} point {}\n", 150 + i,
+        out += fmt::format("  set label {} '' at screen {:.4f},{:.4f} point {}\n", 2000 + i,
                            x + sample / 2, y, entry.style);
         break;
       case LegendEntry::Sample::area:
         out += fmt::format(
             "  set object {} rectangle from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} {}\n",
-            110 + i, x, y - 0.4 / lines_, x + sample, y + 0.4 / lines_, entry.style);
+            1000 + i, x, y - 0.4 / lines_, x + sample, y + 0.4 / lines_, entry.style);
         break;
     }
-    const double letters = (width - sample - 0.02) / 0.0175;
-    out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} left\n", 110 + i,
+    const double cells = cell * double(entry.cells.size());
+    const double letters = (width - sample - 0.02 - cells) / letter;
+    out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} left\n", 1000 + i,
                        gnuplot_text(entry.words, std::size_t(letters)), x + sample + 0.015, y);
+    for (std::size_t c = 0; c < entry.cells.size(); ++c) {
+      const double right = 1 - right_ - cell * double(entry.cells.size() - 1 - c);
+      out += fmt::format("  set label {} {} at screen {:.4f},{:.4f} right\n", 3000 + 10 * i + c,
+                         gnuplot_text(entry.cells[c]), right, y);
+    }
   }
   return out + "}\n";
 }
@@ -130,6 +154,41 @@ std::string Layout::legend(double top, std::size_t columns,
 std::string Layout::heading(const std::string& words) const {
   return fmt::format("set label 103 {} at screen 0.5,{:.4f} center\n", gnuplot_text(words, 48),
                      height(0.9));
+}
+
+Series outline(std::span<const double> x, std::span<const double> y, std::size_t bins) {
+  Series out;
+  if (x.size() < 2) return out;
+  constexpr double gap = 5;  // mean steps
+  const double mean_step = (x.back() - x.front()) / double(x.size() - 1);
+  const double width = (x.back() - x.front()) / double(bins);
+  for (std::size_t first = 0; first < x.size();) {
+    std::size_t last = first;
+    std::size_t least = first;
+    std::size_t most = first;
+    while (last + 1 < x.size() && x[last + 1] < x[first] + width &&
+           x[last + 1] - x[last] <= gap * mean_step) {
+      ++last;
+      if (y[last] < y[least]) least = last;
+      if (y[last] > y[most]) most = last;
+    }
+    std::vector<std::size_t> kept{first, std::min(least, most), std::max(least, most), last};
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    for (const std::size_t i : kept) {
+      out.x.push_back(x[i]);
+      out.y.push_back(y[i]);
+    }
+    if (last + 1 < x.size() && x[last + 1] - x[last] > gap * mean_step) {
+      out.x.push_back(x[last]);
+      out.y.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
+    first = last + 1;
+  }
+  return out;
+}
+
+std::size_t thinning(std::size_t samples, std::size_t most) {
+  return samples <= most ? 1 : (samples + most - 1) / most;
 }
 
 Range with_margin(double lo, double hi, double margin) {

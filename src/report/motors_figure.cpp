@@ -23,6 +23,10 @@ std::string dot_colour(std::size_t index) {
   return style.substr(0, style.find(" dt"));
 }
 
+constexpr const char* circle = " pt 6 ps 0.8*dot_scale lw 1.4";
+constexpr const char* dot = " pt 7 ps 0.6*dot_scale";
+constexpr const char* plus = " pt 1 ps 0.9*dot_scale lw 1.4";
+
 /// Efficiency over thrust, as far as it was measured: thrust in g, efficiency in g/W.
 struct EfficiencyCurve {
   std::vector<double> thrust;
@@ -49,14 +53,21 @@ EfficiencyCurve efficiency_of(const MotorCurve& curve) {
   return out;
 }
 
-void mark_at(gp::Plot& plot, const MotorCurve& curve, double thrust, const std::string& style) {
+/// A mark on a curve.
+struct Mark {
+  double thrust = 0;      ///< g
+  double efficiency = 0;  ///< g/W
+  std::string style;
+};
+
+Mark mark_on(const MotorCurve& curve, double thrust, const std::string& style) {
   const double shown = std::min(thrust, curve.max_thrust());
-  plot.mark(shown / unit::gram_force, efficiency_at(curve, shown), style);
+  return {shown / unit::gram_force, efficiency_at(curve, shown), style};
 }
 
 /// Circle, dot and plus of the paper's figure on motors.
-void mark_optimum(gp::Plot& plot, const MotorOptimum& motor, std::size_t index) {
-  if (!motor.result.feasible) return;
+std::vector<Mark> marks_of(const MotorOptimum& motor, std::size_t index) {
+  if (!motor.result.feasible) return {};
   const Requirements& need = motor.design.requirements;
   const MotorCurve& curve = motor.design.drone.motor;
   const auto at = [&](Condition condition) -> const OperatingPoint& {
@@ -64,44 +75,150 @@ void mark_optimum(gp::Plot& plot, const MotorOptimum& motor, std::size_t index) 
   };
   const std::string colour = dot_colour(index);
   const double necessary = at(need.headroom_at).necessary_thrust;
-  mark_at(plot, curve, necessary, colour + " pt 6 ps 0.8*dot_scale lw 1.4");
-  mark_at(plot, curve, need.thrust_headroom * necessary, colour + " pt 7 ps 0.6*dot_scale");
+  std::vector<Mark> marks{mark_on(curve, necessary, colour + circle),
+                          mark_on(curve, need.thrust_headroom * necessary, colour + dot)};
   if (motor.result.limited_by == Limit::minimum_power) {
-    mark_at(plot, curve, at(need.power_at).necessary_thrust,
-            colour + " pt 1 ps 0.9*dot_scale lw 1.4");
+    marks.push_back(mark_on(curve, at(need.power_at).necessary_thrust, colour + plus));
   }
+  return marks;
+}
+
+/// The first measured efficiency counts for smaller thrusts too (paper, section III): drawn thinly
+/// from where the drone hovers.
+void draw_assumed(gp::Plot& plot, const EfficiencyCurve& curve, std::span<const Mark> marks,
+                  std::size_t index) {
+  double least = curve.thrust.front();
+  for (const Mark& mark : marks) least = std::min(least, mark.thrust);
+  if (!(least < curve.thrust.front())) return;
+  const std::string y = gp::number(curve.efficiency.front());
+  plot.curve(fmt::format("'+' using ($0 < 1 ? {} : {}):({}) every ::0::1", gp::number(least),
+                         gp::number(curve.thrust.front()), y),
+             style_of(index, 0.5));
+}
+
+std::string name_of(const MotorOptimum& motor, std::size_t index) {
+  return fmt::format("{} {}", index + 1,
+                     motor.motor.name.empty() ? motor.motor.id : motor.motor.name);
+}
+
+/// What a motor's best tether is and draws; a word where there is none.
+struct Answer {
+  std::string area;
+  std::string power;
+};
+
+Answer answer_of(const MotorOptimum& motor) {
+  if (!motor.result.feasible) return {"", "infeasible"};
+  const bool by_hover = motor.design.requirements.power_at == Condition::hover;
+  const OperatingPoint& judged = by_hover ? motor.result.hover : motor.result.forward;
+  return {significant(motor.result.area / unit::square_millimetre, 3),
+          fixed(judged.total_power, 0)};
 }
 
 std::string words_of(const MotorOptimum& motor, std::size_t index) {
-  const std::string name = motor.motor.name.empty() ? motor.motor.id : motor.motor.name;
-  if (!motor.result.feasible) return fmt::format("{} {}: infeasible", index + 1, name);
-  const bool by_hover = motor.design.requirements.power_at == Condition::hover;
-  const OperatingPoint& judged = by_hover ? motor.result.hover : motor.result.forward;
-  return fmt::format("{} {}: {} mm², {} W", index + 1, name,
-                     significant(motor.result.area / unit::square_millimetre, 3),
-                     fixed(judged.total_power, 0));
+  const Answer answer = answer_of(motor);
+  if (answer.area.empty()) return name_of(motor, index) + ": " + answer.power;
+  return fmt::format("{}: {} mm², {} W", name_of(motor, index), answer.area, answer.power);
 }
 
-/// Numbers at the right ends of the curves, moved up where they would cover another one.
-std::string end_numbers(std::span<const EfficiencyCurve> curves, gp::Range x, gp::Range y) {
-  std::string out;
-  struct Place {
-    double x, y;
-  };
-  std::vector<Place> taken;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    // In shares of the frame.
-    Place place{(curves[i].thrust.back() - x.lo) / (x.hi - x.lo) + 0.012,
-                (curves[i].efficiency.back() - y.lo) / (y.hi - y.lo)};
-    const auto covered = [&place](const Place& other) {
-      return std::abs(place.x - other.x) < 0.035 && std::abs(place.y - other.y) < 0.05;
-    };
-    while (std::any_of(taken.begin(), taken.end(), covered)) place.y -= 0.01;
-    taken.push_back(place);
-    out += fmt::format("set label {} '{}' at graph {:.4f},{:.4f} left\n", i + 200, i + 1, place.x,
+/// A place in shares of the frame.
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+
+/// Numbers at the ends of the curves, each at the nearest place where it covers neither
+/// curves nor marks nor other numbers.
+class EndNumbers {
+ public:
+  EndNumbers(gp::Range x, gp::Range y) : x_(x), y_(y) {}
+
+  void keep_free(double x, double y) { taken_.push_back(share(x, y)); }
+
+  void keep_free(const EfficiencyCurve& curve) {
+    for (std::size_t i = 0; i < curve.thrust.size(); ++i) {
+      keep_free(curve.thrust[i], curve.efficiency[i]);
+    }
+  }
+
+  /// The label of `curve`, at that end of it where there is more room.
+  std::string label(std::size_t tag, const EfficiencyCurve& curve) {
+    const Found right = nearest_free(share(curve.thrust.back(), curve.efficiency.back()));
+    const Found left = nearest_free(share(curve.thrust.front(), curve.efficiency.front()));
+    const Place place = left.distance < right.distance ? left.place : right.place;
+    for (const double dx : {-0.5, 0.0, 0.5}) {
+      for (const double dy : {-0.5, 0.0, 0.5}) {
+        taken_.push_back({place.x + dx * width, place.y + dy * height});
+      }
+    }
+    return fmt::format("set label {} '{}' at graph {:.4f},{:.4f} center\n", tag, tag, place.x,
                        place.y);
   }
-  return out;
+
+ private:
+  // A number of two digits in 7.5 pt in one column.
+  static constexpr double width = 0.045;
+  static constexpr double height = 0.05;
+
+  [[nodiscard]] Place share(double x, double y) const {
+    return {(x - x_.lo) / (x_.hi - x_.lo), (y - y_.lo) / (y_.hi - y_.lo)};
+  }
+
+  [[nodiscard]] bool is_free(Place place) const {
+    if (place.x < width || place.x > 1 - width / 2 || place.y < height || place.y > 1 - height) {
+      return false;
+    }
+    return std::none_of(taken_.begin(), taken_.end(), [place](Place other) {
+      return std::abs(place.x - other.x) < width / 2 + 0.01 &&
+             std::abs(place.y - other.y) < height / 2;
+    });
+  }
+
+  struct Found {
+    Place place;
+    double distance = 0;
+  };
+
+  [[nodiscard]] Found nearest_free(Place end) const {
+    constexpr double farthest = 6;
+    for (double distance = 1; distance < farthest; distance += 0.25) {
+      for (const double angle : {0.0, -0.6, 0.6, -1.2, 1.2, -1.9, 1.9, -2.5, 2.5, 3.1}) {
+        const Place place{end.x + 0.7 * width * distance * std::cos(angle),
+                          end.y + 0.7 * height * distance * std::sin(angle)};
+        if (is_free(place)) return {place, distance};
+      }
+    }
+    return {end, farthest};
+  }
+
+  gp::Range x_;
+  gp::Range y_;
+  std::vector<Place> taken_;
+};
+
+/// Explains the marks, for the legend and for gnuplot's own key.
+void explain_marks(gp::Plot& plot, const Requirements& need) {
+  const auto explain = [&plot](const char* mark, const std::string& words) {
+    plot.points("NaN", fmt::format("lc rgb '{}'{}", colour::black, mark), words);
+  };
+  const char* where = need.headroom_at == Condition::hover ? "hover" : "forward flight";
+  explain(circle, fmt::format("necessary in {}", where));
+  explain(dot, fmt::format("required: {} times that", significant(need.thrust_headroom, 2)));
+  explain(plus, "where least power, not headroom, decides");
+}
+
+/// A table of the motors with the cross-section and the power of their best tethers, above what
+/// the marks mean.
+std::vector<gp::LegendEntry> legend_of(std::span<const MotorOptimum> ranking,
+                                       std::span<const gp::LegendEntry> plotted) {
+  std::vector<gp::LegendEntry> legend{{gp::LegendEntry::Sample::none, "", "", {"mm²", "W"}}};
+  legend.insert(legend.end(), plotted.begin(), plotted.end());
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    const Answer answer = answer_of(ranking[i]);
+    legend[i + 1].words = name_of(ranking[i], i);
+    legend[i + 1].cells = {answer.area, answer.power};
+  }
+  return legend;
 }
 
 std::string description_of(std::span<const MotorOptimum> ranking) {
@@ -123,7 +240,7 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
   figure.description = description_of(ranking);
   constexpr double frame_bottom = 24;
   constexpr double legend_top = 28.2;
-  figure.lines = int(legend_top) + 5 + int(ranking.size());
+  figure.lines = int(legend_top) + 6 + int(ranking.size());
   figure.script = gp::prelude();
 
   std::vector<EfficiencyCurve> curves;
@@ -139,31 +256,33 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
     thrusts.push_back(curve.thrust.back());
     efficiencies.insert(efficiencies.end(), curve.efficiency.begin(), curve.efficiency.end());
   }
-  for (std::size_t i = 0; i < ranking.size(); ++i) mark_optimum(plot, ranking[i], i);
-
-  const gp::Range thrust{0, 1.06 * gp::extent(thrusts).hi};
-  const auto [least, most] = gp::extent(efficiencies);
-  const gp::Range efficiency = gp::with_margin(least, most, 0.06);
-  const gp::Layout layout(figure.lines, 0.09);
-  figure.script += "set samples 2\n" + layout.panel(4, frame_bottom) + layout.heading(file.name);
-  figure.script += layout.above(2.8, "efficiency (g/W)");
-  figure.script += layout.below(26.4, "thrust of one motor (g)");
-  std::vector<gp::LegendEntry> legend(plot.legend().begin(), plot.legend().end());
-  const auto explain = [&legend](const char* style, const std::string& words) {
-    legend.push_back({gp::LegendEntry::Sample::point,
-                      fmt::format("lc rgb '{}' {}", colour::black, style), words});
-  };
-  if (!ranking.empty()) {
-    const Requirements& need = ranking.front().design.requirements;
-    const char* where = need.headroom_at == Condition::hover ? "hover" : "forward flight";
-    explain("pt 6 ps 0.8*dot_scale lw 1.4", fmt::format("necessary in {}", where));
-    explain("pt 7 ps 0.6*dot_scale",
-            fmt::format("required: {} times that", significant(need.thrust_headroom, 2)));
-    explain("pt 1 ps 0.9*dot_scale lw 1.4", "where least power, not headroom, decides");
+  std::vector<std::vector<Mark>> marks;
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    marks.push_back(marks_of(ranking[i], i));
+    draw_assumed(plot, curves[i], marks[i], i);
   }
-  figure.script += layout.legend(legend_top, 1, legend);
+  for (const auto& own : marks) {
+    for (const Mark& mark : own) plot.mark(mark.thrust, mark.efficiency, mark.style);
+  }
+
+  explain_marks(plot, file.design.requirements);
+
+  const gp::Range thrust{0, 1.08 * gp::extent(thrusts).hi};
+  const auto [least, most] = gp::extent(efficiencies);
+  const gp::Range efficiency = gp::with_margin(least, most, 0.1);
+  EndNumbers numbers(thrust, efficiency);
+  for (const EfficiencyCurve& curve : curves) numbers.keep_free(curve);
+  for (const auto& own : marks) {
+    for (const Mark& mark : own) numbers.keep_free(mark.thrust, mark.efficiency);
+  }
+
+  const gp::Layout layout(figure.lines, 0.09, 0.045);
+  figure.script += "set samples 2\n" + layout.panel(3.6, frame_bottom) + layout.heading(file.name);
+  figure.script += layout.above(2.7, "efficiency (g/W)");
+  figure.script += layout.below(26.4, "thrust of one motor (g)");
+  figure.script += layout.legend(legend_top, 1, legend_of(ranking, plot.legend()));
   figure.script += gp::set_range("x", thrust) + gp::set_range("y", efficiency);
-  figure.script += end_numbers(curves, thrust, efficiency);
+  for (std::size_t i = 0; i < curves.size(); ++i) figure.script += numbers.label(i + 1, curves[i]);
   figure.script += plot.text();
   return figure;
 }

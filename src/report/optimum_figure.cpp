@@ -108,11 +108,14 @@ gp::Range thrust_range(const Curves& curves) {
   return {0, 1.08 * std::min(1.6 * asked, std::max(asked, gp::extent(curves.available).hi))};
 }
 
+bool any_power(const Curves& curves) {
+  return std::any_of(curves.hover_W.begin(), curves.hover_W.end(),
+                     [](double power) { return std::isfinite(power); });
+}
+
 /// Around the least power; thin conductors need any amount.
 gp::Range power_range(const OptimizeStudy& study, const Curves& curves) {
-  const bool any = std::any_of(curves.hover_W.begin(), curves.hover_W.end(),
-                               [](double power) { return std::isfinite(power); });
-  if (!any) return {0, 1};
+  if (!any_power(curves)) return {0, 1};
   const double least = least_of(curves.hover_W, curves.forward_W);
   double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
   if (study.result.feasible) {
@@ -288,6 +291,9 @@ Figure optimum_figure(const OptimizeStudy& study) {
   figure.script += layout.legend(40, 2, power.legend());
   figure.script += top_axis(study, view, "IEC 60228");
   figure.script += gp::set_range("y", power_range(study, curves));
+  if (!any_power(curves)) {
+    figure.script += "set label 1 'cannot be delivered' at graph 0.5,0.5 center\n";
+  }
   figure.script += "set format x '%g'\n" + power.text() + "unset multiplot\n";
   return figure;
 }

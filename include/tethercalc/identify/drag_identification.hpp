@@ -33,6 +33,11 @@ struct DragIdentification {
   DragFit fit;                        ///< of all logs together
 };
 
+/// The observations that `identify_drag` makes of one log: the samples chosen by `options`, or the
+/// moving part. Throws UnsuitableFlight where the log is invalid or has no such part.
+[[nodiscard]] Observations observe_part(const FlightLog& log,
+                                        const DragIdentificationOptions& options);
+
 /// Fits the drag shared by `logs` and the wind of each, see `fit_drag`, to the samples chosen by
 /// `options`, see `select_range` and `moving_part`. Throws UnsuitableFlight where a log is invalid
 /// or cannot determine the parameters; of several logs, the message says which.

@@ -12,7 +12,7 @@ namespace tethercalc {
 /// and every number comes from the result that the figure is made of; one that does not exist is a
 /// gap in its curve.
 struct Figure {
-  std::string id;     ///< letters, digits and dashes: "optimum"; begins the ids within its SVG
+  std::string id;     ///< letters and digits: "optimum"; begins the ids within its SVG
   std::string title;  ///< one line
   std::string description;  ///< what it shows with its main numbers, for those who cannot see it
   int lines = 24;           ///< height in lines of text at one column's width (85 mm); the picture
@@ -31,7 +31,7 @@ enum class FigureFormat {
 
 /// How large, and for what kind of terminal.
 struct FigureSize {
-  double width_mm = 85;  ///< 60 to 400; 85 is one column of a journal. Letters are 7.5 pt high at
+  double width_mm = 85;  ///< 85, one column of a journal, to 400. Letters are 7.5 pt high at
                          ///< every width, so that a wider picture holds more, not larger ones
   int columns = 100;     ///< of `FigureFormat::text`, 40 to 400
   bool colour = false;   ///< of `FigureFormat::text`: with the colour codes of a terminal

@@ -1,0 +1,310 @@
+#include "tethercalc/report/flight_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "report/gnuplot_script.hpp"
+#include "tethercalc/report/text_table.hpp"
+
+namespace tethercalc {
+namespace {
+
+namespace gp = gnuplot;
+namespace colour = gnuplot::colour;
+
+constexpr std::size_t most_samples = 700;
+
+std::vector<double> difference(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> out(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
+  return out;
+}
+
+std::string outline_block(std::string_view name, std::span<const double> time,
+                          std::span<const double> values) {
+  const gp::Series drawn = gp::outline(time, values);
+  return gp::data_block(name, {drawn.x, drawn.y});
+}
+
+double root_mean_square(std::span<const double> values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / double(values.size()));
+}
+
+/// Drag sample by sample, N, over airspeed, m/s, and tilt, deg.
+struct DragSamples {
+  std::vector<double> airspeed;
+  std::vector<double> tilt;
+  std::vector<double> measured;
+  std::vector<double> fitted;
+};
+
+DragSamples samples_of(const DragFlights& drag) {
+  DragSamples out;
+  const DragFitConditions& known = drag.fit.conditions;
+  const AirframeDrag parameters = drag.fit.drag();
+  for (std::size_t f = 0; f < drag.flights.size(); ++f) {
+    const Observations& flight = drag.flights[f];
+    const double wind = drag.fit.wind()[f].estimate.value;
+    for (std::size_t i = 0; i < flight.size(); ++i) {
+      const double airspeed = flight.forward_speed[i] - wind;
+      out.airspeed.push_back(airspeed);
+      out.tilt.push_back(flight.tilt[i] / unit::degree);
+      out.measured.push_back(known.mass *
+                             (flight.expected_acceleration[i] - flight.forward_acceleration[i]));
+      out.fitted.push_back(
+          airframe_drag_force(parameters, known.air_density, airspeed, std::tan(flight.tilt[i])));
+    }
+  }
+  return out;
+}
+
+DragSamples thinned(const DragSamples& all, std::size_t step) {
+  DragSamples out;
+  for (std::size_t i = 0; i < all.airspeed.size(); i += step) {
+    out.airspeed.push_back(all.airspeed[i]);
+    out.tilt.push_back(all.tilt[i]);
+    out.measured.push_back(all.measured[i]);
+    out.fitted.push_back(all.fitted[i]);
+  }
+  return out;
+}
+
+/// Steady flight in both directions, from `range.lo` to `range.hi` m/s.
+struct SteadyLine {
+  std::vector<double> airspeed;
+  std::vector<double> tilt;  ///< deg
+  std::vector<double> force;
+  std::vector<double> lower;
+  std::vector<double> upper;
+};
+
+SteadyLine steady_line(const DragFit& fit, gp::Range range) {
+  SteadyLine out;
+  constexpr int steps = 60;
+  for (int i = 0; i <= steps; ++i) {
+    const double airspeed = range.lo + (range.hi - range.lo) * i / steps;
+    const auto steady = steady_drag(fit, std::abs(airspeed));
+    if (!steady) continue;
+    // The law is odd in the airspeed.
+    const double sign = airspeed < 0 ? -1 : 1;
+    out.airspeed.push_back(airspeed);
+    out.tilt.push_back(sign * steady->tilt.value / unit::degree);
+    out.force.push_back(sign * steady->force.value);
+    out.lower.push_back(sign * (airspeed < 0 ? steady->force.upper : steady->force.lower));
+    out.upper.push_back(sign * (airspeed < 0 ? steady->force.lower : steady->force.upper));
+  }
+  return out;
+}
+
+std::string parameter_words(const DragFit& fit) {
+  return fmt::format("front area {} m², top area {} m², linear term {} m/s",
+                     significant(fit.front_area().estimate.value, 3),
+                     significant(fit.top_area().estimate.value, 3),
+                     significant(fit.linear_speed().estimate.value, 3));
+}
+
+std::string samples_words(std::size_t step) {
+  if (step == 1) return "";
+  const std::size_t last = step % 10;
+  const bool teen = step / 10 % 10 == 1;
+  const char* ending = teen ? "th" : last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
+  return fmt::format(" (every {}{})", step, ending);
+}
+
+}  // namespace
+
+Figure log_figure(const std::string& name, const Observations& flight) {
+  Figure figure;
+  figure.id = "log";
+  figure.title = "Accelerations of " + name;
+  const std::vector<double> drag =
+      difference(flight.expected_acceleration, flight.forward_acceleration);
+  figure.description = fmt::format(
+      "Three diagrams over {} s of flight, {} samples: forward acceleration expected from the "
+      "attitude and observed; drag per mass, their difference, {} m/s² root mean square and at "
+      "most {} m/s²; and forward speed, from {} to {} m/s.",
+      fixed(flight.time.back() - flight.time.front(), 0), flight.size(),
+      fixed(root_mean_square(drag), 2),
+      fixed(std::max(gp::extent(drag).hi, -gp::extent(drag).lo), 2),
+      fixed(gp::extent(flight.forward_speed).lo, 1), fixed(gp::extent(flight.forward_speed).hi, 1));
+  figure.lines = 43;
+  const gp::Layout layout(figure.lines, 0.105);
+  figure.script = gp::prelude() +
+                  outline_block("expected", flight.time, flight.expected_acceleration) +
+                  outline_block("observed", flight.time, flight.forward_acceleration) +
+                  outline_block("drag", flight.time, drag) +
+                  outline_block("speed", flight.time, flight.forward_speed);
+  figure.script += gp::set_range("x", {flight.time.front(), flight.time.back()}) +
+                   "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset multiplot\n";
+
+  const auto extent_of = [](std::span<const double> values) {
+    const auto [lo, hi] = gp::extent(values);
+    return gp::with_margin(lo, hi);
+  };
+  const auto [lo, hi] = gp::extent(flight.expected_acceleration);
+  const auto [observed_lo, observed_hi] = gp::extent(flight.forward_acceleration);
+  gp::Plot accelerations;
+  accelerations.curve("$expected using 1:2", gp::line(colour::blue, 1, 0.7), "expected (attitude)");
+  accelerations.curve("$observed using 1:2", gp::line(colour::sky, 1, 0.7), "observed");
+  figure.script +=
+      layout.panel(3.5, 14.5) + layout.heading(name) +
+      layout.above(2.6, "forward acceleration (m/s²)") +
+      layout.legend(15.6, 2, accelerations.legend()) +
+      gp::set_range("y", gp::with_margin(std::min(lo, observed_lo), std::max(hi, observed_hi))) +
+      "set format x ''\n" + accelerations.text();
+
+  gp::Plot difference_plot;
+  difference_plot.curve("$drag using 1:2", gp::line(colour::vermilion, 1, 0.7));
+  figure.script += layout.panel(18.5, 28) + layout.legend(0, 1, {}) +
+                   layout.above(17.6, "drag per mass, expected less observed (m/s²)") +
+                   gp::set_range("y", extent_of(drag)) + difference_plot.text();
+
+  gp::Plot speed;
+  speed.curve("$speed using 1:2", gp::line(colour::black, 1, 0.8));
+  figure.script += layout.panel(30.6, 39) + layout.legend(0, 1, {}) +
+                   layout.above(29.7, "forward speed over ground (m/s)") +
+                   layout.below(41.6, "time of the log (s)") +
+                   gp::set_range("y", extent_of(flight.forward_speed)) + "set format x '%g'\n" +
+                   speed.text() + "unset multiplot\n";
+  return figure;
+}
+
+DragFlights fit_drag_flights(std::string name, std::span<const FlightLog> logs,
+                             const DragIdentificationOptions& options) {
+  DragFlights out;
+  out.name = std::move(name);
+  out.fit = identify_drag(logs, options).fit;
+  for (const FlightLog& log : logs) out.flights.push_back(observe_part(log, options));
+  DragFitOptions quadratic;
+  quadratic.bounds.max_linear_speed = 1e-6;  // m/s, a millionth of the linear term that matters
+  try {
+    out.without_linear = fit_drag(out.flights, options.conditions, quadratic);
+  } catch (const UnsuitableFlight&) {
+    // The comparison is left out; the fit itself stands.
+  }
+  return out;
+}
+
+Figure drag_figure(const DragFlights& drag) {
+  const DragSamples all = samples_of(drag);
+  const std::size_t step = gp::thinning(all.airspeed.size(), most_samples);
+  const DragSamples shown = thinned(all, step);
+  const std::vector<double> residual = difference(shown.measured, shown.fitted);
+  const auto [slowest, fastest] = gp::extent(all.airspeed);
+  const gp::Range speeds = gp::with_margin(slowest, fastest, 0.03);
+  const SteadyLine steady = steady_line(drag.fit, {slowest, fastest});
+
+  Figure figure;
+  figure.id = "drag";
+  figure.title = "Drag of " + drag.name;
+  figure.description = fmt::format(
+      "Drag in newtons over airspeed from {} to {} m/s, measured at {} samples{} and fitted: {}. "
+      "The line is steady flight. Below, measured less fitted: {} m/s² root mean square.",
+      fixed(slowest, 1), fixed(fastest, 1), all.airspeed.size(), samples_words(step),
+      parameter_words(drag.fit), fixed(drag.fit.quality.rmse, 3));
+  figure.lines = 40;
+  const gp::Layout layout(figure.lines, 0.105);
+  figure.script =
+      gp::prelude() +
+      gp::data_block("samples", {shown.airspeed, shown.measured, shown.fitted, residual}) +
+      gp::data_block("steady", {steady.airspeed, steady.force, steady.lower, steady.upper});
+
+  gp::Plot plot;
+  const double dot = 0.004 * (speeds.hi - speeds.lo);
+  plot.add("$steady using 1:3:4 with filledcurves " + gp::area(colour::black, 0.25));
+  plot.dots("$samples", 1, 2, dot, colour::blue, "measured" + samples_words(step));
+  plot.dots("$samples", 1, 3, dot, colour::vermilion, "fitted" + samples_words(step));
+  plot.curve("$steady using 1:2", gp::line(colour::black, 1, 1.4), "steady flight");
+  if (drag.without_linear) {
+    const SteadyLine bare = steady_line(*drag.without_linear, {slowest, fastest});
+    figure.script += gp::data_block("bare", {bare.airspeed, bare.force});
+    plot.curve("$bare using 1:2", gp::line(colour::orange, 2, 1.6), "without a linear term");
+  }
+  plot.entry({gp::LegendEntry::Sample::area, gp::area(colour::black, 0.25), "its 95 % interval"});
+  gp::Plot rest;
+  rest.dots("$samples", 1, 4, dot, colour::green);
+
+  figure.script +=
+      gp::set_range("x", speeds) + "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset multiplot\n";
+  const auto [least, most] = gp::extent(shown.measured);
+  figure.script += layout.panel(3.5, 20) + layout.heading(drag.name) +
+                   layout.above(2.6, "drag (N)") + layout.legend(21.2, 2, plot.legend()) +
+                   gp::set_range("y", gp::with_margin(least, most)) + "set format x ''\n" +
+                   plot.text();
+  const auto [residual_least, residual_most] = gp::extent(residual);
+  figure.script += layout.panel(27, 36) + layout.above(26, "measured less fitted (N)") +
+                   layout.legend(0, 1, {}) + layout.below(38.6, "airspeed, forward (m/s)") +
+                   gp::set_range("y", gp::with_margin(residual_least, residual_most)) +
+                   "set format x '%g'\n" + rest.text() + "unset multiplot\n";
+  return figure;
+}
+
+Figure drag_surface_figure(const DragFlights& drag) {
+  const DragSamples all = samples_of(drag);
+  constexpr std::size_t most_dots = 500;
+  const std::size_t step = gp::thinning(all.airspeed.size(), most_dots);
+  const DragSamples shown = thinned(all, step);
+  const auto [slowest, fastest] = gp::extent(all.airspeed);
+  const auto [least_tilt, most_tilt] = gp::extent(all.tilt);
+
+  Figure figure;
+  figure.id = "dragsurface";
+  figure.title = "Drag of " + drag.name + " over airspeed and tilt";
+  figure.description = fmt::format(
+      "A surface of drag in newtons over airspeed from {} to {} m/s and tilt from {} to {} "
+      "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady flight.",
+      fixed(slowest, 1), fixed(fastest, 1), fixed(least_tilt, 0), fixed(most_tilt, 0),
+      parameter_words(drag.fit), samples_words(step));
+  figure.lines = 32;
+  constexpr int grid = 16;
+  figure.script = gp::prelude() + "$surface << EOD\n";
+  for (int i = 0; i <= grid; ++i) {
+    const double airspeed = slowest + (fastest - slowest) * i / grid;
+    for (int k = 0; k <= grid; ++k) {
+      const double tilt = least_tilt + (most_tilt - least_tilt) * k / grid;
+      const double force = airframe_drag_force(drag.fit.drag(), drag.fit.conditions.air_density,
+                                               airspeed, std::tan(tilt * unit::degree));
+      figure.script +=
+          fmt::format("{} {} {}\n", gp::number(airspeed), gp::number(tilt), gp::number(force));
+    }
+    figure.script += "\n";
+  }
+  figure.script += "EOD\n";
+  const SteadyLine steady = steady_line(drag.fit, {slowest, fastest});
+  figure.script +=
+      gp::data_block("samples", {shown.airspeed, shown.tilt, shown.measured, shown.fitted}) +
+      gp::data_block("steady", {steady.airspeed, steady.tilt, steady.force});
+
+  gp::Plot plot;
+  const double dot = 0.004 * (fastest - slowest);
+  plot.curve("$surface using 1:2:3", gp::line(colour::vermilion, 1, 0.5), "fitted");
+  plot.add("$samples using 1:2:4:(0):(0):($3-$4) with vectors nohead " +
+           gp::line(colour::sky, 1, 0.5));
+  plot.add(fmt::format("$samples using 1:2:3:({}):(0):(0) with vectors nohead {}", gp::number(dot),
+                       gp::line(colour::blue, 1, 1.4)),
+           "measured" + samples_words(step));
+  plot.entry({gp::LegendEntry::Sample::point, gp::point(colour::blue, 5, 0.4),
+              "measured" + samples_words(step)});
+  plot.entry({gp::LegendEntry::Sample::line, gp::line(colour::sky, 1, 0.8), "what the fit leaves"});
+  plot.curve("$steady using 1:2:3", gp::line(colour::black, 1, 2), "steady flight");
+
+  const gp::Layout layout(figure.lines, 0.105);
+  figure.script += layout.heading(drag.name) + layout.above(6.5, "drag (N)") +
+                   layout.legend(29, 2, plot.legend());
+  figure.script +=
+      "set view 58,332,1.2,0.85\nset size 1,0.82\nset origin 0,0.12\nset ticslevel 0\nset border "
+      "31 lw 0.5\nset grid lw 0.3\n"
+      "set xlabel 'airspeed (m/s)' offset 0,-0.5\nset ylabel 'tilt (deg)' offset 0.5,-0.5\n"
+      "set xtics offset 0,-0.3\nset ytics offset "
+      "0.3,-0.2\n";
+  const auto [least, most] = gp::extent(shown.measured);
+  figure.script += gp::set_range("x", {slowest, fastest}) +
+                   gp::set_range("y", {least_tilt, most_tilt}) +
+                   gp::set_range("z", gp::with_margin(least, most, 0.02)) + plot.text("splot");
+  return figure;
+}
+
+}  // namespace tethercalc
