@@ -73,15 +73,18 @@ void add_flight(CLI::App& command, FlightOptions& flight) {
 
 std::vector<double> parse_areas(const std::vector<std::string>& texts) {
   std::vector<double> areas;
+  std::vector<InputProblem> problems;
   for (const std::string& text : texts) {
     char* end = nullptr;
     const double area = std::strtod(text.c_str(), &end);
     // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
     if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
-      refuse("--area-mm2", "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²");
+      problems.push_back(
+          {"--area-mm2", "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²"});
     }
     areas.push_back(area);
   }
+  if (!problems.empty()) throw InputError(std::move(problems));
   return areas;
 }
 
@@ -325,7 +328,8 @@ class CommandLine {
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
   void check_command(int argc, const char* const* argv) const {
-    if (argc < 2 || argv[1][0] == '-') return;
+    if (argc < 2) refuse("tethercalc", "a command is needed (tethercalc --help lists them)");
+    if (argv[1][0] == '-') return;
     std::vector<std::string> names;
     for (const auto& [name, action] : actions_) names.push_back(name);
     const std::string given = argv[1];

@@ -230,7 +230,7 @@ TEST_CASE("bad usage exits with 2, names the closest known word, and prints noth
     std::string says;
   };
   const std::vector<Usage> usages{
-      {{}, "tethercalc --help"},
+      {{}, "a command is needed (tethercalc --help lists them)"},
       {{"optimise", published}, "did you mean \"optimize\"?"},
       {{"frobnicate"}, "there is no command \"frobnicate\""},
       {{"optimize"}, "SPEC"},
@@ -240,8 +240,8 @@ TEST_CASE("bad usage exits with 2, names the closest known word, and prints noth
       {{"optimize", published, "again.json"}, "one argument too many"},
       {{"optimize", published, "--set", "supply.voltage=60"}, "supply.voltage_V"},
       {{"optimize", published, "--set", "supply.voltage_V"}, "supply.voltage_V"},
-      {{"evaluate", published, "--area-mm2", "1,zwei"}, "\"zwei\""},
-      {{"evaluate", published, "--area-mm2", "-1"}, "\"-1\""},
+      {{"evaluate", published, "--area-mm2", "1,zwei,0"}, "\"zwei\""},
+      {{"evaluate", published, "--area-mm2", "1,zwei,-1"}, "\"-1\""},
       {{"evaluate", published, "--area-mm2", "nan"}, "\"nan\""},
       {{"compare", published, "--motors", "holybro-air2216-920kv-11in"},
        "holybro-air2216-920kv-10in"},
