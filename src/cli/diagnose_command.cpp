@@ -10,7 +10,6 @@
 #include "tethercalc/diagnose/design_impact.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 #include "tethercalc/diagnose/power_diagnosis.hpp"
-#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -20,12 +19,6 @@ namespace tethercalc::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// A diagnosis with the spec that it leads to.
-struct Told {
-  Diagnosis diagnosis;
-  ordered_json extended;
-};
 
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
@@ -69,13 +62,13 @@ ordered_json spec_of(const DesignFile& file, const Design& extended) {
   return document;
 }
 
-void add_impact(Told& told, const DesignFile& file) {
+void add_impact(ToldDiagnosis& told, const DesignFile& file) {
   if (told.extended == file.document) return;
   const DesignFile after = read_design_document(told.extended, file.file, file.folder);
   told.diagnosis.design_impact = design_impact(file.design, after.design);
 }
 
-Told diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file) {
+ToldDiagnosis diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file) {
   Design flown = file.design;
   if (options.flight.mass_g) flown.drone.mass = *options.flight.mass_g * unit::gram;
   if (const auto density = air_density(options.flight)) flown.flight.air_density = *density;
@@ -87,7 +80,7 @@ Told diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file)
     const auto from = log_position("--from", options.flight.from);
     const auto to = log_position("--to", options.flight.to);
     if (from || to) how.range = select_range(reading.log, from, to);
-    Told told{diagnose_flight(flown, reading.log, how, progress_line()), {}};
+    ToldDiagnosis told{diagnose_flight(flown, reading.log, how, progress_line()), {}};
     clear_progress();
     told.diagnosis.notes.insert(told.diagnosis.notes.begin(), reading.notes.begin(),
                                 reading.notes.end());
@@ -99,7 +92,7 @@ Told diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file)
   }
 }
 
-Told diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) {
+ToldDiagnosis diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) {
   const PowerLog log = read_power_log(options.power_log);
   try {
     PowerDiagnosis found = diagnose_power(file.design, log, options.base, progress_line());
@@ -111,7 +104,7 @@ Told diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) 
   }
 }
 
-std::string answer_text(const Told& told, const Output& output) {
+std::string answer_text(const ToldDiagnosis& told, const Output& output) {
   switch (output.format) {
     case Format::json:
       return json_text(diagnosis_json(told.diagnosis, told.extended));
@@ -124,14 +117,19 @@ std::string answer_text(const Told& told, const Output& output) {
 
 }  // namespace
 
+ToldDiagnosis diagnose_log(const DiagnoseOptions& options, const DesignFile& file) {
+  ToldDiagnosis told = options.power_log.empty() ? diagnose_flight_log(options, file)
+                                                 : diagnose_power_log(options, file);
+  add_impact(told, file);
+  return told;
+}
+
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   if (options.flight_log.empty() == options.power_log.empty()) {
     throw InputError("diagnose", "needs one measured log: --flight LOG or --power LOG");
   }
   const DesignFile file = read_design(options.spec.file, options.spec.overrides);
-  Told told = options.power_log.empty() ? diagnose_flight_log(options, file)
-                                        : diagnose_power_log(options, file);
-  add_impact(told, file);
+  const ToldDiagnosis told = diagnose_log(options, file);
   emit(output, options.into ? json_text(told.extended) : answer_text(told, output));
   return done;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
@@ -87,24 +88,6 @@ std::string percent_of(double error, double value) {
   return std::isfinite(error) && value != 0 ? fixed(100 * error / std::abs(value), 2) + " %" : "–";
 }
 
-std::string parameter_table(const DragFit& fit, const TextStyle& style) {
-  TextTable table({{"", TextTable::Align::left},
-                   {"value"},
-                   {"±", TextTable::Align::right},
-                   {"95 % interval", TextTable::Align::right},
-                   {"± if independent", TextTable::Align::right},
-                   {"", TextTable::Align::left}});
-  for (const FittedParameter& p : fit.parameters) {
-    const Estimate& e = p.estimate;
-    const bool held = p.at_bound != Bound::none;
-    table.add({p.name, parameter_number(e.value), percent_of(e.standard_error, e.value),
-               held ? "–" : parameter_number(e.lower) + " … " + parameter_number(e.upper),
-               percent_of(e.standard_error_independent, e.value),
-               held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
-  }
-  return table.text(style);
-}
-
 std::string range_sentence(const DragIdentification& result) {
   std::string out = automatic(result) ? "The moving part was chosen automatically: " : "Used: ";
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
@@ -126,44 +109,41 @@ const SteadyDrag* best_known(const std::vector<SteadyDrag>& table) {
   return best == table.end() ? nullptr : &*best;
 }
 
-std::string caveats(const DragFit& fit, const std::vector<SteadyDrag>& table) {
-  std::string out;
+std::vector<std::string> caveats(const DragFit& fit, const std::vector<SteadyDrag>& table) {
+  std::vector<std::string> out;
   for (const EntangledPair& pair : entangled_pairs(fit)) {
-    out +=
-        wrapped(fmt::format("{} and {} are hardly told apart by this flight (correlation {}): only "
-                            "together do they mean something.",
-                            fit.parameters[pair.first].name, fit.parameters[pair.second].name,
-                            fixed(pair.correlation, 3)));
+    out.push_back(fmt::format(
+        "{} and {} are hardly told apart by this flight (correlation {}): only together do they "
+        "mean something.",
+        fit.parameters[pair.first].name, fit.parameters[pair.second].name,
+        fixed(pair.correlation, 3)));
   }
   if (const SteadyDrag* best = best_known(table)) {
     const Estimate& force = best->force;
-    out += wrapped(fmt::format(
+    out.push_back(fmt::format(
         "Well determined is the drag force: {} N ± {} at {} m/s.", significant(force.value, 3),
         percent_of(force.standard_error, force.value), fmt::format("{:g}", best->airspeed)));
   }
   for (const FittedParameter& p : fit.parameters) {
     if (p.at_bound == Bound::none) continue;
-    out +=
-        wrapped(fmt::format("{} wants to leave its {} bound {}: the flight lacks what would "
-                            "determine it. The errors of the others take it as known.",
-                            p.name, bound_name(p.at_bound), parameter_number(p.estimate.value)));
+    out.push_back(
+        fmt::format("{} wants to leave its {} bound {}: the flight lacks what would determine it. "
+                    "The errors of the others take it as known.",
+                    p.name, bound_name(p.at_bound), parameter_number(p.estimate.value)));
   }
-  if (!fit.converged) out += "The fit did not converge; take these numbers as a guess.\n";
+  if (!fit.converged) {
+    out.emplace_back("The fit did not converge; take these numbers as a guess.");
+  }
   return out;
 }
 
-std::string steady_table(const std::vector<SteadyDrag>& rows, const TextStyle& style) {
-  TextTable table(
-      {{"airspeed m/s"}, {"drag N"}, {"95 % interval"}, {"tilt deg"}, {"95 % interval"}});
-  const auto interval = [](const Estimate& e, double unit, int decimals) {
-    return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
-  };
-  for (const SteadyDrag& row : rows) {
-    table.add({fmt::format("{:g}", row.airspeed), fixed(row.force.value, 3),
-               interval(row.force, 1, 3), fixed(row.tilt.value / unit::degree, 2),
-               interval(row.tilt, unit::degree, 2)});
-  }
-  return table.text(style);
+std::string residual_sentence(const FitQuality& quality) {
+  return fmt::format(
+      "Residuals: {} m/s² root mean square, {} m/s² mean absolute; R² {}. They resemble their "
+      "neighbours (lag-1 autocorrelation {}), so {} samples are worth {} independent ones.",
+      significant(quality.rmse, 3), significant(quality.mae, 3), fixed(quality.r_squared, 4),
+      fixed(quality.residual_lag1_autocorrelation, 2), quality.samples,
+      fixed(quality.effective_samples, 0));
 }
 
 }  // namespace
@@ -224,24 +204,59 @@ ordered_json drag_json(const DragIdentification& result) {
   return out;
 }
 
-std::string drag_text(const DragIdentification& result, const TextStyle& style) {
+TitledTable drag_parameter_table(const DragFit& fit) {
+  TextTable table({{"", TextTable::Align::left},
+                   {"value"},
+                   {"±", TextTable::Align::right},
+                   {"95 % interval", TextTable::Align::right},
+                   {"± if independent", TextTable::Align::right},
+                   {"", TextTable::Align::left}});
+  for (const FittedParameter& p : fit.parameters) {
+    const Estimate& e = p.estimate;
+    const bool held = p.at_bound != Bound::none;
+    table.add({p.name, parameter_number(e.value), percent_of(e.standard_error, e.value),
+               held ? "–" : parameter_number(e.lower) + " … " + parameter_number(e.upper),
+               percent_of(e.standard_error_independent, e.value),
+               held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
+  }
+  return {"Drag parameters", std::move(table)};
+}
+
+TitledTable steady_flight_table(const DragFit& fit) {
+  TextTable table(
+      {{"airspeed m/s"}, {"drag N"}, {"95 % interval"}, {"tilt deg"}, {"95 % interval"}});
+  const auto interval = [](const Estimate& e, double unit, int decimals) {
+    return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
+  };
+  for (const SteadyDrag& row : steady_drag_table(fit)) {
+    table.add({fmt::format("{:g}", row.airspeed), fixed(row.force.value, 3),
+               interval(row.force, 1, 3), fixed(row.tilt.value / unit::degree, 2),
+               interval(row.tilt, unit::degree, 2)});
+  }
+  return {"Steady flight without wind and tether", std::move(table)};
+}
+
+DragSentences drag_sentences(const DragIdentification& result) {
   const DragFit& fit = result.fit;
-  const FitQuality& quality = fit.quality;
-  const auto table = steady_drag_table(fit);
-  std::string out = style.bold("Drag from flight") + "\n";
-  out += wrapped(range_sentence(result));
-  out += wrapped(fmt::format("Taken as known: {} g, {} kg/m³, pitch offset {}°.",
+  DragSentences out;
+  out.made_of = {range_sentence(result),
+                 fmt::format("Taken as known: {} g, {} kg/m³, pitch offset {}°.",
                              significant(fit.conditions.mass / unit::gram, 4),
                              significant(fit.conditions.air_density, 4),
-                             fixed(result.options.pitch_offset / unit::degree, 3)));
-  out += "\n" + parameter_table(fit, style) + "\n" + caveats(fit, table);
-  out += wrapped(fmt::format(
-      "Residuals: {} m/s² root mean square, {} m/s² mean absolute; R² {}. They resemble their "
-      "neighbours (lag-1 autocorrelation {}), so {} samples are worth {} independent ones.",
-      significant(quality.rmse, 3), significant(quality.mae, 3), fixed(quality.r_squared, 4),
-      fixed(quality.residual_lag1_autocorrelation, 2), quality.samples,
-      fixed(quality.effective_samples, 0)));
-  return out + "\nSteady flight without wind and tether:\n" + steady_table(table, style);
+                             fixed(result.options.pitch_offset / unit::degree, 3))};
+  out.quality = caveats(fit, steady_drag_table(fit));
+  out.quality.push_back(residual_sentence(fit.quality));
+  return out;
+}
+
+std::string drag_text(const DragIdentification& result, const TextStyle& style) {
+  const DragSentences told = drag_sentences(result);
+  const TitledTable steady = steady_flight_table(result.fit);
+  std::string out = style.bold("Drag from flight") + "\n";
+  for (const std::string& sentence : told.made_of) out += wrapped(sentence);
+  out += "\n" + drag_parameter_table(result.fit).table.text(style) + "\n";
+  for (const std::string& sentence : told.quality) out += wrapped(sentence);
+  return out + "\n" + steady.title + ":\n" + steady.table.text(style);
 }
 
 std::string drag_csv(const DragIdentification& result) {
