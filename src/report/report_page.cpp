@@ -112,13 +112,12 @@ TitledTable library_table(const DesignFile& file) {
 /// The fields that the spec leaves to their defaults, of those that have one.
 TitledTable defaults_table(const DesignFile& file) {
   using Align = TextTable::Align;
-  TextTable table(
-      {{"field", Align::left}, {"value"}, {"unit", Align::left}, {"meaning", Align::left}});
+  TextTable table({{"field", Align::left}, {"value", Align::left}, {"meaning", Align::left}});
   for (const SpecField& field : spec_fields()) {
     const bool has_default = !field.required() && field.default_json != "null";
     if (!has_default || field.kind == FieldKind::text) continue;
     if (file.document.contains(ordered_json::json_pointer(std::string(field.pointer)))) continue;
-    table.add({dot_path(field.pointer), std::string(field.default_json), std::string(field.unit),
+    table.add({dot_path(field.pointer), fmt::format("{} {}", field.default_json, field.unit),
                std::string(field.help)});
   }
   return {"Fields that the spec leaves to their defaults", std::move(table)};
