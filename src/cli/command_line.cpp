@@ -328,6 +328,15 @@ class CommandLine {
         ->allow_extra_args(false);
     command.add_option("--view", plot_.view,
                        "drag: speed (default), or surface over airspeed and tilt");
+    command.add_option("--x", plot_.x, "sweep: the varied field along the horizontal axis");
+    command.add_option("--y", plot_.y, "sweep: the varied field along the vertical axis");
+    command.add_option("--value", plot_.value,
+                       "sweep: the column shown (default: forward.total_power_W)");
+    command.add_option("--flight", plot_.flight_log, "diagnosis: the flight log");
+    command.add_option("--power", plot_.power_log, "diagnosis: the power log");
+    command.add_option("--base", plot_.base, "diagnosis: effects taken as part of the base model")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     add_flight(command, plot_.flight);
   }
 

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "tethercalc/diagnose/catalogue.hpp"
@@ -19,6 +20,12 @@ namespace tethercalc::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// A diagnosis with the spec that it leads to.
+struct Told {
+  Diagnosis diagnosis;
+  ordered_json extended;
+};
 
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
@@ -62,13 +69,13 @@ ordered_json spec_of(const DesignFile& file, const Design& extended) {
   return document;
 }
 
-void add_impact(ToldDiagnosis& told, const DesignFile& file) {
+void add_impact(Told& told, const DesignFile& file) {
   if (told.extended == file.document) return;
   const DesignFile after = read_design_document(told.extended, file.file, file.folder);
   told.diagnosis.design_impact = design_impact(file.design, after.design);
 }
 
-ToldDiagnosis diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file) {
+Told diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file) {
   Design flown = file.design;
   if (options.flight.mass_g) flown.drone.mass = *options.flight.mass_g * unit::gram;
   if (const auto density = air_density(options.flight)) flown.flight.air_density = *density;
@@ -80,7 +87,7 @@ ToldDiagnosis diagnose_flight_log(const DiagnoseOptions& options, const DesignFi
     const auto from = log_position("--from", options.flight.from);
     const auto to = log_position("--to", options.flight.to);
     if (from || to) how.range = select_range(reading.log, from, to);
-    ToldDiagnosis told{diagnose_flight(flown, reading.log, how, progress_line()), {}};
+    Told told{diagnose_flight(flown, reading.log, how, progress_line()), {}};
     clear_progress();
     told.diagnosis.notes.insert(told.diagnosis.notes.begin(), reading.notes.begin(),
                                 reading.notes.end());
@@ -92,7 +99,7 @@ ToldDiagnosis diagnose_flight_log(const DiagnoseOptions& options, const DesignFi
   }
 }
 
-ToldDiagnosis diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) {
+Told diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) {
   const PowerLog log = read_power_log(options.power_log);
   try {
     PowerDiagnosis found = diagnose_power(file.design, log, options.base, progress_line());
@@ -104,7 +111,15 @@ ToldDiagnosis diagnose_power_log(const DiagnoseOptions& options, const DesignFil
   }
 }
 
-std::string answer_text(const ToldDiagnosis& told, const Output& output) {
+Told tell(const DiagnoseOptions& options, const DesignFile& file) {
+  if (options.flight_log.empty() == options.power_log.empty()) {
+    throw InputError("diagnose", "needs one measured log: --flight LOG or --power LOG");
+  }
+  return options.power_log.empty() ? diagnose_flight_log(options, file)
+                                   : diagnose_power_log(options, file);
+}
+
+std::string answer_text(const Told& told, const Output& output) {
   switch (output.format) {
     case Format::json:
       return json_text(diagnosis_json(told.diagnosis, told.extended));
@@ -117,19 +132,20 @@ std::string answer_text(const ToldDiagnosis& told, const Output& output) {
 
 }  // namespace
 
-ToldDiagnosis diagnose_log(const DiagnoseOptions& options, const DesignFile& file) {
-  ToldDiagnosis told = options.power_log.empty() ? diagnose_flight_log(options, file)
-                                                 : diagnose_power_log(options, file);
+Diagnosis diagnose(const DiagnoseOptions& options) {
+  return tell(options, read_design(options.spec.file, options.spec.overrides)).diagnosis;
+}
+
+Diagnosis diagnose_with_impact(const DiagnoseOptions& options, const DesignFile& file) {
+  Told told = tell(options, file);
   add_impact(told, file);
-  return told;
+  return std::move(told.diagnosis);
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
-  if (options.flight_log.empty() == options.power_log.empty()) {
-    throw InputError("diagnose", "needs one measured log: --flight LOG or --power LOG");
-  }
   const DesignFile file = read_design(options.spec.file, options.spec.overrides);
-  const ToldDiagnosis told = diagnose_log(options, file);
+  Told told = tell(options, file);
+  add_impact(told, file);
   emit(output, options.into ? json_text(told.extended) : answer_text(told, output));
   return done;
 }

@@ -1,9 +1,7 @@
 // The command that tells what the simulation of a measured flight gets wrong.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "cli/design_commands.hpp"
 #include "cli/flight_options.hpp"
@@ -22,15 +20,12 @@ struct DiagnoseOptions {
   bool into = false;  ///< print the extended spec instead of the diagnosis
 };
 
-/// A diagnosis with the spec that it leads to.
-struct ToldDiagnosis {
-  Diagnosis diagnosis;
-  nlohmann::ordered_json extended;
-};
+/// The diagnosis alone, without its impact on the design. Throws InputError for bad input.
+[[nodiscard]] Diagnosis diagnose(const DiagnoseOptions& options);
 
-/// Diagnoses the one log that `options` name, and says what that does to the design. Throws
-/// InputError where the log is not fit for it.
-[[nodiscard]] ToldDiagnosis diagnose_log(const DiagnoseOptions& options, const DesignFile& file);
+/// The diagnosis with its impact on the design, whose spec has been read already.
+[[nodiscard]] Diagnosis diagnose_with_impact(const DiagnoseOptions& options,
+                                             const DesignFile& file);
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
 

@@ -9,12 +9,16 @@
 #include <filesystem>
 #include <string_view>
 
+#include "cli/diagnose_command.hpp"
 #include "cli/log_commands.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -71,6 +75,28 @@ Figure drag(const PlotOptions& options) {
   }
 }
 
+Figure diagnosis(const PlotOptions& options) {
+  DiagnoseOptions how;
+  how.spec = {options.files.front(), options.overrides};
+  how.flight_log = options.flight_log;
+  how.power_log = options.power_log;
+  how.base = options.base;
+  how.flight = options.flight;
+  const std::string& log = options.power_log.empty() ? options.flight_log : options.power_log;
+  const Diagnosis found = diagnose(how);
+  try {
+    return diagnosis_figure(base_name(log), found);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(log, error.what());
+  }
+}
+
+Figure sweep(const PlotOptions& options) {
+  const std::string& file = options.files.front();
+  const MappedFile content(file == "-" ? "/dev/stdin" : file);
+  return sweep_figure(parse_sweep_csv(content.text(), file, options.value), {options.x, options.y});
+}
+
 struct Kind {
   std::string_view name;
   std::string_view input;  ///< what FILE is
@@ -85,6 +111,9 @@ constexpr std::array kinds{
          motors},
     Kind{"log", "LOG", "accelerations, drag and speed over time", log},
     Kind{"drag", "LOG...", "measured and fitted drag over airspeed", drag, true},
+    Kind{"diagnosis", "SPEC", "what a log (--flight, --power) shows of the simulation's errors",
+         diagnosis},
+    Kind{"sweep", "CSV", "a heat map or curves from what sweep wrote", sweep},
 };
 
 const Kind& find_kind(const std::string& name) {

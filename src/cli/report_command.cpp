@@ -35,7 +35,7 @@ LogDiagnosis diagnose_one(DiagnoseOptions options, const DesignFile& file,
                           std::string DiagnoseOptions::*left_out) {
   (options.*left_out).clear();
   const std::string& log = options.flight_log.empty() ? options.power_log : options.flight_log;
-  return {base_name(log), diagnose_log(options, file).diagnosis};
+  return {base_name(log), diagnose_with_impact(options, file)};
 }
 
 std::string shell_word(std::string_view word) {

@@ -50,6 +50,7 @@ std::vector<Effect> flight_effects() {
        .to_separate = "fly quick reversals of pitch at low speed, where drag is small and only the "
                       "timing of the thrust matters",
        .change = "θ(t) → θ(t + τ)",
+       .channel = "tilt_rate",
        .flight_phase = FlightPhase::attitude,
        .on_flight = [](FlightPrediction& p, Values x) {
          if (x[0] != 0) shift_tilt(p, x[0]);
@@ -70,6 +71,7 @@ std::vector<Effect> flight_effects() {
            "hover through all headings in still air: the mean pitch is the offset, a wind "
            "averages out",
        .change = "θ → θ + trim (pitch positive nose-up, θ positive leaning forward)",
+       .channel = "tilt",
        .flight_phase = FlightPhase::attitude,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (double& tilt : p.tilt) tilt += x[0];
@@ -90,6 +92,7 @@ std::vector<Effect> flight_effects() {
        .to_separate = "fly at speeds from a walk to the fastest, so that linear and quadratic drag "
                       "part",
        .change = "F_D: u|u| → u|u| + j·u",
+       .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
        .on_flight = [](FlightPrediction& p, Values x) { p.linear_speed += x[0]; }});
 
@@ -103,6 +106,7 @@ std::vector<Effect> flight_effects() {
        .to_separate = "fly the same passes at the opposite heading: a wind changes its sign, what "
                       "belongs to the drone does not",
        .change = "u = v − w",
+       .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (double& headwind : p.headwind) headwind += x[0];
@@ -118,6 +122,7 @@ std::vector<Effect> flight_effects() {
             {.name = "wind_east_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "fly passes at four headings, a quarter turn apart",
        .change = "u = v − (w_N cos ψ + w_E sin ψ), ψ the yaw",
+       .channel = "yaw",
        .replaces = "wind",
        .flight_phase = FlightPhase::air,
        .on_flight = [](FlightPrediction& p, Values x) {
@@ -138,6 +143,7 @@ std::vector<Effect> flight_effects() {
            {{.name = "wind_drift_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "repeat the first passes at the end of the flight",
        .change = "w → w + d·(t − t_middle)/duration: d is the change over the whole flight",
+       .channel = "time",
        .flight_phase = FlightPhase::air,
        .on_flight = [](FlightPrediction& p, Values x) {
          const double rate = p.record.duration > 0 ? x[0] / p.record.duration : 0;
@@ -161,6 +167,7 @@ std::vector<Effect> flight_effects() {
            "fly the same passes at the opposite heading, and slow ones as well as fast "
            "ones: a wind changes its sign, an offset of the pitch does not grow with speed",
        .change = "F_D → F_D·(1 + a·sign u)",
+       .channel = "forward_speed",
        .flight_phase = FlightPhase::force,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.drag.size(); ++i) {
@@ -177,6 +184,7 @@ std::vector<Effect> flight_effects() {
            {{.name = "propwash", .unit = "N·s/(m·rad)", .lower = -5, .upper = 5, .scale = 0.1}},
        .to_separate = "brake at the same speed with different tilts",
        .change = "F_D → F_D − k·u·|θ| while u·θ < 0",
+       .channel = "braking",
        .flight_phase = FlightPhase::force,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.drag.size(); ++i) {
@@ -198,6 +206,7 @@ std::vector<Effect> flight_effects() {
        .needs = {"vd_m_s"},
        .to_separate = "climb and sink at constant forward speed",
        .change = "F_D → F_D + c·u·v_D",
+       .channel = "sinking",
        .flight_phase = FlightPhase::force,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.drag.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_structure.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/diagnose/flight_prediction.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
 
@@ -263,6 +264,9 @@ class Report {
   [[nodiscard]] ErrorBudget budget() const;
   [[nodiscard]] double speed_rmse(const ModelFit& fit, double window) const;
   [[nodiscard]] double effective_samples() const;
+  [[nodiscard]] std::vector<double> left_by(std::span<const double> values) const;
+  [[nodiscard]] ComparedSeries compared() const;
+  [[nodiscard]] FindingTrace trace(const SelectedGroup& selected) const;
 
   const FlightData& data_;
   const FlightGroups& groups_;
@@ -430,12 +434,51 @@ double Report::effective_samples() const {
   return effective_sample_size(residuals);
 }
 
+/// Measured less predicted; NaN in samples that are left out.
+std::vector<double> Report::left_by(std::span<const double> values) const {
+  std::vector<double> left(problem_.measured.size());
+  problem_.predict(values, left);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    left[i] = data_.block[i] < 0 ? std::numeric_limits<double>::quiet_NaN()
+                                 : problem_.measured[i] - left[i];
+  }
+  return left;
+}
+
+ComparedSeries Report::compared() const {
+  ComparedSeries series;
+  series.time = data_.record.time;
+  series.measured = problem_.measured;
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    const double used =
+        data_.block[i] < 0 ? std::numeric_limits<double>::quiet_NaN() : problem_.measured[i];
+    series.before.push_back(used - selection_.base.holdout_residual[i]);
+    series.after.push_back(used - selection_.extended.holdout_residual[i]);
+  }
+  series.stage = to_string(Stage::airframe);
+  return series;
+}
+
+FindingTrace Report::trace(const SelectedGroup& selected) const {
+  FindingTrace trace;
+  trace.channel = flight_channel(groups_.effects[selected.group]->channel, data_.record);
+  std::vector<double> values = selection_.complete.values;
+  trace.with = left_by(values);
+  const auto& parameters = groups_.groups[selected.group].parameters;
+  const std::size_t first = first_parameter(selected.group);
+  for (std::size_t k = 0; k < parameters.size(); ++k) values[first + k] = parameters[k].neutral;
+  trace.without = left_by(values);
+  return trace;
+}
+
 Diagnosis Report::write(const FlightDiagnosisOptions& options) const {
   Diagnosis d;
   d.samples = selection_.rows;
   d.effective_samples = effective_samples();
   d.base = {selection_.base.holdout_rmse, parameters(selection_.base)};
   for (const SelectedGroup& selected : selection_.selected) d.findings.push_back(finding(selected));
+  d.compared.push_back(compared());
+  for (const SelectedGroup& selected : selection_.selected) d.traces.push_back(trace(selected));
   d.not_identifiable = not_identifiable();
   d.unexplained = unexplained();
   d.extended = {selection_.extended.holdout_rmse, parameters(selection_.complete)};
@@ -518,6 +561,10 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
   d.kind = "flight";
   d.unit = "m/s²";
   d.quantity = "forward acceleration";
+  for (ComparedSeries& series : d.compared) {
+    series.quantity = d.quantity;
+    series.unit = d.unit;
+  }
   d.notes.insert(d.notes.begin(), data.faults.notes.begin(), data.faults.notes.end());
   if (data.faults.level_assumed) d.notes.push_back("the roll never moves; it is taken as logged");
   return d;

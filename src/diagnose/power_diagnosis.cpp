@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include "diagnose/power_effects.hpp"
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
+#include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/diagnose/power_residuals.hpp"
 
 namespace tethercalc {
@@ -238,27 +240,84 @@ std::vector<ParameterEstimate> estimates(const Effect& effect, std::size_t first
   return result;
 }
 
-/// Root mean square of a stage's held-out residuals in its own unit, its noise's memory included.
-double stage_rmse(const PowerResiduals& residuals, std::size_t k, const ModelFit& fit,
-                  const std::function<PowerModel(std::span<const double>)>& model) {
+using ModelOf = std::function<PowerModel(std::span<const double>)>;
+
+/// Held-out residuals of a stage over its noise: every sample's by the fit without its block. NaN
+/// in samples that are left out.
+std::vector<double> held_out(const PowerResiduals& residuals, std::size_t k, const ModelFit& fit,
+                             const ModelOf& model) {
   const std::size_t n = residuals.samples();
   const PowerStage& stage = residuals.stages()[k];
+  std::vector<double> all(n, std::numeric_limits<double>::quiet_NaN());
   std::vector<double> r(n);
-  double sum = 0;
-  std::size_t count = 0;
   for (std::size_t b = 0; b < fit.without_block.size(); ++b) {
     residuals.standardised(k, model(fit.without_block[b]), r);
     for (std::size_t i = 0; i < n; ++i) {
-      if (!stage.usable[i] || block_at(residuals.log(), i) != static_cast<int>(b) ||
-          !std::isfinite(r[i])) {
-        continue;
+      if (stage.usable[i] && block_at(residuals.log(), i) == static_cast<int>(b) &&
+          std::isfinite(r[i])) {
+        all[i] = r[i];
       }
-      sum += r[i] * r[i];
-      ++count;
     }
+  }
+  return all;
+}
+
+/// Root mean square of held-out residuals in the stage's own unit, its noise's memory included.
+double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double r : held_out) {
+    if (!std::isfinite(r)) continue;
+    sum += r * r;
+    ++count;
   }
   const double percent = stage.stage == Stage::motors ? 100 : 1;
   return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
+}
+
+/// What the stage compares, as its instruments show it.
+std::vector<double> measured_in(const PowerStage& stage, const PowerLog& log) {
+  std::vector<double> out(log.time.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    switch (stage.stage) {
+      case Stage::tether:
+        out[i] = log.supply_voltage[i] - log.drone_voltage[i];
+        break;
+      case Stage::converter:
+        out[i] = log.drone_voltage[i] * log.supply_current[i];
+        break;
+      default:
+        out[i] = log.bus_voltage[i] * log.bus_current[i];
+    }
+  }
+  return out;
+}
+
+/// What the model predicts where the residual over the noise is `standardised`. The motors'
+/// residual is one of logarithms.
+std::vector<double> predicted_in(const PowerStage& stage, const std::vector<double>& measured,
+                                 std::span<const double> standardised) {
+  std::vector<double> out(measured);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double residual = stage.noise * standardised[i];
+    out[i] =
+        stage.stage == Stage::motors ? measured[i] * std::exp(-residual) : measured[i] - residual;
+  }
+  return out;
+}
+
+/// Measured less predicted by `model`, NaN in samples that are left out.
+std::vector<double> left_by(const PowerResiduals& residuals, std::size_t k,
+                            const PowerModel& model) {
+  const PowerStage& stage = residuals.stages()[k];
+  std::vector<double> r(residuals.samples());
+  residuals.standardised(k, model, r);
+  const std::vector<double> measured = measured_in(stage, residuals.log());
+  std::vector<double> left = predicted_in(stage, measured, r);
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    left[i] = stage.usable[i] ? measured[i] - left[i] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return left;
 }
 
 /// Parts of the base model's held-out squared error.
@@ -428,9 +487,29 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   }
   for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
     const PowerStage& stage = residuals.stages()[k];
-    diagnosis.further.push_back({stage.quantity, stage.unit,
-                                 stage_rmse(residuals, k, selection.base, model),
-                                 stage_rmse(residuals, k, selection.extended, model)});
+    const std::vector<double> before = held_out(residuals, k, selection.base, model);
+    const std::vector<double> after = held_out(residuals, k, selection.extended, model);
+    diagnosis.further.push_back(
+        {stage.quantity, stage.unit, stage_rmse(stage, before), stage_rmse(stage, after)});
+    const std::vector<double> measured = measured_in(stage, residuals.log());
+    diagnosis.compared.push_back({stage.quantity, stage.stage == Stage::tether ? "V" : "W",
+                                  std::string(to_string(stage.stage)), residuals.log().time,
+                                  measured, predicted_in(stage, measured, before),
+                                  predicted_in(stage, measured, after)});
+  }
+  for (const SelectedGroup& found : selection.selected) {
+    const Effect& effect = *effects[found.group];
+    FindingTrace trace;
+    while (!acts_on(effect, residuals.stages()[trace.series].stage)) ++trace.series;
+    trace.channel = power_channel(effect.channel, residuals.log());
+    std::vector<double> values = selection.complete.values;
+    trace.with = left_by(residuals, trace.series, model(values));
+    const std::vector<ModelParameter>& own = problem.groups[found.group].parameters;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      values[view.first_parameter(found.group) + k] = own[k].neutral;
+    }
+    trace.without = left_by(residuals, trace.series, model(values));
+    diagnosis.traces.push_back(std::move(trace));
   }
   result.extended =
       lasting_design(model(selection.extended.values), flown_range(residuals.log(), design));

@@ -33,6 +33,7 @@ Effect conductor_resistivity() {
   e.needs = {"drone_voltage_V"};
   e.to_separate = to_separate_tether;
   e.change = "R = f·2hρ/A";
+  e.channel = "current_height";
   e.on_power = [](PowerModel& m, Values x) { m.design.tether.conductor.resistivity_20C *= x[0]; };
   return e;
 }
@@ -53,6 +54,7 @@ Effect conductor_heating() {
       "Hover at one height for ten minutes from a cold start: heating shows as a drift of the "
       "resistance, everything else does not.";
   e.change = "R = 2hρ(T)/A, τ·dT/dt = T_ambient + k·I²R′/(1 + c·√v) − T";
+  e.channel = "time";
   e.on_power = [](PowerModel& m, Values x) {
     if (x[0] > 0) m.heating = ConductorHeating{x[0], x[1], x[2]};
   };
@@ -70,6 +72,7 @@ Effect contact_resistance() {
   e.needs = {"drone_voltage_V"};
   e.to_separate = to_separate_tether;
   e.change = "R = 2hρ/A + R_c";
+  e.channel = "supply_current";
   e.on_power = [](PowerModel& m, Values x) { m.design.tether.contact_resistance += x[0]; };
   return e;
 }
@@ -86,6 +89,7 @@ Effect spooled_length() {
   e.needs = {"drone_voltage_V"};
   e.to_separate = to_separate_tether;
   e.change = "R = 2(L + s)ρ/A at every height, L the design length";
+  e.channel = "supply_current";
   e.on_power = [](PowerModel& m, Values x) { m.design.tether.spooled_length += x[0]; };
   return e;
 }
@@ -103,6 +107,7 @@ Effect converter_efficiency_curve() {
   e.needs = {"drone_voltage_V", "bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_converter;
   e.change = "P_in = P_out + P_0 + c·P_out²";
+  e.channel = "bus_power";
   e.on_power = [](PowerModel& m, Values x) {
     if (x[0] > 0 || x[1] > 0) m.converter_losses = ConverterLosses{x[0], x[1]};
   };
@@ -121,6 +126,7 @@ Effect auxiliary_power() {
   e.needs = {"drone_voltage_V", "bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_converter;
   e.change = "P_aux + ΔP";
+  e.channel = "bus_power";
   e.on_power = [](PowerModel& m, Values x) { m.design.drone.auxiliary_power += x[0]; };
   return e;
 }
@@ -135,6 +141,7 @@ Effect extra_mass() {
   e.needs = {"bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_motors;
   e.change = "m_d + Δm";
+  e.channel = "height";
   e.on_power = [](PowerModel& m, Values x) { m.design.drone.mass += x[0]; };
   return e;
 }
@@ -150,6 +157,7 @@ Effect motor_power_scale() {
   e.needs = {"bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_motors;
   e.change = "f·P_motor(T)";
+  e.channel = "height";
   e.on_power = [](PowerModel& m, Values x) { m.design.drone.motor_power_factor *= x[0]; };
   return e;
 }
@@ -169,6 +177,7 @@ Effect translational_lift() {
   e.needs = {"bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_airspeed;
   e.change = "P·(1 − s·(1 − ν(v/v_h))), ν√((v/v_h)² + ν²) = 1";
+  e.channel = "airspeed";
   e.on_power = [](PowerModel& m, Values x) { m.design.drone.translational_lift = {x[0], x[1]}; };
   return e;
 }
@@ -186,6 +195,7 @@ Effect tether_drag() {
   e.needs = {"bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_airspeed;
   e.change = "f·C";
+  e.channel = "airspeed";
   e.on_power = [](PowerModel& m, Values x) { m.design.tether.drag_coefficient *= x[0]; };
   return e;
 }
@@ -202,6 +212,7 @@ Effect airframe_drag() {
   e.needs = {"bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_airspeed;
   e.change = "f·A_f, f·A_t";
+  e.channel = "airspeed";
   e.on_power = [](PowerModel& m, Values x) {
     m.design.drone.drag.front_area *= x[0];
     m.design.drone.drag.top_area *= x[0];
@@ -221,6 +232,7 @@ Effect current_sensor_gain() {
   e.needs = {"drone_voltage_V", "bus_voltage_V", "bus_current_A"};
   e.to_separate = "Compare the ammeter with another one.";
   e.change = "I = I_read/g";
+  e.channel = "supply_current";
   e.on_power = [](PowerModel& m, Values x) { m.supply_current_gain *= x[0]; };
   return e;
 }

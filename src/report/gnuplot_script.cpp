@@ -92,11 +92,30 @@ std::string Layout::panel(double top, double bottom) const {
       left_, 1 - right_, height(top), height(bottom));
 }
 
+Layout Layout::column(bool second) const {
+  constexpr double gap = 0.08;  // of the width
+  const double width = (1 - left_ - right_ - gap) / 2;
+  Layout out = *this;
+  if (second) {
+    out.left_ = left_ + width + gap;
+    out.edge_ = out.left_;
+  } else {
+    out.right_ = right_ + width + gap;
+    out.edge_ = left_;
+  }
+  return out;
+}
+
+std::string Layout::title(double at, const std::string& words) const {
+  return fmt::format("set label 104 {} at screen 0.01,{:.4f} left\n", gnuplot_text(words, 54),
+                     height(at));
+}
+
 std::string Layout::above(double at, const std::string& left, const std::string& right) const {
   return fmt::format(
-      "set label 100 {} at screen 0.01,{:.4f} left\nset label 101 {} at screen {:.4f},{:.4f} "
+      "set label 100 {} at screen {:.4f},{:.4f} left\nset label 101 {} at screen {:.4f},{:.4f} "
       "right\n",
-      gnuplot_text(left), height(at), gnuplot_text(right), 1 - right_, height(at));
+      gnuplot_text(left), edge_, height(at), gnuplot_text(right), 1 - right_, height(at));
 }
 
 std::string Layout::below(double at, const std::string& words) const {
@@ -149,6 +168,12 @@ std::string Layout::legend(double top, std::size_t columns,
     }
   }
   return out + "}\n";
+}
+
+std::string Layout::colour_box(double top, double bottom) const {
+  return fmt::format(
+      "set colorbox horizontal user origin screen {:.4f},{:.4f} size screen {:.4f},{:.4f} border\n",
+      left_, height(bottom), 1 - left_ - right_, height(top) - height(bottom));
 }
 
 std::string Layout::heading(const std::string& words) const {
@@ -207,6 +232,16 @@ Range extent(std::span<const double> values) {
     }
   }
   return range.lo > range.hi ? Range{} : range;
+}
+
+std::string set_tics(std::string_view axis, Range range, int most) {
+  const double least = (range.hi - range.lo) / most;
+  const double power = std::pow(10, std::floor(std::log10(least)));
+  double step = 10 * power;
+  for (const double digit : {5.0, 2.0, 1.0}) {
+    if (digit * power >= least) step = digit * power;
+  }
+  return fmt::format("set {}tics {}\n", axis, number(step));
 }
 
 std::string set_range(std::string_view axis, Range range) {

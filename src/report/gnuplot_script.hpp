@@ -98,6 +98,13 @@ class Layout {
   /// an earlier one remains.
   [[nodiscard]] std::string panel(double top, double bottom) const;
 
+  /// The layout of one of two columns of equal plots, `second` or not, that share a vertical axis:
+  /// its numbers stand left of the first only.
+  [[nodiscard]] Layout column(bool second) const;
+
+  /// A line of text from the left edge of the picture on.
+  [[nodiscard]] std::string title(double at, const std::string& words) const;
+
   /// Texts along the edges of the plot: at the left end of line `at` what its vertical axis shows,
   /// which needs no rotated letters so, and at the right end what its upper axis shows.
   [[nodiscard]] std::string above(double at, const std::string& left,
@@ -111,6 +118,9 @@ class Layout {
   [[nodiscard]] std::string legend(double top, std::size_t columns,
                                    std::span<const LegendEntry> entries) const;
 
+  /// The scale of colours from line `top` to line `bottom`, as wide as the plot, its numbers below.
+  [[nodiscard]] std::string colour_box(double top, double bottom) const;
+
   /// A line of text in the middle of the picture's first line.
   [[nodiscard]] std::string heading(const std::string& words) const;
 
@@ -120,6 +130,7 @@ class Layout {
   int lines_;
   double left_;
   double right_;
+  double edge_ = 0.01;  ///< where texts above a plot begin
 };
 
 /// A range that leaves `margin` of its length free on both sides of [lo, hi]; where that is empty,
@@ -145,6 +156,9 @@ struct Series {
 
 /// The least and greatest finite value; {0, 1} where there is none.
 [[nodiscard]] Range extent(std::span<const double> values);
+
+/// "set xtics step" with a round step that makes at most `most` of them on [lo, hi].
+[[nodiscard]] std::string set_tics(std::string_view axis, Range range, int most);
 
 /// "set xrange [lo:hi]" of `axis` ("x", "y", "x2" …), with its newline.
 [[nodiscard]] std::string set_range(std::string_view axis, Range range);

@@ -11,6 +11,7 @@
 #include "report/html.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 
@@ -86,6 +87,11 @@ Section drag_section(const LearnedDrag& drag) {
 Section diagnosis_section(const LogDiagnosis& log) {
   const std::string id = log.diagnosis.kind + "-diagnosis";
   std::string body;
+  if (!log.diagnosis.compared.empty()) {  // the log was long enough to judge by
+    Figure figure = diagnosis_figure(log.log, log.diagnosis);
+    figure.id = id + "-figure";  // a page may hold two
+    body += html::picture(figure);
+  }
   int tables = 0;
   for (const StoryPart& part : diagnosis_story(log.diagnosis)) {
     if (const auto* heading = std::get_if<StoryHeading>(&part)) {

@@ -51,6 +51,7 @@ struct Effect {
                                      ///< in the log
   std::string to_separate{};         ///< what flight or channel tells it from its like
   std::string change{};              ///< the change of the prediction as a formula
+  std::string channel{};             ///< where it shows, an id as in `diagnose/channels.hpp`
 
   std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 

@@ -95,6 +95,34 @@ struct SpecChange {
   double value = 0;   ///< in the unit of the field's name
 };
 
+/// One quantity that was compared, sample by sample, as the instruments show it. Predictions are
+/// held out: each sample's comes from fits without its block. NaN where a sample was left out.
+struct ComparedSeries {
+  std::string quantity;          ///< in words: "forward acceleration"
+  std::string unit;              ///< of the values
+  std::string stage;             ///< as in `Finding::stage`
+  std::vector<double> time;      ///< s, the log's clock
+  std::vector<double> measured;  ///< what was read
+  std::vector<double> before;    ///< predicted by the base model
+  std::vector<double> after;     ///< predicted with the findings
+};
+
+/// A channel of a log, or what two of them make together.
+struct Channel {
+  std::string name;            ///< in words: "forward speed"
+  std::string unit;            ///< of the values
+  std::vector<double> values;  ///< one a sample
+};
+
+/// Where a finding shows: what is left of the measurement, in the unit of the compared series, if
+/// only this finding is taken out of the final fit, and with it in.
+struct FindingTrace {
+  std::size_t series = 0;       ///< into `Diagnosis::compared`, the first that the finding acts on
+  Channel channel;              ///< that the effect acts through, see `Effect::channel`
+  std::vector<double> without;  ///< measured less predicted, NaN where a sample was left out
+  std::vector<double> with;     ///< likewise
+};
+
 /// All that is said of one log.
 struct Diagnosis {
   std::string kind;                               ///< "flight" or "power"
@@ -113,6 +141,8 @@ struct Diagnosis {
   std::vector<HoldoutComparison> further;         ///< quantities that decide nothing
   std::vector<std::string> notes;  ///< what was done to the log: samples left out and why
   std::optional<DesignImpact> design_impact;  ///< where it was asked for
+  std::vector<ComparedSeries> compared;       ///< for pictures: one a stage of the chain
+  std::vector<FindingTrace> traces;           ///< for pictures: one a finding
 };
 
 }  // namespace tethercalc

@@ -12,8 +12,8 @@ namespace tethercalc {
 /// and every number comes from the result that the figure is made of; one that does not exist is a
 /// gap in its curve.
 struct Figure {
-  std::string id;     ///< letters and digits: "optimum"; begins the ids within its SVG
-  std::string title;  ///< one line
+  std::string id;           ///< letters and digits: "optimum"; begins the ids within its SVG
+  std::string title;        ///< one line
   std::string description;  ///< what it shows with its main numbers, for those who cannot see it
   int lines = 24;           ///< height in lines of text at one column's width (85 mm); the picture
                             ///< keeps its proportions at other widths

@@ -1,0 +1,339 @@
+#include "tethercalc/report/sweep_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "io/closest_name.hpp"
+#include "report/gnuplot_script.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/report/text_table.hpp"
+
+namespace tethercalc {
+namespace {
+
+namespace gp = gnuplot;
+namespace colour = gnuplot::colour;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_curves = 7;
+constexpr std::size_t most_cells = 40000;
+
+/// Viridis of matplotlib (van der Walt and Smith 2015, public domain): evenly rising lightness,
+/// read alike with every kind of colour vision and in print without colour.
+constexpr const char* palette =
+    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', "
+    "5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725') maxcolors 64\n";
+
+std::vector<const SweepColumn*> varying(const SweepTable& table) {
+  std::vector<const SweepColumn*> out;
+  for (const SweepColumn& column : table.varied) {
+    if (column.distinct().size() > 1) out.push_back(&column);
+  }
+  if (out.empty()) {
+    throw InputError(table.file, "has nothing to draw over: no field has two values");
+  }
+  // Numbers first, so that they become the axes.
+  std::stable_partition(out.begin(), out.end(),
+                        [](const SweepColumn* column) { return column->names.empty(); });
+  return out;
+}
+
+const SweepColumn* wanted(const SweepTable& table, const std::string& option,
+                          const std::string& path) {
+  std::vector<std::string> names;
+  for (const SweepColumn& column : table.varied) {
+    if (column.path == path) return &column;
+    names.push_back(column.path);
+  }
+  throw InputError(option, fmt::format("\"{}\" is no field that {} varies{}", path, table.file,
+                                       did_you_mean(path, names)));
+}
+
+/// The fields along the axes; `y` is null where the value itself stands there.
+struct Axes {
+  const SweepColumn* x = nullptr;
+  const SweepColumn* y = nullptr;
+};
+
+Axes axes_of(const SweepTable& table, const SweepView& view) {
+  const std::vector<const SweepColumn*> columns = varying(table);
+  Axes axes;
+  if (!view.x.empty()) axes.x = wanted(table, "--x", view.x);
+  if (!view.y.empty()) axes.y = wanted(table, "--y", view.y);
+  if (axes.x != nullptr && axes.x == axes.y) {
+    throw InputError("--y", fmt::format("\"{}\" stands along the other axis already", view.y));
+  }
+  for (const SweepColumn* column : columns) {
+    if (column == axes.x || column == axes.y) continue;
+    if (axes.x == nullptr) {
+      axes.x = column;
+    } else if (axes.y == nullptr) {
+      axes.y = column;
+    }
+  }
+  if (axes.x == nullptr) throw InputError("--y", "takes the only field that varies; use --x");
+  return axes;
+}
+
+/// "least over supply.voltage_V": the fields that stand on no axis.
+std::string others_words(const SweepTable& table, const Axes& axes) {
+  std::string out;
+  for (const SweepColumn* column : varying(table)) {
+    if (column == axes.x || column == axes.y) continue;
+    out += (out.empty() ? "least over " : ", ") + column->path;
+  }
+  return out;
+}
+
+/// The least value at every place.
+struct Cell {
+  double x = 0;
+  double y = 0;
+  double value = nan;
+};
+
+std::vector<Cell> cells_of(const SweepTable& table, const Axes& axes) {
+  std::map<std::pair<double, double>, double> least;  // by y, then x
+  for (std::size_t i = 0; i < table.value.size(); ++i) {
+    const double y = axes.y == nullptr ? 0 : axes.y->values[i];
+    double& value = least.emplace(std::pair{y, axes.x->values[i]}, nan).first->second;
+    value = std::fmin(value, table.value[i]);  // of a number and NaN, the number
+  }
+  std::vector<Cell> out;
+  for (const auto& [place, value] : least) out.push_back({place.second, place.first, value});
+  return out;
+}
+
+std::vector<double> column_of(const std::vector<Cell>& cells, double Cell::*member) {
+  std::vector<double> out;
+  for (const Cell& cell : cells) out.push_back(cell.*member);
+  return out;
+}
+
+const Cell* least_of(const std::vector<Cell>& cells) {
+  const Cell* least = nullptr;
+  for (const Cell& cell : cells) {
+    if (std::isfinite(cell.value) && (least == nullptr || cell.value < least->value)) least = &cell;
+  }
+  return least;
+}
+
+/// A value of a field for people; a name's number on the axis counts from 1.
+std::string value_words(const SweepColumn& column, double value) {
+  return column.names.empty() ? fmt::format("{:.4g}", value) : column.names[std::size_t(value)];
+}
+
+std::string least_words(const Axes& axes, const Cell& least) {
+  std::string out = significant(least.value, 4) + " at " + value_words(*axes.x, least.x);
+  if (axes.y != nullptr) out += ", " + value_words(*axes.y, least.y);
+  return out;
+}
+
+/// The edges of every value's cell along an axis: halfway to its neighbours.
+struct Edges {
+  std::vector<double> values;
+  std::vector<double> edges;  ///< one more
+
+  explicit Edges(const SweepColumn& column) : values(column.distinct()) {
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+      edges.push_back((values[i] + values[i + 1]) / 2);
+    }
+    const double first = values.size() > 1 ? values[1] - values[0] : 1;
+    const double last = values.size() > 1 ? values.back() - values[values.size() - 2] : 1;
+    edges.insert(edges.begin(), values.front() - first / 2);
+    edges.push_back(values.back() + last / 2);
+  }
+
+  [[nodiscard]] gp::Range range() const { return {edges.front(), edges.back()}; }
+  [[nodiscard]] std::size_t index(double value) const {
+    return std::size_t(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+  }
+};
+
+/// Ticks at names, numbered from 1; numbers get gnuplot's own.
+std::string tics(std::string_view axis, const SweepColumn& column) {
+  if (column.names.empty()) return fmt::format("set {}tics autofreq\n", axis);
+  std::string list;
+  for (std::size_t i = 0; i < column.names.size(); ++i) {
+    list += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", i + 1, i);
+  }
+  return fmt::format("set {}tics ({})\n", axis, list);
+}
+
+/// What the numbers along axes of names stand for.
+std::vector<gp::LegendEntry> names_of(const Axes& axes) {
+  std::vector<gp::LegendEntry> out;
+  for (const SweepColumn* column : {axes.x, axes.y}) {
+    if (column == nullptr || column->names.empty()) continue;
+    for (std::size_t i = 0; i < column->names.size(); ++i) {
+      out.push_back({gp::LegendEntry::Sample::none, "",
+                     fmt::format("{} {}: {}", axis_label(column->path), i + 1, column->names[i])});
+    }
+  }
+  return out;
+}
+
+std::string subtitle(const SweepTable& table, const Axes& axes) {
+  const std::string others = others_words(table, axes);
+  return axis_label(table.value_column) + (others.empty() ? "" : ", " + others);
+}
+
+std::string description_of(const SweepTable& table, const Axes& axes,
+                           const std::vector<Cell>& cells) {
+  std::string out =
+      fmt::format("{} over {}", axis_label(table.value_column), axis_label(axes.x->path));
+  if (axes.y != nullptr) out += fmt::format(" and {}", axis_label(axes.y->path));
+  const std::string others = others_words(table, axes);
+  if (!others.empty()) out += ", " + others;
+  out += fmt::format(", from {} rows", table.value.size());
+  if (const Cell* least = least_of(cells)) {
+    out += fmt::format("; least {}", least_words(axes, *least));
+  }
+  if (table.infeasible > 0) out += fmt::format("; {} rows have no value", table.infeasible);
+  return out + ".";
+}
+
+/// Curves over x: one, or one a name of y.
+Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vector<Cell>& cells,
+                     Figure figure) {
+  constexpr std::array colours{colour::blue,   colour::vermilion, colour::green, colour::orange,
+                               colour::purple, colour::sky,       colour::black};
+  gp::Plot plot;
+  figure.script = gp::prelude();
+  const std::size_t curves = axes.y == nullptr ? 1 : axes.y->names.size();
+  for (std::size_t k = 0; k < curves; ++k) {
+    std::vector<Cell> own;
+    for (const Cell& cell : cells) {
+      if (axes.y == nullptr || cell.y == double(k)) own.push_back(cell);
+    }
+    const std::string name = fmt::format("curve{}", k + 1);
+    const std::vector<double> x = column_of(own, &Cell::x);
+    const std::vector<double> value = column_of(own, &Cell::value);
+    figure.script += gp::data_block(name, {x, value});
+    const std::string data = fmt::format("${} using 1:2", name);
+    const std::string words = axes.y == nullptr ? "" : axes.y->names[k];
+    const std::string dots = gp::point(colours[k % colours.size()], 7, 0.4);
+    constexpr std::size_t most_marked = 40;
+    if (!axes.x->names.empty()) {
+      plot.points(data, dots, words);  // there is nothing between two names
+    } else {
+      plot.curve(data, gp::line(colours[k % colours.size()], int(k % 5) + 1, 1.5), words);
+      if (own.size() <= most_marked) plot.points(data, dots);
+    }
+  }
+  if (const Cell* least = least_of(cells)) {
+    plot.mark(least->x, least->value, gp::point(colour::black, 12, 1),
+              "least: " + least_words(axes, *least));
+  }
+  std::vector<gp::LegendEntry> legend(plot.legend().begin(), plot.legend().end());
+  if (!axes.x->names.empty()) {
+    const auto names = names_of({axes.x, nullptr});
+    legend.insert(legend.end(), names.begin(), names.end());
+  }
+  figure.lines = 29 + int(legend.size());
+  const gp::Layout layout(figure.lines, 0.125, 0.045);
+  const auto [lo, hi] = gp::extent(column_of(cells, &Cell::value));
+  const auto [x_lo, x_hi] = gp::extent(column_of(cells, &Cell::x));
+  figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
+                   layout.above(2.7, subtitle(table, axes)) +
+                   layout.below(25, axis_label(axes.x->path)) + layout.legend(27, 1, legend) +
+                   tics("x", *axes.x) + gp::set_range("x", gp::with_margin(x_lo, x_hi, 0.03)) +
+                   gp::set_range("y", gp::with_margin(lo, hi, 0.06)) + plot.text();
+  return figure;
+}
+
+/// Whether the places fill their grid well enough to be cells of it; a sample's do not.
+bool is_grid(const Axes& axes, const std::vector<Cell>& cells) {
+  return 2 * cells.size() >= axes.x->distinct().size() * axes.y->distinct().size();
+}
+
+/// A digit for every place, 0 for the least tenth of the range, where characters are all there is.
+std::string digits(gp::Range range) {
+  return fmt::format(
+      "plot $cells using 1:2:($7 == $7 ? sprintf('%d', int(9.999*($7 - {0})/{1})) : '.') "
+      "with labels\n",
+      gp::number(range.lo), gp::number(std::max(range.hi - range.lo, 1e-300)));
+}
+
+Figure map_figure(const SweepTable& table, const Axes& axes, const std::vector<Cell>& cells,
+                  Figure figure) {
+  if (cells.size() > most_cells) {
+    throw InputError(table.file, fmt::format("makes a map of {} cells; at most {} can be drawn",
+                                             cells.size(), most_cells));
+  }
+  const Edges x(*axes.x);
+  const Edges y(*axes.y);
+  const bool grid = is_grid(axes, cells);
+  figure.script = gp::prelude() + "$cells << EOD\n";
+  for (const Cell& cell : cells) {
+    const std::size_t column = x.index(cell.x);
+    const std::size_t row = y.index(cell.y);
+    for (const double number :
+         {cell.x, cell.y, x.edges[column], x.edges[column + 1], y.edges[row], y.edges[row + 1]}) {
+      figure.script += gp::number(number) + " ";
+    }
+    figure.script += gp::number(cell.value) + "\n";
+  }
+  figure.script += "EOD\n";
+
+  gp::Plot plot;
+  plot.add(grid ? "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid noborder lc palette"
+                : "$cells using 1:2:7 with points pt 7 ps 0.5*dot_scale lc palette");
+  const Cell* const least = least_of(cells);
+  if (least != nullptr) {
+    plot.mark(least->x, least->y, "lc rgb '#ffffff' pt 7 ps 1.2*dot_scale");
+    plot.mark(least->x, least->y, gp::point(colour::vermilion, 7, 0.8),
+              "least: " + least_words(axes, *least));
+  }
+  const std::string blank = gp::area("#cccccc", 1);
+  if (table.infeasible > 0 && grid) {
+    plot.entry({gp::LegendEntry::Sample::area, blank, "infeasible"});
+  }
+  std::vector<gp::LegendEntry> legend(plot.legend().begin(), plot.legend().end());
+  const auto names = names_of(axes);
+  legend.insert(legend.end(), names.begin(), names.end());
+
+  figure.lines = 34 + int(legend.size());
+  const gp::Layout layout(figure.lines, 0.125, 0.045);
+  const gp::Range values = gp::extent(column_of(cells, &Cell::value));
+  figure.script +=
+      "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
+      layout.above(2.7, axis_label(axes.y->path)) + layout.below(25, axis_label(axes.x->path)) +
+      layout.title(27, subtitle(table, axes)) + layout.legend(32, 1, legend) +
+      layout.colour_box(28, 29) + palette + tics("x", *axes.x) + tics("y", *axes.y) +
+      "set tics front\n" + gp::set_range("x", x.range()) + gp::set_range("y", y.range()) +
+      gp::set_range("cb", values) + gp::set_tics("cb", values, 5);
+  if (grid) {
+    figure.script += fmt::format(
+        "if (!characters) {{\n  set object 1 rectangle from graph 0,0 to "
+        "graph 1,1 behind {}\n}}\n",
+        blank);
+  }
+  figure.script += "if (characters) {\n  unset colorbox\n  " + digits(values) + "} else {\n  " +
+                   plot.text() + "}\n";
+  return figure;
+}
+
+}  // namespace
+
+Figure sweep_figure(const SweepTable& table, const SweepView& view) {
+  const Axes axes = axes_of(table, view);
+  const std::vector<Cell> cells = cells_of(table, axes);
+  if (least_of(cells) == nullptr) {
+    throw InputError(table.file, fmt::format("has no row with a value of {}", table.value_column));
+  }
+  Figure figure;
+  figure.id = "sweep";
+  const std::size_t slash = table.file.find_last_of('/');
+  figure.title = slash == std::string::npos ? table.file : table.file.substr(slash + 1);
+  figure.description = description_of(table, axes, cells);
+  const bool curves = axes.y == nullptr || (axes.x->names.empty() && !axes.y->names.empty() &&
+                                            axes.y->names.size() <= most_curves);
+  return curves ? curves_figure(table, axes, cells, std::move(figure))
+                : map_figure(table, axes, cells, std::move(figure));
+}
+
+}  // namespace tethercalc
