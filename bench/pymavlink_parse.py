@@ -38,12 +38,12 @@ def columns_with_struct(data):
                 labels = labels.rstrip(b"\0").decode().split(",")
                 places = [labels.index(field) for field in FIELDS]
                 wanted[number] = (struct.Struct("<" + "".join(SIZES[c] for c in form)),
-                                  labels.index("C"),
+                                  labels.index("C") if "C" in labels else None,
                                   [(p, 100 if form[p] in HUNDREDTHS else 1) for p in places])
         elif kind in wanted:
             layout, core, places = wanted[kind]
             values = layout.unpack_from(data, at + 3)
-            if values[core] == 0:
+            if core is None or values[core] == 0:
                 for column, (place, divisor) in zip(columns, places):
                     column.append(values[place] / divisor)
         at += size
@@ -56,7 +56,7 @@ def columns_with_pymavlink(path):
     columns = [[] for _ in FIELDS]
     log = mavutil.mavlink_connection(path)
     while (message := log.recv_match(type="XKF1")) is not None:
-        if message.C == 0:
+        if getattr(message, "C", 0) == 0:
             for column, field in zip(columns, FIELDS):
                 column.append(getattr(message, field))
     return columns

@@ -1,5 +1,7 @@
 #include "cli/flight_options.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 
@@ -33,7 +35,7 @@ double pitch_offset(const FlightOptions& options) {
     const double degrees = *options.pitch_offset_deg;
     if (!(std::abs(degrees) <= 45)) {
       throw InputError("--pitch-offset-deg",
-                       std::to_string(degrees) + " is out of range; allowed is -45 to 45 degrees");
+                       fmt::format("{:g} is out of range; allowed is -45 to 45 degrees", degrees));
     }
     return degrees * unit::degree;
   }
@@ -49,9 +51,8 @@ std::optional<double> air_density(const FlightOptions& options) {
   const auto in_range = [](const char* option, double value, double least, double most,
                            const char* unit_name) {
     if (value >= least && value <= most) return;
-    throw InputError(option, std::to_string(value) + " is out of range; allowed is " +
-                                 std::to_string(least) + " to " + std::to_string(most) + " " +
-                                 unit_name);
+    throw InputError(option, fmt::format("{:g} is out of range; allowed is {:g} to {:g} {}", value,
+                                         least, most, unit_name));
   };
   const bool by_weather = options.pressure_hPa || options.temperature_C;
   if (options.air_density_kg_m3) {

@@ -1,5 +1,7 @@
 #include "cli/log_commands.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -21,7 +23,7 @@ double checked_mass(const std::optional<double>& mass_g) {
   }
   if (!(*mass_g >= 1 && *mass_g <= 1e6)) {
     throw InputError("--mass-g",
-                     std::to_string(*mass_g) + " is out of range; allowed is 1 to 1000000 g");
+                     fmt::format("{:g} is out of range; allowed is 1 to 1000000 g", *mass_g));
   }
   return *mass_g * unit::gram;
 }
@@ -34,10 +36,26 @@ std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
   return json_text(read_design_document(document, file.file, file.folder).document);
 }
 
+/// What was not said and moves the answer, on standard error so that no format hides it.
+void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptions& taken) {
+  if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
+    fmt::print(stderr,
+               "drag: no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
+               "--temperature-C)\n",
+               taken.conditions.air_density);
+  }
+  if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
+    fmt::print(stderr,
+               "drag: no pitch offset given, 0° taken; what it misses ends up in the wind "
+               "(--trim-log or --pitch-offset-deg)\n");
+  }
+}
+
 }  // namespace
 
 int run_log(const std::string& file, const std::string& message, const Output& output) {
   const MappedFile log(file);
+  if (log.bytes().empty()) throw InputError(file, "the file is empty");
   if (!looks_like_dataflash(log.bytes())) {
     throw InputError(file, "is no DataFlash log (.bin): it begins like a text");
   }
@@ -93,7 +111,11 @@ int run_drag(const DragOptions& options, const Output& output) {
   } catch (const UnsuitableFlight& error) {
     throw InputError(options.logs.size() == 1 ? options.logs.front() : "drag", error.what());
   }
+  tell_assumptions(options.flight, identification);
   if (!options.into.empty()) {
+    for (const std::string& warning : drag_warnings(result.fit)) {
+      fmt::print(stderr, "drag: {}\n", warning);
+    }
     emit(output, spec_with_drag(options.into, result.fit));
     return done;
   }

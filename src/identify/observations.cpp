@@ -15,6 +15,7 @@ namespace tethercalc {
 namespace {
 
 constexpr double moving_speed = 1.0;     // m/s: above what a hover drifts, below any useful pass
+constexpr double fastest_hover = 2.0;    // m/s: a hover held by hand drifts, but not so fast
 constexpr double moving_duration = 1.0;  // s: longer than a twitch of the estimator
 constexpr double longest_pause = 30.0;   // s: shorter than landing, waiting and taking off again
 constexpr double gap_factor = 3.0;       // tolerates two lost samples; jitter stays well below 2
@@ -195,6 +196,18 @@ SampleRange moving_part(const FlightLog& log) {
 
 double pitch_offset_from_hover(const FlightLog& hover) {
   validate(hover);
+  const std::size_t size = hover.time.size();
+  std::vector<double> speeds(size);
+  for (std::size_t i = 0; i < size; ++i) speeds[i] = std::abs(forward_speed(hover, i));
+  // The way to the place of hover and back may be part of it.
+  const auto typical = speeds.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(size));
+  std::nth_element(speeds.begin(), typical, speeds.end());
+  if (*typical > fastest_hover) {
+    throw UnsuitableFlight(
+        fmt::format("is no hover: a fifth of the time the drone flies forward or backward at more "
+                    "than {:.1f} m/s, leaning as it does; its mean pitch is no offset",
+                    *typical));
+  }
   return std::accumulate(hover.pitch.begin(), hover.pitch.end(), 0.0) /
          static_cast<double>(hover.pitch.size());
 }

@@ -185,8 +185,9 @@ void note_damage(FlightLogReading& reading, const DataFlashContents& contents) {
   reading.skipped_messages = contents.skipped_messages;
   if (contents.skipped_bytes > 0) {
     reading.notes.push_back(
-        fmt::format("the log is damaged or cut: {} bytes and at least {} messages were skipped",
-                    contents.skipped_bytes, contents.skipped_messages));
+        fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",
+                    contents.skipped_bytes, contents.skipped_messages,
+                    contents.skipped_messages == 1 ? "" : "s"));
   }
   reading.notes.insert(reading.notes.end(), contents.rejected_definitions.begin(),
                        contents.rejected_definitions.end());

@@ -78,22 +78,33 @@ bool automatic(const DragIdentification& result) {
   return !result.options.from && !result.options.to;
 }
 
-/// "1.492e-2", as small areas are written in print; plain otherwise.
-std::string parameter_number(double value) {
+/// Areas as they are written in print, such as "1.492e-02"; the rest plainly.
+std::string parameter_number(const FittedParameter& parameter, double value) {
   if (!std::isfinite(value)) return "–";
-  return value != 0 && std::abs(value) < 0.1 ? fmt::format("{:.3e}", value) : significant(value, 4);
+  const bool area = parameter.name.ends_with("area_m2");
+  return area && value != 0 ? fmt::format("{:.3e}", value) : significant(value, 4);
 }
 
 std::string percent_of(double error, double value) {
   return std::isfinite(error) && value != 0 ? fixed(100 * error / std::abs(value), 2) + " %" : "–";
 }
 
+/// "wind_m_s[1]", as results name the second log's wind, for readers who count from one.
+std::string title_of(const FittedParameter& parameter) {
+  const std::size_t bracket = parameter.name.find('[');
+  if (bracket == std::string::npos) return parameter.name;
+  const int index = std::stoi(parameter.name.substr(bracket + 1));
+  return fmt::format("{}, log {}", parameter.name.substr(0, bracket), index + 1);
+}
+
 std::string range_sentence(const DragIdentification& result) {
+  const bool several = result.parts.size() > 1;
   std::string out = automatic(result) ? "The moving part was chosen automatically: " : "Used: ";
   for (std::size_t i = 0; i < result.parts.size(); ++i) {
     const FlightPart& part = result.parts[i];
-    out += fmt::format("{}{:.1f} s to {:.1f} s ({} samples)", i > 0 ? ", " : "", part.from, part.to,
-                       part.samples);
+    out +=
+        fmt::format("{}{}{:.1f} s to {:.1f} s ({} samples)", i > 0 ? ", " : "",
+                    several ? fmt::format("log {} ", i + 1) : "", part.from, part.to, part.samples);
   }
   return out + ".";
 }
@@ -109,32 +120,31 @@ const SteadyDrag* best_known(const std::vector<SteadyDrag>& table) {
   return best == table.end() ? nullptr : &*best;
 }
 
-std::vector<std::string> caveats(const DragFit& fit, const std::vector<SteadyDrag>& table) {
-  std::vector<std::string> out;
-  for (const EntangledPair& pair : entangled_pairs(fit)) {
-    out.push_back(fmt::format(
-        "{} and {} are hardly told apart by this flight (correlation {}): only together do they "
-        "mean something.",
-        fit.parameters[pair.first].name, fit.parameters[pair.second].name,
-        fixed(pair.correlation, 3)));
+/// Force that is known this well, relative, may be called well determined.
+constexpr double well_determined = 0.05;
+
+std::string entangled_sentence(const DragFit& fit) {
+  const std::vector<EntangledPair> pairs = entangled_pairs(fit);
+  if (pairs.empty()) return "";
+  std::string out =
+      fmt::format("Hardly told apart by {}, so that only together they mean something: ",
+                  fit.covariance_by_flight.size() > 1 ? "these flights" : "this flight");
+  for (const EntangledPair& pair : pairs) {
+    out += fmt::format("{}{} and {} (correlation {})", &pair == &pairs.front() ? "" : ", ",
+                       title_of(fit.parameters[pair.first]), title_of(fit.parameters[pair.second]),
+                       fixed(pair.correlation, 3));
   }
-  if (const SteadyDrag* best = best_known(table)) {
-    const Estimate& force = best->force;
-    out.push_back(fmt::format(
-        "Well determined is the drag force: {} N ± {} at {} m/s.", significant(force.value, 3),
-        percent_of(force.standard_error, force.value), fmt::format("{:g}", best->airspeed)));
-  }
-  for (const FittedParameter& p : fit.parameters) {
-    if (p.at_bound == Bound::none) continue;
-    out.push_back(
-        fmt::format("{} wants to leave its {} bound {}: the flight lacks what would determine it. "
-                    "The errors of the others take it as known.",
-                    p.name, bound_name(p.at_bound), parameter_number(p.estimate.value)));
-  }
-  if (!fit.converged) {
-    out.emplace_back("The fit did not converge; take these numbers as a guess.");
-  }
-  return out;
+  return out + ".";
+}
+
+std::string force_sentence(const std::vector<SteadyDrag>& table) {
+  const SteadyDrag* best = best_known(table);
+  if (best == nullptr) return "";
+  const Estimate& force = best->force;
+  const bool well = force.standard_error <= well_determined * force.value;
+  return fmt::format("{} determined is the drag force: {} N ± {} at {:g} m/s.",
+                     well ? "Well" : "Best, though not well,", significant(force.value, 3),
+                     percent_of(force.standard_error, force.value), best->airspeed);
 }
 
 std::string residual_sentence(const FitQuality& quality) {
@@ -168,6 +178,27 @@ std::vector<SteadyDrag> steady_drag_table(const DragFit& fit) {
   return rows;
 }
 
+std::vector<std::string> drag_warnings(const DragFit& fit) {
+  std::vector<std::string> out;
+  for (const FittedParameter& p : fit.parameters) {
+    if (p.at_bound == Bound::none) continue;
+    out.push_back(
+        fmt::format("{} wants to leave its {} bound {}: the flight lacks what would determine it. "
+                    "The errors of the others take it as known.",
+                    title_of(p), bound_name(p.at_bound), parameter_number(p, p.estimate.value)));
+  }
+  const std::vector<SteadyDrag> table = steady_drag_table(fit);
+  const bool may_be_none = std::any_of(
+      table.begin(), table.end(), [](const SteadyDrag& row) { return !(row.force.lower > 0); });
+  if (may_be_none) {
+    out.emplace_back(
+        "At some speeds the flight does not even tell that there is drag (intervals that reach "
+        "below zero): fly longer, faster and in both directions.");
+  }
+  if (!fit.converged) out.emplace_back("The fit did not converge; take its numbers as a guess.");
+  return out;
+}
+
 ordered_json spec_drag_block(const DragFit& fit) {
   const AirframeDrag drag = fit.drag();
   return {{"front_area_m2", drag.front_area},
@@ -190,6 +221,7 @@ ordered_json drag_json(const DragIdentification& result) {
   out["residual_lag1_autocorrelation"] = quality.residual_lag1_autocorrelation;
   out["samples"] = quality.samples;
   out["effective_samples"] = quality.effective_samples;
+  out["warnings"] = drag_warnings(fit);
   out["converged"] = fit.converged;
   out["correlation"] = correlation_json(fit);
   out["entangled"] = entangled_json(fit);
@@ -207,15 +239,15 @@ ordered_json drag_json(const DragIdentification& result) {
 TitledTable drag_parameter_table(const DragFit& fit) {
   TextTable table({{"", TextTable::Align::left},
                    {"value"},
-                   {"±", TextTable::Align::right},
+                   {"std. error", TextTable::Align::right},
                    {"95 % interval", TextTable::Align::right},
-                   {"± if independent", TextTable::Align::right},
+                   {"std. error if independent", TextTable::Align::right},
                    {"", TextTable::Align::left}});
   for (const FittedParameter& p : fit.parameters) {
     const Estimate& e = p.estimate;
     const bool held = p.at_bound != Bound::none;
-    table.add({p.name, parameter_number(e.value), percent_of(e.standard_error, e.value),
-               held ? "–" : parameter_number(e.lower) + " … " + parameter_number(e.upper),
+    table.add({title_of(p), parameter_number(p, e.value), percent_of(e.standard_error, e.value),
+               held ? "–" : parameter_number(p, e.lower) + " … " + parameter_number(p, e.upper),
                percent_of(e.standard_error_independent, e.value),
                held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
   }
@@ -244,7 +276,9 @@ DragSentences drag_sentences(const DragIdentification& result) {
                              significant(fit.conditions.mass / unit::gram, 4),
                              significant(fit.conditions.air_density, 4),
                              fixed(result.options.pitch_offset / unit::degree, 3))};
-  out.quality = caveats(fit, steady_drag_table(fit));
+  out.quality = {entangled_sentence(fit), force_sentence(steady_drag_table(fit))};
+  std::erase(out.quality, "");
+  for (std::string& warning : drag_warnings(fit)) out.quality.push_back(std::move(warning));
   out.quality.push_back(residual_sentence(fit.quality));
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,10 +19,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+std::string messages_text(std::size_t count) {
+  return fmt::format("{} message{}", count, count == 1 ? "" : "s");
+}
+
 std::string skipped_text(const LogSummary& summary) {
   if (summary.skipped_bytes == 0) return "nothing skipped";
-  return fmt::format("{} bytes skipped, with at least {} messages", summary.skipped_bytes,
-                     summary.skipped_messages);
+  return fmt::format("{} bytes skipped, with at least {}", summary.skipped_bytes,
+                     messages_text(summary.skipped_messages));
 }
 
 std::string time_text(const LogSummary& summary) {
@@ -47,8 +52,8 @@ std::string damage_text(const LogSummary& summary) {
   constexpr std::size_t most_shown = 10;
   for (std::size_t i = 0; i < summary.skipped.size() && i < most_shown; ++i) {
     const SkippedBytes& lost = summary.skipped[i];
-    text += fmt::format("skipped    {} bytes at byte {}, at least {} messages\n", lost.bytes,
-                        lost.offset, lost.messages);
+    text += fmt::format("skipped    {} bytes at byte {}, at least {}\n", lost.bytes, lost.offset,
+                        messages_text(lost.messages));
   }
   if (summary.skipped.size() > most_shown) text += "skipped    and more, further on\n";
   if (summary.implausible_times > 0) {
@@ -92,14 +97,23 @@ std::string csv_cell(const std::byte* message, const DataFlashField& field) {
   return quoted_where_needed(field_text(message, field));
 }
 
+std::string joined(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + printable(name);
+  return names.empty() ? "none" : text;
+}
+
 [[noreturn]] void fail_without(std::string_view message, std::string_view name,
                                const DataFlashContents& contents) {
   std::vector<std::string> names;
   for (const auto& type : contents.types) {
     if (type.count > 0) names.push_back(type.format.name);
   }
-  throw InputError({{std::string(name), fmt::format("the log holds no message {}{}", message,
-                                                    did_you_mean(message, names))}});
+  const std::string meant = did_you_mean(message, names);
+  throw InputError(
+      {{std::string(name), fmt::format("the log holds no message {}{}", message,
+                                       meant.empty() ? "; it holds " + joined(names) : meant)}});
 }
 
 }  // namespace

@@ -139,6 +139,18 @@ std::string estimate_words(const IndexEstimate& estimate) {
                      fixed(ci95_factor * estimate.standard_error, 3));
 }
 
+std::string indices_text(const std::string& of, const std::vector<Sensitivity>& indices,
+                         const SweepSpace& space, const TextStyle& style) {
+  TextTable table({{"Share in the variance of " + of, TextTable::Align::left},
+                   {"alone"},
+                   {"with interactions"}});
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    table.add({space.axes()[i].name, estimate_words(indices[i].first_order),
+               estimate_words(indices[i].total)});
+  }
+  return table.text(style) + "\n";
+}
+
 void add_spread(TextTable& table, const std::string& name, const Spread& spread, double si_factor) {
   const QuantileHistogram& histogram = spread.histogram();
   std::vector<std::string> cells{
@@ -208,11 +220,11 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base, 
 
 std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
                          const TextStyle& style) {
-  using Align = TextTable::Align;
   const double share = static_cast<double>(summary.infeasible) / static_cast<double>(summary.draws);
   std::string out = fmt::format("{} draws, {} infeasible ({} %)\n\n", summary.draws,
                                 summary.infeasible, significant(100 * share, 3));
-  std::vector<TextTable::Column> columns{{"Feasible draws", Align::left}, {"mean"}, {"std dev"}};
+  std::vector<TextTable::Column> columns{
+      {"Feasible draws", TextTable::Align::left}, {"mean"}, {"std dev"}};
   for (const double p : shares) columns.push_back({fmt::format("{} %", 100 * p)});
   TextTable spread(std::move(columns));
   add_spread(spread, "cross-section mm²", summary.area, unit::square_millimetre);
@@ -220,30 +232,15 @@ std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
   out += spread.text(style) + "\n";
 
   const SweepSensitivity& sensitivity = summary.sensitivity;
-  const bool feasibility = !sensitivity.feasible.empty();
-  columns = {{"Share of the variance", Align::left},
-             {"area alone"},
-             {"area in all"},
-             {"power alone"},
-             {"power in all"}};
-  if (feasibility) columns.insert(columns.end(), {{"feasible alone"}, {"feasible in all"}});
-  TextTable indices(std::move(columns));
-  for (std::size_t i = 0; i < space.axes().size(); ++i) {
-    std::vector<std::string> cells{
-        space.axes()[i].name, estimate_words(sensitivity.area[i].first_order),
-        estimate_words(sensitivity.area[i].total), estimate_words(sensitivity.power[i].first_order),
-        estimate_words(sensitivity.power[i].total)};
-    if (feasibility) {
-      cells.push_back(estimate_words(sensitivity.feasible[i].first_order));
-      cells.push_back(estimate_words(sensitivity.feasible[i].total));
-    }
-    indices.add(std::move(cells));
+  out += indices_text("the cross-section", sensitivity.area, space, style);
+  out += indices_text("the total power", sensitivity.power, space, style);
+  if (!sensitivity.feasible.empty()) {
+    out += indices_text("feasibility", sensitivity.feasible, space, style);
   }
-  out += indices.text(style);
-  out +=
-      wrapped(fmt::format("Sobol indices, first order (alone) and total (in all), with 95 % "
-                          "confidence, from {} designs.",
-                          sensitivity.evaluations));
+  out += wrapped(
+      fmt::format("Sobol indices, first order (alone) and total (with interactions), with 95 % "
+                  "confidence, from {} designs.",
+                  sensitivity.evaluations));
   if (sensitivity.incomplete > 0) {
     out +=
         wrapped(fmt::format("{} of {} points were infeasible in part and left out for area and "

@@ -71,7 +71,10 @@ std::string TitledTable::text(const TextStyle& style) const {
 }
 
 std::string fixed(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "–";
+  if (!std::isfinite(value)) return "–";
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool negative_zero = text.front() == '-' && text.find_first_not_of("-0.") == text.npos;
+  return negative_zero ? text.substr(1) : text;
 }
 
 std::string significant(double value, int digits) {

@@ -16,6 +16,9 @@ constexpr double penalty_value = 1e30;
 /// In place of a constraint that is not finite: ten times a gross violation.
 constexpr double broken_constraint = 10;
 constexpr double same_value = 1e-6;
+/// Of a variable's range: about what a short descent leaves to go, and what starts are apart.
+constexpr double same_place = 0.01;
+constexpr double far_apart = 0.05;
 
 /// A point as evaluated; coordinates in [0, 1].
 struct Visited {
@@ -165,19 +168,29 @@ double distance(std::span<const double> a, std::span<const double> b) {
   return most;
 }
 
-/// The best of `points` that lie apart from each other.
-std::vector<Visited> distinct_best(std::vector<Visited> points, int count) {
+/// The best of `points`, at most `count`, that lie further than `apart` from each other.
+std::vector<Visited> distinct_best(std::vector<Visited> points, int count, double apart) {
   std::sort(points.begin(), points.end(),
             [](const Visited& a, const Visited& b) { return a.better_than(b); });
   std::vector<Visited> chosen;
   for (const Visited& point : points) {
     if (static_cast<int>(chosen.size()) == count) break;
-    const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Visited& other) {
-      return distance(point.unit, other.unit) > 0.05;
+    const bool distinct = std::all_of(chosen.begin(), chosen.end(), [&](const Visited& other) {
+      return distance(point.unit, other.unit) > apart;
     });
-    if (apart) chosen.push_back(point);
+    if (distinct) chosen.push_back(point);
   }
   return chosen;
+}
+
+/// A short COBYLA from `start`: how good the valley is that it lies in. Unevenly close to a bound
+/// or a kink, the points of the global stage cannot tell themselves.
+Visited descent(const MinimumProblem& source, const Visited& start, int evaluations, int& spent) {
+  UnitProblem problem(source);
+  (void)problem.visit(start.unit);
+  run(nlopt::LN_COBYLA, problem, start.unit, 0.03, 0, evaluations, 1e-4);
+  spent += problem.evaluations();
+  return problem.best();
 }
 
 /// COBYLA and Sbplx from `start`, in turn with shrinking steps.
@@ -196,6 +209,26 @@ Visited local_search(const MinimumProblem& source, const Visited& start, int eva
   }
   spent += problem.evaluations();
   return problem.best();
+}
+
+/// A search to the bottom.
+struct LocalSearch {
+  Visited start;
+  Visited end;
+};
+
+/// How many of `descents` ended where a search began that led to `best`, or to its value.
+int agreeing(const Visited& best, std::span<const Visited> descents,
+             std::span<const LocalSearch> searches) {
+  const double scale = std::max(std::abs(best.value), 1e-300);
+  const auto leads_to_best = [&](const Visited& descent) {
+    return std::any_of(searches.begin(), searches.end(), [&](const LocalSearch& search) {
+      return search.end.feasible() &&
+             std::abs(search.end.value - best.value) <= same_value * scale &&
+             distance(search.start.unit, descent.unit) <= same_place;
+    });
+  };
+  return static_cast<int>(std::count_if(descents.begin(), descents.end(), leads_to_best));
 }
 
 }  // namespace
@@ -225,20 +258,22 @@ Minimum constrained_minimum(const MinimumProblem& problem, const MinimumOptions&
   }
   int spent = 0;
   Visited best = global.best();
-  std::vector<Visited> ends;
+  std::vector<Visited> descents;
+  std::vector<LocalSearch> searches;
   if (size > 0) {
-    for (const Visited& start : distinct_best(visited, options.local_starts)) {
-      ends.push_back(local_search(problem, start, options.local_evaluations, 0.05, spent));
-      if (ends.back().better_than(best)) best = ends.back();
+    for (const Visited& start : distinct_best(visited, options.descents, far_apart)) {
+      descents.push_back(descent(problem, start, options.descent_evaluations, spent));
+    }
+    for (const Visited& start : distinct_best(descents, options.local_starts, same_place)) {
+      searches.push_back(
+          {start, local_search(problem, start, options.local_evaluations, 0.05, spent)});
+      if (searches.back().end.better_than(best)) best = searches.back().end;
     }
     const Visited last = local_search(problem, best, 2 * options.local_evaluations, 1e-3, spent);
     if (last.better_than(best)) best = last;
   }
-  result.starts = static_cast<int>(ends.size());
-  for (const Visited& end : ends) {
-    const double scale = std::max(std::abs(best.value), 1e-300);
-    if (end.feasible() && std::abs(end.value - best.value) <= same_value * scale) ++result.agreeing;
-  }
+  result.starts = static_cast<int>(descents.size());
+  result.agreeing = agreeing(best, descents, searches);
   result.evaluations = global.evaluations() + spent + 1;
   result.x = global.actual(best.unit);
   result.constraints.resize(problem.constraint_count);

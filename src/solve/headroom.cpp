@@ -103,26 +103,31 @@ double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
   if (a.margin() == 0) return a.radius;
   if (b.margin() == 0) return b.radius;
   const bool enters = a.margin() < 0;
-  // A secant's error is less than the product of its two points' errors: 1e-17 relative.
+  // A secant's error is less than the product of its two points' errors: 1e-17 relative. That is
+  // not so of a step without a secant, the first and those to the middle, however short they are.
   constexpr double last_step = 1e-10;
   double lo = a.radius;
   double hi = b.radius;
   double previous = 0;
-  double previous_gap = 0;
+  double previous_gap = std::numeric_limits<double>::quiet_NaN();
   double tangent = a.tan_pitch;
   double radius = lo + (hi - lo) * a.margin() / (a.margin() - b.margin());
   for (int step = 0; step < 100; ++step) {
     const Sample sample = curve.necessary_at(radius, tangent);
     tangent = sample.tan_pitch;
     const double gap = curve.needed_radius(sample) - radius;
+    if (gap == 0) return radius;
     ((gap > 0) == enters ? lo : hi) = radius;
-    const double slope = step > 0 ? (gap - previous_gap) / (radius - previous) : -1;
+    const double slope = (gap - previous_gap) / (radius - previous);
+    // Where the motors could not make the thrust, there was no gap to draw a secant through.
+    const bool secant = std::isfinite(slope);
+    const double next = radius - gap / (secant ? slope : -1);
+    // Rounding may take the last one out of the bracket, the end of which is then the root.
+    if (secant && std::abs(next - radius) <= last_step * radius) return std::clamp(next, lo, hi);
     previous = radius;
     previous_gap = gap;
-    double next = radius - gap / slope;
-    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-    radius = next;
-    if (std::abs(radius - previous) <= last_step * radius) break;
+    radius = next > lo && next < hi ? next : 0.5 * (lo + hi);
+    if (!(lo < radius && radius < hi)) break;  // no number is left between them
   }
   return radius;
 }

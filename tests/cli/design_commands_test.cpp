@@ -13,17 +13,6 @@ namespace {
 
 const std::string published = project_file("examples/holybro-x500.json");
 
-std::size_t widest_line(const std::string& text) {
-  std::size_t widest = 0;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const auto characters =
-        std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; });
-    widest = std::max(widest, static_cast<std::size_t>(characters));
-  }
-  return widest;
-}
-
 json optimized(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"optimize", "--format", "json"});
   return json::parse(run_tethercalc(arguments).out);

@@ -353,7 +353,9 @@ TEST_CASE("a summary's quantiles are those of a plain run, its indices those of 
                                      std::to_string(run_seed()), "--summary", summary_file});
   const Ran run = run_tethercalc(arguments);
   REQUIRE(run.exit_code == 0);
-  CHECK_THAT(run.err, Contains("4096 draws"));
+  CHECK_THAT(run.err,
+             Contains("4096 draws") && Contains("Share in the variance of the total power"));
+  CHECK(widest_line(run.err) <= 100);
 
   std::vector<double> powers;
   const auto lines = lines_of(run.out);

@@ -58,6 +58,18 @@ TEST_CASE("no point of a grid of a million is better, whatever the seed") {
   }
 }
 
+TEST_CASE("a deeper valley along the edge is found, though the best points lie in another") {
+  // The least values of grids of 4001 × 4001 points.
+  const std::pair<unsigned, double> hard[] = {
+      {3011597917U, 5.4330111788}, {3014821544U, 5.4568328802}, {3434242193U, 5.8595913305}};
+  for (const auto& [problem_seed, least] : hard) {
+    MinimumOptions options;
+    for (options.seed = 1; options.seed <= 10; ++options.seed) {
+      CHECK(constrained_minimum(random_problem(problem_seed), options).value <= least);
+    }
+  }
+}
+
 TEST_CASE("what is not finite is never an answer, and never hangs the search") {
   MinimumProblem problem;
   problem.variables = {{-1, 1}, {0.01, 100}};

@@ -65,6 +65,30 @@ TEST_CASE("at every edge of the feasible set the headroom or the tilt is at its 
   });
 }
 
+TEST_CASE("the headroom passes what is required within 1e-11 of every edge") {
+  constexpr double near = 1e-11;
+  test::each_random(1000, [](test::Random& random) {
+    const Design design = test::random_design(random);
+    const Condition condition = random.chance(0.5) ? Condition::hover : Condition::forward;
+    const double required = random.uniform(0.5, 2.5);
+    const auto headroom = [&](double area) {
+      return test::plain::evaluate(design, area, condition).headroom;
+    };
+    for (const Interval& range : headroom_areas(SteadyFlight(design, condition), required)) {
+      // Where the curve only just touches what is required, rounding decides where.
+      if (range.hi < 1.001 * range.lo) continue;
+      for (const double edge : {range.lo, range.hi}) {
+        const auto plain = test::plain::evaluate(design, edge, condition);
+        const double tilt = std::abs(plain.pitch) / design.requirements.max_pitch;
+        if (std::abs(tilt - 1) < 1e-9) continue;  // another limit's edge
+        const double inwards = edge == range.lo ? near : -near;
+        CHECK(headroom(edge * (1 + inwards)) >= required);
+        CHECK(headroom(edge * (1 - inwards)) < required);
+      }
+    }
+  });
+}
+
 TEST_CASE("no area of a fine grid has more than the best headroom") {
   constexpr int grid = 1500;
   test::each_random(150, [](test::Random& random) {

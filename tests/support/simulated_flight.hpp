@@ -65,7 +65,7 @@ class ColouredNoise {
 
 /// Flies passes forward and backward as a pilot does in an angle mode: hold a tilt until the drone
 /// is fast or has flown long enough, then lean the other way; a little steeper or shallower each
-/// time.
+/// time. Where there is ground to land on, the last seconds are spent on coming to rest.
 inline FlightLog simulate(const SimulatedFlight& f) {
   constexpr double gravity = 9.80665;
   constexpr double degree = 0.017453292519943295;
@@ -113,6 +113,9 @@ inline FlightLog simulate(const SimulatedFlight& f) {
       direction = -direction;
       stick = direction * degree * dice.between(f.min_tilt_deg, f.max_tilt_deg);
       stick_until = t + dice.between(4, 9);
+    }
+    if (f.idle > 0 && t > f.duration - 12) {
+      stick = std::clamp(-0.05 * forward, -15 * degree, 15 * degree);
     }
     const double slew = f.slew_rate_deg_s * degree * step;
     command += std::clamp(stick - command, -slew, slew);

@@ -79,7 +79,9 @@ struct LogPosition {
 
 /// Mean pitch in rad over the whole of `hover`: what the attitude estimator reads in level flight
 /// without wind, to be passed to `observe` (paper section IV, first flight). The hover should turn
-/// through all headings, else a steady wind leans into it.
+/// through all headings, else a steady wind leans into it, and hold no time on the ground, whose
+/// slope is no offset. Throws UnsuitableFlight where the drone flies forward or backward at more
+/// than 2 m/s for a fifth of the samples: it leans to do so.
 [[nodiscard]] double pitch_offset_from_hover(const FlightLog& hover);
 
 /// Turns samples `range` of `log` into observations.

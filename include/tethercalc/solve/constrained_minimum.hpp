@@ -30,14 +30,16 @@ struct MinimumOptions {
   std::uint64_t seed = 1;   ///< of the points from which searches start; the answer does not hang
                             ///< on it
   int global_points = 500;  ///< points a variable spread over the whole range, in the global stage
-  int local_starts = 4;     ///< best of them from which local searches start
-  int local_evaluations = 600;  ///< per local search and stage
+  int descents = 16;        ///< best of them, apart from each other, from which to go some way down
+  int descent_evaluations = 60;  ///< per descent
+  int local_starts = 4;          ///< best of where descents end, apart, to search to the bottom
+  int local_evaluations = 600;   ///< per local search and stage
 };
 
 /// How a search ended.
 enum class MinimumOutcome {
-  converged,    ///< two local searches at least agree on the best point, or there is no variable
-  unconfirmed,  ///< feasible, but reached from a single start only: it may be no global optimum
+  converged,    ///< two descents at least lead to the best point, or there is no variable
+  unconfirmed,  ///< feasible, but a single descent leads there: it may be no global optimum
   infeasible,   ///< no feasible point was found: `x` violates the constraints least
   undefined,    ///< the objective or a constraint is finite nowhere that was looked
 };
@@ -49,8 +51,8 @@ struct Minimum {
   double value = 0;                 ///< the objective there; NaN where undefined
   std::vector<double> constraints;  ///< there, from a last evaluation of its own
   double violation = 0;             ///< the largest constraint, 0 where all are kept
-  int starts = 0;                   ///< local searches
-  int agreeing = 0;                 ///< those that ended at the best value, to 1e-6
+  int starts = 0;                   ///< descents
+  int agreeing = 0;                 ///< those that lead to the best value, to 1e-6
   int evaluations = 0;              ///< of the problem
 };
 
@@ -58,10 +60,12 @@ struct Minimum {
 inline constexpr double constraint_tolerance = 1e-9;
 
 /// The least value, by a global stage (points spread evenly, then NLopt's DIRECT-L on an exact
-/// penalty), a local stage from the best of them (COBYLA with the constraints themselves, then
-/// Sbplx on the penalty), and a last search around the best point. Only points that were evaluated,
-/// feasible and finite can be answers: what NLopt itself returns is not relied on. Throws
-/// std::invalid_argument for ranges that are not finite or not in order.
+/// penalty), short descents from the best of them, a local stage from where the best of those end
+/// (COBYLA with the constraints themselves, then Sbplx on the penalty), and a last search around
+/// the best point. The descents are there because the best points alone may all lie in one valley,
+/// by the luck of falling close to a bound or kink. Only points that were evaluated, feasible and
+/// finite can be answers: what NLopt itself returns is not relied on. Throws std::invalid_argument
+/// for ranges that are not finite or not in order.
 [[nodiscard]] Minimum constrained_minimum(const MinimumProblem& problem,
                                           const MinimumOptions& options = {});
 
