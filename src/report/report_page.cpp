@@ -84,25 +84,30 @@ Section drag_section(const LearnedDrag& drag) {
   return {"drag", "Drag learned from " + drag.flights.name, std::move(body)};
 }
 
+/// The story with its figure after the opening paragraphs, which say what it shows.
 Section diagnosis_section(const LogDiagnosis& log) {
   const std::string id = log.diagnosis.kind + "-diagnosis";
-  std::string body;
+  std::string picture;
   if (!log.diagnosis.compared.empty()) {  // the log was long enough to judge by
     Figure figure = diagnosis_figure(log.log, log.diagnosis);
-    figure.id = id + "-figure";  // a page may hold two
-    body += html::picture(figure);
+    figure.id = log.diagnosis.kind + "_diagnosis";  // a page may hold two
+    picture = html::picture(figure);
   }
+  std::string body;
   int tables = 0;
   for (const StoryPart& part : diagnosis_story(log.diagnosis)) {
+    if (const auto* text = std::get_if<std::string>(&part)) {
+      body += html::element("p", *text) + "\n";
+      continue;
+    }
+    body += std::exchange(picture, "");
     if (const auto* heading = std::get_if<StoryHeading>(&part)) {
       body += html::element("h3", heading->text) + "\n";
-    } else if (const auto* table = std::get_if<TitledTable>(&part)) {
-      body += html::table(*table, fmt::format("table-{}-{}", id, ++tables));
     } else {
-      body += html::element("p", std::get<std::string>(part)) + "\n";
+      body += html::table(std::get<TitledTable>(part), fmt::format("table-{}-{}", id, ++tables));
     }
   }
-  return {id, "What the calculation gets wrong: " + log.log, std::move(body)};
+  return {id, "What the calculation gets wrong: " + log.log, body + picture};
 }
 
 TitledTable library_table(const DesignFile& file) {
