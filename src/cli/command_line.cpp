@@ -16,6 +16,7 @@
 #include "cli/log_commands.hpp"
 #include "cli/output.hpp"
 #include "cli/plot_command.hpp"
+#include "cli/report_command.hpp"
 #include "cli/sweep_command.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -71,6 +72,12 @@ void add_flight(CLI::App& command, FlightOptions& flight) {
       ->check(CLI::Range(0, 255));
 }
 
+void add_base(CLI::App& command, std::vector<std::string>& base) {
+  command.add_option("--base", base, "Effects taken as part of the base model, EFFECT[,EFFECT...]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 std::vector<double> parse_areas(const std::vector<std::string>& texts) {
   std::vector<double> areas;
   std::vector<InputProblem> problems;
@@ -109,11 +116,13 @@ class CommandLine {
     add_diagnose();
     add_log();
     add_plot();
+    add_report();
     app_.footer("Exit codes: 0 done; 1 the honest answer is no; 2 bad input; 3 internal error.");
   }
 
   int run(int argc, const char* const* argv) {
     check_command(argc, argv);
+    command_ = shell_command(argc, argv);
     try {
       app_.parse(argc, argv);
     } catch (const CLI::Success& help) {
@@ -286,11 +295,7 @@ class CommandLine {
     add_spec(command, spec_);
     command.add_option("--flight", diagnose_.flight_log, "Flight log: DataFlash (.bin) or CSV");
     command.add_option("--power", diagnose_.power_log, "Power log (CSV)");
-    command
-        .add_option("--base", diagnose_.base,
-                    "Effects taken as part of the base model, EFFECT[,EFFECT...]")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_base(command, diagnose_.base);
     add_flight(command, diagnose_.flight);
     diagnose_into_ = command
                          .add_option("--into", diagnose_.into_file,
@@ -334,11 +339,25 @@ class CommandLine {
                        "sweep: the column shown (default: forward.total_power_W)");
     command.add_option("--flight", plot_.flight_log, "diagnosis: the flight log");
     command.add_option("--power", plot_.power_log, "diagnosis: the power log");
-    command
-        .add_option("--base", plot_.base, "diagnosis: effects taken as part of the base model")
+    command.add_option("--base", plot_.base, "diagnosis: effects taken as part of the base model")
         ->delimiter(',')
         ->allow_extra_args(false);
     add_flight(command, plot_.flight);
+  }
+
+  void add_report() {
+    CLI::App& command =
+        add("report", "One page with everything about a design, to be mailed or printed", [this] {
+          diagnose_.spec = spec_;
+          return run_report(diagnose_, command_, output_);
+        });
+    add_spec(command, spec_);
+    command.add_option("--flight", diagnose_.flight_log,
+                       "With what this flight log says: DataFlash (.bin) or CSV");
+    command.add_option("--power", diagnose_.power_log, "With what this power log says (CSV)");
+    add_base(command, diagnose_.base);
+    add_flight(command, diagnose_.flight);
+    command.add_option("--output", output_.file, "Write to this file, whole or not at all");
   }
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
@@ -390,6 +409,7 @@ class CommandLine {
   DragOptions drag_;
   DiagnoseOptions diagnose_;
   CLI::Option* diagnose_into_ = nullptr;
+  std::string command_;  ///< what was typed
   std::string message_;
   PlotOptions plot_;
 };

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "io/closest_name.hpp"
@@ -15,7 +16,6 @@
 #include "tethercalc/diagnose/design_impact.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 #include "tethercalc/diagnose/power_diagnosis.hpp"
-#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"

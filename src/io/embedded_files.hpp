@@ -14,4 +14,7 @@ struct EmbeddedFile {
 /// Every file of `data/` in alphabetical order of its path.
 std::span<const EmbeddedFile> embedded_files();
 
+/// The content of one of them, which must exist.
+std::string_view embedded_file(std::string_view name);
+
 }  // namespace tethercalc

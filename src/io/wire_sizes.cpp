@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <stdexcept>
 
 #include "io/embedded_files.hpp"
 #include "tethercalc/io/library.hpp"
@@ -12,13 +11,6 @@
 
 namespace tethercalc {
 namespace {
-
-nlohmann::json size_tables() {
-  for (const EmbeddedFile& file : embedded_files()) {
-    if (file.name == "wire_sizes.json") return nlohmann::json::parse(file.content);
-  }
-  throw std::logic_error("wire_sizes.json is not part of the program");
-}
 
 double awg_area(int gauge) {
   const double diameter = 0.127 * std::pow(92.0, (36.0 - gauge) / 39.0) * unit::millimetre;
@@ -35,7 +27,7 @@ void add_metric_sizes(std::vector<WireSize>& sizes, const char* standard,
 }  // namespace
 
 std::vector<WireSize> wire_sizes() {
-  const nlohmann::json tables = size_tables();
+  const nlohmann::json tables = nlohmann::json::parse(embedded_file("wire_sizes.json"));
   std::vector<WireSize> sizes;
   const nlohmann::json& awg = tables.at("awg");
   for (int gauge = awg.at("from"); gauge <= awg.at("to").get<int>(); ++gauge) {

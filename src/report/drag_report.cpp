@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
@@ -96,24 +97,6 @@ std::string title_of(const FittedParameter& parameter) {
   return fmt::format("{}, log {}", parameter.name.substr(0, bracket), index + 1);
 }
 
-std::string parameter_table(const DragFit& fit, const TextStyle& style) {
-  TextTable table({{"", TextTable::Align::left},
-                   {"value"},
-                   {"std. error", TextTable::Align::right},
-                   {"95 % interval", TextTable::Align::right},
-                   {"std. error if independent", TextTable::Align::right},
-                   {"", TextTable::Align::left}});
-  for (const FittedParameter& p : fit.parameters) {
-    const Estimate& e = p.estimate;
-    const bool held = p.at_bound != Bound::none;
-    table.add({title_of(p), parameter_number(p, e.value), percent_of(e.standard_error, e.value),
-               held ? "–" : parameter_number(p, e.lower) + " … " + parameter_number(p, e.upper),
-               percent_of(e.standard_error_independent, e.value),
-               held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
-  }
-  return table.text(style);
-}
-
 std::string range_sentence(const DragIdentification& result) {
   const bool several = result.parts.size() > 1;
   std::string out = automatic(result) ? "The moving part was chosen automatically: " : "Used: ";
@@ -143,13 +126,13 @@ constexpr double well_determined = 0.05;
 std::string entangled_sentence(const DragFit& fit) {
   const std::vector<EntangledPair> pairs = entangled_pairs(fit);
   if (pairs.empty()) return "";
-  std::string out = fmt::format(
-      "Hardly told apart by {}, so that only together they mean something: ",
-      fit.covariance_by_flight.size() > 1 ? "these flights" : "this flight");
+  std::string out =
+      fmt::format("Hardly told apart by {}, so that only together they mean something: ",
+                  fit.covariance_by_flight.size() > 1 ? "these flights" : "this flight");
   for (const EntangledPair& pair : pairs) {
     out += fmt::format("{}{} and {} (correlation {})", &pair == &pairs.front() ? "" : ", ",
-                       title_of(fit.parameters[pair.first]),
-                       title_of(fit.parameters[pair.second]), fixed(pair.correlation, 3));
+                       title_of(fit.parameters[pair.first]), title_of(fit.parameters[pair.second]),
+                       fixed(pair.correlation, 3));
   }
   return out + ".";
 }
@@ -164,18 +147,13 @@ std::string force_sentence(const std::vector<SteadyDrag>& table) {
                      percent_of(force.standard_error, force.value), best->airspeed);
 }
 
-std::string steady_table(const std::vector<SteadyDrag>& rows, const TextStyle& style) {
-  TextTable table(
-      {{"airspeed m/s"}, {"drag N"}, {"95 % interval"}, {"tilt deg"}, {"95 % interval"}});
-  const auto interval = [](const Estimate& e, double unit, int decimals) {
-    return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
-  };
-  for (const SteadyDrag& row : rows) {
-    table.add({fmt::format("{:g}", row.airspeed), fixed(row.force.value, 3),
-               interval(row.force, 1, 3), fixed(row.tilt.value / unit::degree, 2),
-               interval(row.tilt, unit::degree, 2)});
-  }
-  return table.text(style);
+std::string residual_sentence(const FitQuality& quality) {
+  return fmt::format(
+      "Residuals: {} m/s² root mean square, {} m/s² mean absolute; R² {}. They resemble their "
+      "neighbours (lag-1 autocorrelation {}), so {} samples are worth {} independent ones.",
+      significant(quality.rmse, 3), significant(quality.mae, 3), fixed(quality.r_squared, 4),
+      fixed(quality.residual_lag1_autocorrelation, 2), quality.samples,
+      fixed(quality.effective_samples, 0));
 }
 
 }  // namespace
@@ -258,28 +236,61 @@ ordered_json drag_json(const DragIdentification& result) {
   return out;
 }
 
-std::string drag_text(const DragIdentification& result, const TextStyle& style) {
+TitledTable drag_parameter_table(const DragFit& fit) {
+  TextTable table({{"", TextTable::Align::left},
+                   {"value"},
+                   {"std. error", TextTable::Align::right},
+                   {"95 % interval", TextTable::Align::right},
+                   {"std. error if independent", TextTable::Align::right},
+                   {"", TextTable::Align::left}});
+  for (const FittedParameter& p : fit.parameters) {
+    const Estimate& e = p.estimate;
+    const bool held = p.at_bound != Bound::none;
+    table.add({title_of(p), parameter_number(p, e.value), percent_of(e.standard_error, e.value),
+               held ? "–" : parameter_number(p, e.lower) + " … " + parameter_number(p, e.upper),
+               percent_of(e.standard_error_independent, e.value),
+               held ? fmt::format("held at its {} bound", bound_name(p.at_bound)) : ""});
+  }
+  return {"Drag parameters", std::move(table)};
+}
+
+TitledTable steady_flight_table(const DragFit& fit) {
+  TextTable table(
+      {{"airspeed m/s"}, {"drag N"}, {"95 % interval"}, {"tilt deg"}, {"95 % interval"}});
+  const auto interval = [](const Estimate& e, double unit, int decimals) {
+    return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
+  };
+  for (const SteadyDrag& row : steady_drag_table(fit)) {
+    table.add({fmt::format("{:g}", row.airspeed), fixed(row.force.value, 3),
+               interval(row.force, 1, 3), fixed(row.tilt.value / unit::degree, 2),
+               interval(row.tilt, unit::degree, 2)});
+  }
+  return {"Steady flight without wind and tether", std::move(table)};
+}
+
+DragSentences drag_sentences(const DragIdentification& result) {
   const DragFit& fit = result.fit;
-  const FitQuality& quality = fit.quality;
-  const auto table = steady_drag_table(fit);
-  std::string out = style.bold("Drag from flight") + "\n";
-  out += wrapped(range_sentence(result));
-  out += wrapped(fmt::format("Taken as known: {} g, {} kg/m³, pitch offset {}°.",
+  DragSentences out;
+  out.made_of = {range_sentence(result),
+                 fmt::format("Taken as known: {} g, {} kg/m³, pitch offset {}°.",
                              significant(fit.conditions.mass / unit::gram, 4),
                              significant(fit.conditions.air_density, 4),
-                             fixed(result.options.pitch_offset / unit::degree, 3)));
-  out += "\n" + parameter_table(fit, style) + "\n";
-  for (const std::string& sentence : {entangled_sentence(fit), force_sentence(table)}) {
-    if (!sentence.empty()) out += wrapped(sentence);
-  }
-  for (const std::string& sentence : drag_warnings(fit)) out += wrapped(sentence);
-  out += wrapped(fmt::format(
-      "Residuals: {} m/s² root mean square, {} m/s² mean absolute; R² {}. They resemble their "
-      "neighbours (lag-1 autocorrelation {}), so {} samples are worth {} independent ones.",
-      significant(quality.rmse, 3), significant(quality.mae, 3), fixed(quality.r_squared, 4),
-      fixed(quality.residual_lag1_autocorrelation, 2), quality.samples,
-      fixed(quality.effective_samples, 0)));
-  return out + "\nSteady flight without wind and tether:\n" + steady_table(table, style);
+                             fixed(result.options.pitch_offset / unit::degree, 3))};
+  out.quality = {entangled_sentence(fit), force_sentence(steady_drag_table(fit))};
+  std::erase(out.quality, "");
+  for (std::string& warning : drag_warnings(fit)) out.quality.push_back(std::move(warning));
+  out.quality.push_back(residual_sentence(fit.quality));
+  return out;
+}
+
+std::string drag_text(const DragIdentification& result, const TextStyle& style) {
+  const DragSentences told = drag_sentences(result);
+  const TitledTable steady = steady_flight_table(result.fit);
+  std::string out = style.bold("Drag from flight") + "\n";
+  for (const std::string& sentence : told.made_of) out += wrapped(sentence);
+  out += "\n" + drag_parameter_table(result.fit).table.text(style) + "\n";
+  for (const std::string& sentence : told.quality) out += wrapped(sentence);
+  return out + "\n" + steady.title + ":\n" + steady.table.text(style);
 }
 
 std::string drag_csv(const DragIdentification& result) {

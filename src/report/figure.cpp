@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "io/closest_name.hpp"
+#include "report/characters.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 extern "C" char** environ;
@@ -27,83 +27,7 @@ namespace {
 constexpr double font_pt = 7.5;  // of 72 to the inch
 constexpr double millimetre_per_inch = 25.4;
 constexpr double column_mm = 85;
-constexpr double line_mm = 3.2;                           // 7.5 pt and the space between lines
-constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
-
-/// The character that `text` begins with and its length in bytes; U+FFFD and 1 where the bytes are
-/// no UTF-8 (RFC 3629: shortest form, no surrogates).
-std::pair<std::uint32_t, std::size_t> first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
-  };
-  const std::uint32_t lead = byte(0);
-  if (lead < 0x80) return {lead, 1};
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  constexpr std::pair bad{std::uint32_t{0xFFFD}, std::size_t{1}};
-  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return bad;
-  std::uint32_t character = lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return bad;
-    character = character << 6 | (byte(i) & 0x3F);
-  }
-  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
-  if (character < least[length] || character > 0x10FFFF || surrogate) return bad;
-  return {character, length};
-}
-
-/// What XML, terminals or readers stumble over: controls, non-characters, and marks that turn the
-/// direction of writing.
-bool unprintable(std::uint32_t c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200E && c <= 0x200F) ||
-         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) ||
-         (c >= 0xFDD0 && c <= 0xFDEF) || (c & 0xFFFE) == 0xFFFE;
-}
-
-/// One line of printable characters, at most `longest` of them.
-std::string printable(std::string_view text, std::size_t longest) {
-  std::vector<std::string> characters;
-  while (!text.empty() && characters.size() <= longest) {
-    const auto [character, length] = first_character(text);
-    const bool space = character == '\n' || character == '\r' || character == '\t';
-    if (space) {
-      characters.emplace_back(" ");
-    } else if (unprintable(character) || character == 0xFFFD) {
-      characters.emplace_back(replacement);
-    } else {
-      characters.emplace_back(text.substr(0, length));
-    }
-    text.remove_prefix(length);
-  }
-  if (characters.size() > longest) {
-    characters.resize(longest - 1);
-    characters.emplace_back("…");
-  }
-  std::string out;
-  for (const std::string& character : characters) out += character;
-  return out;
-}
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
+constexpr double line_mm = 3.2;  // 7.5 pt and the space between lines
 /// A file without a name, gone when closed.
 using Scratch = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
@@ -224,8 +148,8 @@ std::string finished_svg(const Figure& figure, std::string svg) {
   constexpr std::size_t longest_description = 2000;
   svg.replace(from, to + last.size() - from,
               fmt::format("<title id=\"{0}-title\">{1}</title>\n<desc id=\"{0}-desc\">{2}</desc>",
-                          figure.id, xml_text(printable(figure.title, 200)),
-                          xml_text(printable(figure.description, longest_description))));
+                          figure.id, markup_text(printable(figure.title, 200)),
+                          markup_text(printable(figure.description, longest_description))));
   const std::string_view root = "<svg ";
   svg.insert(svg.find(root) + root.size(),
              fmt::format("role=\"img\" aria-labelledby=\"{0}-title {0}-desc\"", figure.id));

@@ -28,6 +28,21 @@ namespace tethercalc {
 /// block for a spec; `table` lists steady flight with the same objects.
 [[nodiscard]] nlohmann::ordered_json drag_json(const DragIdentification& result);
 
+/// What is said of a fit beside its tables.
+struct DragSentences {
+  std::vector<std::string> made_of;  ///< which samples, and what was taken as known
+  std::vector<std::string> quality;  ///< what is well and what is badly known, and the residuals
+};
+
+/// The fit in sentences.
+[[nodiscard]] DragSentences drag_sentences(const DragIdentification& result);
+
+/// The fitted parameters with both kinds of errors.
+[[nodiscard]] TitledTable drag_parameter_table(const DragFit& fit);
+
+/// `steady_drag_table` for people.
+[[nodiscard]] TitledTable steady_flight_table(const DragFit& fit);
+
 /// Parameters, what is well and what is badly known, quality, and the table of steady flight.
 [[nodiscard]] std::string drag_text(const DragIdentification& result, const TextStyle& style);
 

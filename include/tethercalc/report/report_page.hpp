@@ -1,0 +1,46 @@
+// One page about one design that can be mailed: HTML with its figures inside and nothing to fetch.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tethercalc/diagnose/diagnosis.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
+#include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/optimize_report.hpp"
+
+namespace tethercalc {
+
+/// The drag that a flight of this drone shows.
+struct LearnedDrag {
+  DragIdentification result;  ///< the fit and what it was made of
+  DragFlights flights;        ///< what its figures are drawn from
+};
+
+/// What a log says about the calculation.
+struct LogDiagnosis {
+  std::string log;      ///< its file, without folders
+  Diagnosis diagnosis;  ///< of this log
+};
+
+/// Everything on the page.
+struct PageContent {
+  OptimizeStudy study;                  ///< the answer
+  std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
+  std::optional<LearnedDrag> drag;      ///< likewise
+  std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told
+  std::string command;                  ///< by which the page can be made again, for a shell
+};
+
+/// The page: the answer, what to mind, figures and tables, what the logs say, the spec as used, and
+/// how it was computed. Sentences, tables and numbers are those of the commands `optimize`,
+/// `compare`, `drag` and `diagnose`.
+///
+/// The text is UTF-8, HTML and well-formed XML at once. It holds neither scripts nor references to
+/// anything outside of it, and its content security policy forbids both. Whatever a name holds
+/// stands there as text. The same content makes the same page, byte by byte. Throws as `render`
+/// does: figures are drawn by gnuplot.
+[[nodiscard]] std::string report_page(const PageContent& content);
+
+}  // namespace tethercalc

@@ -1,0 +1,69 @@
+#include "cli/report_command.hpp"
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "cli/log_commands.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/library.hpp"
+#include "tethercalc/report/report_page.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+/// A log is told by its name; folders say nothing on a page for others.
+std::string base_name(const std::string& file) {
+  return std::filesystem::path(file).filename().string();
+}
+
+/// The drag that the flight shows, mass and air as the spec has them where the options do not say.
+LearnedDrag learn_drag(const DiagnoseOptions& options, const Design& design) {
+  FlightOptions flight = options.flight;
+  if (!flight.mass_g) flight.mass_g = design.drone.mass / unit::gram;
+  if (!air_density(flight)) flight.air_density_kg_m3 = design.flight.air_density;
+  const DragIdentificationOptions how = identification_options(flight);
+  const std::vector<FlightLog> logs = read_flight_logs({options.flight_log}, flight.core);
+  try {
+    return {identify_drag(logs, how), fit_drag_flights(base_name(options.flight_log), logs, how)};
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(options.flight_log, error.what());
+  }
+}
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,%+@-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {
+  const DesignFile file = read_design(options.spec.file, options.spec.overrides);
+  PageContent content;
+  content.command = command;
+  if (!options.flight_log.empty()) content.drag = learn_drag(options, file.design);
+  if (!options.flight_log.empty() || !options.power_log.empty()) {
+    const ToldDiagnosis told = diagnose_logs(options, file);
+    if (told.flight) content.diagnoses.push_back({base_name(options.flight_log), *told.flight});
+    if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
+  }
+  content.motors = compare_motors(file.design, library_motors());
+  content.study = study(file);
+  emit(output, report_page(content));
+  return content.study.result.feasible ? done : answer_is_no;
+}
+
+std::string shell_command(int argc, const char* const* argv) {
+  std::string out = "tethercalc";
+  for (int i = 1; i < argc; ++i) out += " " + shell_word(argv[i]);
+  return out;
+}
+
+}  // namespace tethercalc::cli

@@ -1,0 +1,19 @@
+// The command that makes one page of everything about a design.
+#pragma once
+
+#include <string>
+
+#include "cli/diagnose_command.hpp"
+#include "cli/output.hpp"
+
+namespace tethercalc::cli {
+
+/// Writes the page. `options` names the spec and the logs, which may both be there; `command` is
+/// what was typed, for a shell. Returns the exit code of `optimize` for the spec; throws InputError
+/// for bad input.
+int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output);
+
+/// The command line as one may type it into a shell again.
+[[nodiscard]] std::string shell_command(int argc, const char* const* argv);
+
+}  // namespace tethercalc::cli

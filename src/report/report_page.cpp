@@ -1,0 +1,198 @@
+#include "tethercalc/report/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "io/embedded_files.hpp"
+#include "report/characters.hpp"
+#include "report/html.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/diagnosis_figure.hpp"
+#include "tethercalc/report/diagnosis_report.hpp"
+#include "tethercalc/report/drag_report.hpp"
+
+namespace tethercalc {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A part of the page that the contents list.
+struct Section {
+  std::string id;
+  std::string title;
+  std::string body;  ///< markup
+};
+
+std::string contents(const std::vector<Section>& sections) {
+  std::string out = "<nav aria-label=\"Contents\">\n<ul>\n";
+  for (const Section& section : sections) {
+    out += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, markup_text(section.title));
+  }
+  return out + "</ul>\n</nav>\n";
+}
+
+std::string section_markup(const Section& section) {
+  return fmt::format("<section aria-labelledby=\"{0}\">\n{1}\n{2}</section>\n", section.id,
+                     html::element("h2", section.title, fmt::format(" id=\"{}\"", section.id)),
+                     section.body);
+}
+
+Section answer_section(const OptimizeStudy& study) {
+  const Answer told = answer(study);
+  const bool feasible = study.result.feasible;
+  std::string body = html::element(
+      "p", told.headline, feasible ? " class=\"headline good\"" : " class=\"headline bad\"");
+  body += "\n" + html::paragraphs(told.sentences);
+  if (!told.remedies.empty()) body += html::list(told.remedies);
+  if (feasible) body += html::table(condition_table(study), "table-conditions");
+  for (const std::string& warning : study.file.warnings) {
+    body += html::element("p", "Note: " + warning, " class=\"note\"") + "\n";
+  }
+  return {"answer", "The answer", std::move(body)};
+}
+
+Section cross_sections(const OptimizeStudy& study) {
+  std::string body = html::picture(optimum_figure(study));
+  if (!study.sizes.empty()) body += html::table(sizes_table(study), "table-sizes");
+  if (!study.table.empty()) body += html::table(power_table(study), "table-power");
+  return {"cross-sections", "Thrust and power over the cross-section", std::move(body)};
+}
+
+Section other_motors(const PageContent& content) {
+  const DesignFile& file = content.study.file;
+  std::string body = html::picture(motors_figure(file, content.motors));
+  const TitledTable ranking = motor_table(file.design, content.motors);
+  if (!ranking.table.rows().empty()) body += html::table(ranking, "table-motors");
+  const std::vector<std::string> refused = refused_motors(content.motors);
+  if (!refused.empty()) body += html::element("h3", "Not feasible") + "\n" + html::list(refused);
+  return {"motors", "The same drone with motors of the library", std::move(body)};
+}
+
+Section drag_section(const LearnedDrag& drag) {
+  const DragFit& fit = drag.result.fit;
+  const DragSentences told = drag_sentences(drag.result);
+  std::string body = html::paragraphs(told.made_of);
+  body += html::table(drag_parameter_table(fit), "table-drag");
+  body += html::paragraphs(told.quality);
+  body += html::picture(drag_figure(drag.flights));
+  const TitledTable steady = steady_flight_table(fit);
+  if (!steady.table.rows().empty()) body += html::table(steady, "table-steady-drag");
+  return {"drag", "Drag learned from " + drag.flights.name, std::move(body)};
+}
+
+/// The story with its figure after the opening paragraphs, which say what it shows.
+Section diagnosis_section(const LogDiagnosis& log) {
+  const std::string id = log.diagnosis.kind + "-diagnosis";
+  std::string picture;
+  if (!log.diagnosis.compared.empty()) {  // the log was long enough to judge by
+    Figure figure = diagnosis_figure(log.log, log.diagnosis);
+    figure.id = log.diagnosis.kind + "_diagnosis";  // a page may hold two
+    picture = html::picture(figure);
+  }
+  std::string body;
+  int tables = 0;
+  for (const StoryPart& part : diagnosis_story(log.diagnosis)) {
+    if (const auto* text = std::get_if<std::string>(&part)) {
+      body += html::element("p", *text) + "\n";
+      continue;
+    }
+    body += std::exchange(picture, "");
+    if (const auto* heading = std::get_if<StoryHeading>(&part)) {
+      body += html::element("h3", heading->text) + "\n";
+    } else {
+      body += html::table(std::get<TitledTable>(part), fmt::format("table-{}-{}", id, ++tables));
+    }
+  }
+  return {id, "What the calculation gets wrong: " + log.log, body + picture};
+}
+
+TitledTable library_table(const DesignFile& file) {
+  using Align = TextTable::Align;
+  TextTable table(
+      {{"what", Align::left}, {"id", Align::left}, {"name", Align::left}, {"source", Align::left}});
+  table.add({"motor", file.motor.id, file.motor.name, file.motor.source});
+  table.add({"conductor", file.conductor.id, file.conductor.name, file.conductor.source});
+  table.add({"insulation", file.insulation.id, file.insulation.name, file.insulation.source});
+  return {"Motor and materials", std::move(table)};
+}
+
+/// The fields that the spec leaves to their defaults, of those that have one.
+TitledTable defaults_table(const DesignFile& file) {
+  using Align = TextTable::Align;
+  TextTable table({{"field", Align::left}, {"value", Align::left}, {"meaning", Align::left}});
+  for (const SpecField& field : spec_fields()) {
+    const bool has_default = !field.required() && field.default_json != "null";
+    if (!has_default || field.kind == FieldKind::text) continue;
+    if (file.document.contains(ordered_json::json_pointer(std::string(field.pointer)))) continue;
+    table.add({dot_path(field.pointer), fmt::format("{} {}", field.default_json, field.unit),
+               std::string(field.help)});
+  }
+  return {"Fields that the spec leaves to their defaults", std::move(table)};
+}
+
+Section spec_section(const DesignFile& file) {
+  std::string body = html::listing(visible_json(file.document.dump(2)), "The spec as JSON");
+  body += html::table(library_table(file), "table-library");
+  const TitledTable defaults = defaults_table(file);
+  if (!defaults.table.rows().empty()) body += html::table(defaults, "table-defaults");
+  return {"spec", "The spec as used", std::move(body)};
+}
+
+Section method_section(const PageContent& content) {
+  const std::vector<std::string> method{
+      "Steady flight, in hover and in forward flight. At each cross-section the tilt of the drone "
+      "follows from its weight, its drag and the tether's, and with it the thrust that it needs; "
+      "motor curve, converter and the resistance of the tether give the power that the supply has "
+      "to deliver for that, and the thrust that it could deliver at most.",
+      "The optimum is the cross-section that draws the least power among those that keep the "
+      "demanded thrust headroom and every other requirement of the spec. Where the headroom is "
+      "kept within a range only, the whole range was found.",
+      "All drag of the tether acts on the drone; the tether hangs straight and is as long as the "
+      "drone is high. Above the last point of its curve a motor has no more thrust.",
+      "After Beffert and Zell, Cable Optimization and Drag Estimation for Tether-Powered "
+      "Multirotor "
+      "UAVs (2025)."};
+  std::string body = html::paragraphs(method);
+  body +=
+      html::element("p", "Computed by tethercalc " TETHERCALC_VERSION ". The same again:") + "\n";
+  body += html::listing(content.command, "The command");
+  return {"method", "How this was computed", std::move(body)};
+}
+
+std::string head(const std::string& title) {
+  return fmt::format(
+      "<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
+      "'unsafe-inline'; img-src data:\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+      "<meta name=\"color-scheme\" content=\"light dark\"/>\n"
+      "<meta name=\"generator\" content=\"tethercalc " TETHERCALC_VERSION
+      "\"/>\n{}\n<style>\n{}</style>\n</head>\n",
+      html::element("title", title), embedded_file("report/page.css"));
+}
+
+}  // namespace
+
+std::string report_page(const PageContent& content) {
+  std::vector<Section> sections{answer_section(content.study), cross_sections(content.study)};
+  if (!content.motors.empty()) sections.push_back(other_motors(content));
+  if (content.drag) sections.push_back(drag_section(*content.drag));
+  for (const LogDiagnosis& log : content.diagnoses) sections.push_back(diagnosis_section(log));
+  sections.push_back(spec_section(content.study.file));
+  sections.push_back(method_section(content));
+
+  const std::string name = printable(content.study.file.name);
+  constexpr std::size_t longest_title = 100;
+  std::string out = "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n";
+  out += head(printable(name, longest_title));
+  out += "<body>\n<header>\n<p class=\"kind\">Tether of a drone</p>\n" + html::element("h1", name);
+  out += "\n" + contents(sections) + "</header>\n<main>\n";
+  for (const Section& section : sections) out += section_markup(section);
+  return out + "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace tethercalc
