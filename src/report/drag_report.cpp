@@ -143,13 +143,13 @@ constexpr double well_determined = 0.05;
 std::string entangled_sentence(const DragFit& fit) {
   const std::vector<EntangledPair> pairs = entangled_pairs(fit);
   if (pairs.empty()) return "";
-  std::string out = fmt::format(
-      "Hardly told apart by {}, so that only together they mean something: ",
-      fit.covariance_by_flight.size() > 1 ? "these flights" : "this flight");
+  std::string out =
+      fmt::format("Hardly told apart by {}, so that only together they mean something: ",
+                  fit.covariance_by_flight.size() > 1 ? "these flights" : "this flight");
   for (const EntangledPair& pair : pairs) {
     out += fmt::format("{}{} and {} (correlation {})", &pair == &pairs.front() ? "" : ", ",
-                       title_of(fit.parameters[pair.first]),
-                       title_of(fit.parameters[pair.second]), fixed(pair.correlation, 3));
+                       title_of(fit.parameters[pair.first]), title_of(fit.parameters[pair.second]),
+                       fixed(pair.correlation, 3));
   }
   return out + ".";
 }
