@@ -52,10 +52,10 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
-  for (auto series : {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt,
-                      &FlightRecord::yaw, &FlightRecord::forward_speed, &FlightRecord::down_speed,
-                      &FlightRecord::down_acceleration, &FlightRecord::inverse_cos_roll,
-                      &FlightRecord::turn_acceleration}) {
+  for (auto series :
+       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
+        &FlightRecord::forward_speed, &FlightRecord::down_speed, &FlightRecord::down_acceleration,
+        &FlightRecord::inverse_cos_roll, &FlightRecord::turn_acceleration}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),

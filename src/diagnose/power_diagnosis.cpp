@@ -299,8 +299,8 @@ bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
     const PowerStage& stage = residuals.stages()[k];
     if (stage.stage != Stage::motors) continue;
     for (const std::size_t u : selection.unnamed.regressors) {
-      const auto first = problem.unnamed[u].column.begin() +
-                         static_cast<std::ptrdiff_t>(stage.first_row);
+      const auto first =
+          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
       if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
                       [](double x) { return x != 0; })) {
         return false;
@@ -527,8 +527,8 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
 
   diagnosis.samples = residuals.samples();
   // Rows are whitened: each counts.
-  diagnosis.effective_samples =
-      std::round(static_cast<double>(selection.rows) / static_cast<double>(residuals.stages().size()));
+  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
+                                           static_cast<double>(residuals.stages().size()));
   diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
   diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
   for (std::size_t e = 0; e < effects.size(); ++e) {
