@@ -215,6 +215,9 @@ class PowerProblem {
 
   [[nodiscard]] std::size_t first_parameter(std::size_t e) const { return first_[e]; }
 
+  /// After the residuals' noise has changed.
+  void forget() { cache_.assign(cache_.size(), {}); }
+
  private:
   static bool is_neutral(const Effect& effect, std::span<const double> own) {
     // The first parameters are sizes; with them neutral the others change nothing.
@@ -268,6 +271,45 @@ std::vector<SelectionPart> parts_of(const PowerResiduals& residuals,
     if (std::count(part.rows.begin(), part.rows.end(), char{1}) > 0) parts.push_back(part);
   }
   return parts;
+}
+
+/// The search with the residuals' present noise.
+Selection search(const PowerResiduals& residuals, const std::vector<const Effect*>& effects,
+                 SelectionProblem& problem, const SelectionProgress& progress) {
+  problem.measured.assign(residuals.rows(), 0);
+  problem.noise.assign(residuals.rows(), 1);
+  problem.block = blocks_of(residuals);
+  problem.unnamed = power_shapes(residuals);
+  SelectionOptions options;
+  options.false_alarm_probability = false_alarm_probability;
+  const std::vector<SelectionPart> parts = parts_of(residuals, effects);
+  Selection selection = select_subset(problem, parts, options, progress);
+  // A step must stand where it happened, or names are sought for the stretch between.
+  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
+    selection = select_subset(problem, parts, options, progress);
+  }
+  return selection;
+}
+
+/// The motors' noise lasts for seconds, and few rows tell how long. Takes it from what the model
+/// that was found leaves, provided that no unnamed structure is in it. False where it stays.
+bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
+                  const SelectionProblem& problem, const Selection& selection) {
+  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
+    const PowerStage& stage = residuals.stages()[k];
+    if (stage.stage != Stage::motors) continue;
+    for (const std::size_t u : selection.unnamed.regressors) {
+      const auto first =
+          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
+                      [](double x) { return x != 0; })) {
+        return false;
+      }
+    }
+    residuals.refine_noise(k, found);
+    return true;
+  }
+  return false;
 }
 
 std::vector<ParameterEstimate> estimates(const Effect& effect, std::size_t first,
@@ -448,7 +490,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   const std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
-  const PowerResiduals residuals(base, std::move(screened));
+  PowerResiduals residuals(base, std::move(screened));
 
   std::vector<const Effect*> effects;
   for (const Effect& effect : catalogue) {
@@ -475,24 +517,18 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   problem.predict = [&view](std::span<const double> values, std::span<double> out) {
     view.predict(values, out);
   };
-  problem.measured.assign(residuals.rows(), 0);
-  problem.noise.assign(residuals.rows(), 1);
-  problem.block = blocks_of(residuals);
-  problem.unnamed = power_shapes(residuals);
-
-  SelectionOptions options;
-  options.false_alarm_probability = false_alarm_probability;
-  const std::vector<SelectionPart> parts = parts_of(residuals, effects);
-  Selection selection = select_subset(problem, parts, options, progress);
-  // A step must stand where it happened, or names are sought for the stretch between.
-  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
-    selection = select_subset(problem, parts, options, progress);
+  Selection selection = search(residuals, effects, problem, progress);
+  const auto everything = [](const Effect&) { return true; };
+  const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
+  if (refine_noise(residuals, model(selection.extended.values), problem, selection)) {
+    view.forget();
+    selection = search(residuals, effects, problem, progress);
   }
 
   diagnosis.samples = residuals.samples();
   // Rows are whitened: each counts.
-  diagnosis.effective_samples =
-      static_cast<double>(selection.rows) / static_cast<double>(residuals.stages().size());
+  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
+                                           static_cast<double>(residuals.stages().size()));
   diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
   diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -531,8 +567,6 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
     }
     diagnosis.not_identifiable.push_back({effects[aliased.group]->id, because});
   }
-  const auto everything = [](const Effect&) { return true; };
-  const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
   diagnosis.budget = error_budget(selection);
   if (!selection.unnamed.regressors.empty()) {
     const UnnamedRegressor& strongest = problem.unnamed[selection.unnamed.regressors.front()];

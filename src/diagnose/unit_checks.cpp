@@ -44,6 +44,11 @@ void check_flight_units(const Observations& o, double step) {
     measured += seen * seen;
   }
   if (!(leaning > 0 && measured > 0)) return;
+  constexpr double level = 0.1;
+  if (std::sqrt(leaning / measured) < level) {
+    throw UnsuitableFlight(
+        "the pitch is far too level for the logged accelerations; are the angles in radians?");
+  }
   constexpr double clear = 0.5;  // real flights have correlations of 0.8 to 0.95
   const double correlation = both / std::sqrt(leaning * measured);
   const double slope = both / leaning;
@@ -59,11 +64,6 @@ void check_flight_units(const Observations& o, double step) {
         fmt::format("the forward acceleration is {:.2g} times what the pitch "
                     "makes expect; {}",
                     slope, hint));
-  }
-  constexpr double level = 0.1;
-  if (std::sqrt(leaning / measured) < level) {
-    throw UnsuitableFlight(
-        "the pitch is far too level for the logged accelerations; are the angles in radians?");
   }
 }
 
