@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -169,12 +170,16 @@ std::string standalone_script(const Figure& figure, const FigureSize& size) {
 }  // namespace
 
 std::string gnuplot_text(std::string_view text, std::size_t longest) {
-  std::string out = "'";
-  for (const char c : printable(text, longest)) {
-    if (c == '\'') out += '\'';
-    out += c;
+  const std::string safe = printable(text, longest);
+  std::string out;
+  for (std::size_t begin = 0; begin <= safe.size();) {
+    const std::size_t end = std::min(safe.find('\'', begin), safe.size());
+    if (end > begin)
+      out += fmt::format("{}'{}'", out.empty() ? "" : ".", safe.substr(begin, end - begin));
+    if (end < safe.size()) out += fmt::format("{}\"'\"", out.empty() ? "" : ".");
+    begin = end + 1;
   }
-  return out + "'";
+  return out.empty() ? "''" : out;
 }
 
 FigureFormat figure_format(std::string_view file, const std::string& where) {

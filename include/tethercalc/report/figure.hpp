@@ -48,11 +48,12 @@ struct FigureSize {
 /// InputError with the allowed ones, about the option or place called `where`.
 [[nodiscard]] FigureFormat figure_format(std::string_view file, const std::string& where);
 
-/// `text` as a literal of gnuplot that is nothing but text, quotes included, for use where enhanced
-/// text is off: between single quotes gnuplot substitutes neither commands in backquotes nor
-/// macros, and only the single quote itself has to be doubled. Line breaks become spaces; control
-/// characters and what is no UTF-8 become U+FFFD; more than `longest` characters are cut and end in
-/// "…".
+/// `text` as an expression of gnuplot that is nothing but text, quotes included, for use where
+/// enhanced text is off: between single quotes gnuplot substitutes neither commands in backquotes
+/// nor macros. A single quote within becomes ."'". between two literals: doubled, as the manual
+/// has it, gnuplot 5.4 takes it for the literal's end where it is the first or follows another.
+/// Line breaks become spaces; control characters and what is no UTF-8 become U+FFFD; more than
+/// `longest` characters are cut and end in "…".
 [[nodiscard]] std::string gnuplot_text(std::string_view text, std::size_t longest = 60);
 
 }  // namespace tethercalc

@@ -1,0 +1,122 @@
+#include "tethercalc/report/design_figures.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "support/gnuplot.hpp"
+#include "support/run_program.hpp"
+#include "tethercalc/io/library.hpp"
+
+using namespace tethercalc;
+using namespace tethercalc::test;
+using Catch::Contains;
+
+namespace {
+
+std::vector<std::string> reference_specs() {
+  std::vector<std::string> files;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(project_file("examples/reference"))) {
+    const std::string file = entry.path().string();
+    if (file.ends_with(".json") && !file.ends_with(".expected.json")) files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Every text lies within the picture and covers no other.
+void check_layout(const Figure& figure) {
+  const std::string svg = render(figure, FigureFormat::svg);
+  const std::vector<TextBox> boxes = text_boxes(svg);
+  CHECK(boxes.size() > 15);
+  CHECK(overlaps(boxes) == std::vector<std::string>{});
+  constexpr double width = 85 / 25.4 * 96;
+  for (const TextBox& box : boxes) {
+    INFO(box.text);
+    CHECK(box.left >= -1);
+    CHECK(box.right <= width + 1);
+    CHECK(box.top >= 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the curves of the optimum are the library's operating points") {
+  const DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
+  const OptimizeStudy answer = study(file);
+  const auto rows = block_of(optimum_figure(answer).script, "curves");
+  REQUIRE(rows.size() > 200);
+  for (std::size_t i = 0; i < rows.size(); i += 29) {
+    const double area = rows[i][0] * unit::square_millimetre;
+    const OperatingPoint hover = evaluate(file.design, area, Condition::hover);
+    const OperatingPoint forward = evaluate(file.design, area, Condition::forward);
+    const double g = unit::gram_force;
+    CHECK(rows[i][1] == Approx(hover.available_thrust / g).epsilon(1e-5));
+    CHECK(rows[i][2] == Approx(hover.necessary_thrust / g).epsilon(1e-5));
+    CHECK(rows[i][3] == Approx(forward.necessary_thrust / g).epsilon(1e-5));
+    CHECK(rows[i][4] == Approx(2 * hover.necessary_thrust / g).epsilon(1e-5));
+    if (std::isfinite(hover.total_power)) {
+      CHECK(rows[i][5] == Approx(hover.total_power).epsilon(1e-5));
+    } else {
+      CHECK(std::isnan(rows[i][5]));
+    }
+  }
+}
+
+TEST_CASE("the published optimum is marked and said in words") {
+  // Beffert and Zell 2025, section V-B and figure on cable optimisation.
+  const Figure figure =
+      optimum_figure(study(read_design(project_file("examples/holybro-x500.json"), {})));
+  CHECK_THAT(figure.description, Contains("1.09 mm²"));
+  CHECK_THAT(figure.description, Contains("405.4 W in hover"));
+  CHECK_THAT(figure.description, Contains("444.9 W in forward flight"));
+  for (const char* words :
+       {"thrust per motor (g)", "power from the supply (W)", "cross-section of one conductor (mm²)",
+        "IEC 60228 (mm²)", "AWG", "'optimum, 1.09 mm²'", "'necessary in hover'",
+        "'least power, 0.980 mm²'", "'feasible'"}) {
+    CHECK_THAT(figure.script, Contains(words));
+  }
+}
+
+TEST_CASE("the curves of motors are their efficiencies") {
+  const DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
+  const auto ranking = compare_motors(file.design, library_motors());
+  const Figure figure = motors_figure(file, ranking);
+  for (std::size_t i = 0; i < ranking.size(); ++i) {
+    const auto rows = block_of(figure.script, "motor" + std::to_string(i + 1));
+    const MotorCurve& curve = ranking[i].design.drone.motor;
+    REQUIRE(rows.size() > 10);
+    for (const auto& row : rows) {
+      CHECK(row[1] == Approx(row[0] / curve.power(row[0] * unit::gram_force)).epsilon(1e-5));
+    }
+    CHECK(rows.back()[0] == Approx(curve.max_thrust() / unit::gram_force).epsilon(1e-5));
+    CHECK_THAT(figure.description, Contains(ranking[i].motor.name));
+  }
+  CHECK_THAT(figure.script,
+             Contains("'efficiency (g/W)'") && Contains("'thrust of one motor (g)'"));
+}
+
+TEST_CASE("no label covers another in the figures of any reference design") {
+  if (!gnuplot_is_there()) return;
+  const std::vector<MotorEntry> motors = library_motors();
+  for (const std::string& spec : reference_specs()) {
+    INFO(spec);
+    const DesignFile file = read_design(spec, {});
+    check_layout(optimum_figure(study(file)));
+    check_layout(motors_figure(file, compare_motors(file.design, motors)));
+  }
+}
+
+TEST_CASE("a design whose power cannot be delivered says so in its figure") {
+  const DesignFile file =
+      read_design(project_file("examples/reference/infeasible-power-hover.json"), {});
+  CHECK_THAT(optimum_figure(study(file)).script, Contains("'cannot be delivered'"));
+}
+
+TEST_CASE("a figure's legend and heading survive a name of 300 characters") {
+  if (!gnuplot_is_there()) return;
+  DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
+  file.name = std::string(150, 'n') + std::string(150, '\'');
+  check_layout(optimum_figure(study(file)));
+}

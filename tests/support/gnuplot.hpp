@@ -1,0 +1,116 @@
+// What tests of figures need: gnuplot itself, the data in a script, and the texts in an SVG.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace tethercalc::test {
+
+/// Whether gnuplot is installed; where it is not, a line that reports the test as skipped.
+inline bool gnuplot_is_there() {
+  const bool there = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  if (!there) std::printf("SKIPPED: gnuplot is not installed\n");
+  return there;
+}
+
+/// Rows of numbers of the data block `name` in a script.
+inline std::vector<std::vector<double>> block_of(const std::string& script,
+                                                 const std::string& name) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(script);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (inside && line == "EOD") break;
+    if (inside) {
+      std::istringstream cells(line);
+      rows.emplace_back();
+      for (std::string cell; cells >> cell;) {
+        rows.back().push_back(cell == "NaN" ? std::numeric_limits<double>::quiet_NaN()
+                                            : std::stod(cell));
+      }
+    }
+    inside = inside || line == "$" + name + " << EOD";
+  }
+  return rows;
+}
+
+/// A text of a picture and the room it takes, in pixels.
+struct TextBox {
+  std::string text;
+  double left = 0, right = 0, top = 0, bottom = 0;
+};
+
+/// Advance widths of DejaVu Sans in thousandths of the font size, from U+0020 to U+007E.
+inline constexpr std::array advance_widths{
+    318, 401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361,  318, 337, 636, 636, 636,
+    636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531, 1000, 684, 686, 698, 770, 632,
+    575, 775, 752, 295, 295, 656, 557, 863, 748, 787, 603, 787, 695, 635,  611, 732, 684, 989, 685,
+    611, 685, 390, 337, 390, 838, 500, 500, 613, 635, 550, 635, 615, 352,  635, 634, 278, 278, 579,
+    278, 974, 634, 612, 635, 635, 411, 521, 392, 634, 592, 818, 592, 592,  525, 636, 337, 636, 838};
+
+/// Width of a text over the font size; other characters than ASCII count as wide ones.
+inline double text_width(const std::string& text) {
+  double width = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0) == 0x80) continue;
+    width += byte >= 0x20 && byte < 0x7F ? advance_widths[byte - 0x20] : 840;
+  }
+  return width / 1000;
+}
+
+inline std::string without_entities(std::string text) {
+  for (const auto& [entity, character] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}}) {
+    for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; ++at) {
+      text.replace(at, std::string(entity).size(), character);
+    }
+  }
+  return text;
+}
+
+/// All texts that gnuplot's SVG shows, unrotated.
+inline std::vector<TextBox> text_boxes(const std::string& svg) {
+  static const std::regex element(
+      R"re(translate\(([-\d.]+),([-\d.]+)\)[^>]*font-size="([\d.]+)"[^>]*text-anchor="(\w+)">\s*<text>([\s\S]*?)</text>)re");
+  std::vector<TextBox> boxes;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
+    const std::smatch& m = *it;
+    std::string text = without_entities(std::regex_replace(m[5].str(), std::regex("<[^>]*>"), ""));
+    text.erase(0, text.find_first_not_of(" \t\n"));
+    text.erase(text.find_last_not_of(" \t\n") + 1);
+    if (text.empty()) continue;
+    const double x = std::stod(m[1]);
+    const double y = std::stod(m[2]);
+    const double size = std::stod(m[3]);
+    const double width = size * text_width(text);
+    const double left = m[4] == "start" ? x : m[4] == "end" ? x - width : x - width / 2;
+    // Capitals and figures rise by 0.73 of the size, the longest tails hang by 0.24.
+    boxes.push_back({text, left, left + width, y - 0.73 * size, y + 0.24 * size});
+  }
+  return boxes;
+}
+
+/// "a | b" for every two texts that cover each other.
+inline std::vector<std::string> overlaps(const std::vector<TextBox>& boxes) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t k = i + 1; k < boxes.size(); ++k) {
+      const TextBox& a = boxes[i];
+      const TextBox& b = boxes[k];
+      if (a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom) {
+        out.push_back(a.text + " | " + b.text);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace tethercalc::test
