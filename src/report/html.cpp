@@ -82,7 +82,14 @@ std::string picture(const Figure& figure) {
   std::string svg = render(figure, FigureFormat::svg);
   const std::size_t root = svg.find("<svg ");
   if (root == std::string::npos) throw std::runtime_error("gnuplot wrote no SVG");
-  return "<figure class=\"picture\">\n" + svg.substr(root) + "</figure>\n";
+  svg.erase(0, root);
+  // Titles that gnuplot numbers its curves by would show up under the pointer.
+  const std::string_view begin = "<title>";
+  const std::string_view end = "</title>";
+  for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
+    svg.erase(at, svg.find(end, at) + end.size() - at);
+  }
+  return "<figure class=\"picture\">\n" + svg + "</figure>\n";
 }
 
 }  // namespace tethercalc::html

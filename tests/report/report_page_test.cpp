@@ -189,7 +189,8 @@ TEST_CASE("the page has one title, headings in order, landmarks, and names for e
     const std::string name = element[0];
     const json& attributes = element[1];
     INFO(element);
-    ++count[name];
+    const bool of_a_figure = name == "title" && attributes.contains("id");
+    if (!of_a_figure) ++count[name];
     if (attributes.contains("id")) CHECK(ids.insert(attributes["id"]).second);
     if (attributes.contains("aria-labelledby")) {
       std::istringstream words(attributes["aria-labelledby"].get<std::string>());
