@@ -30,14 +30,14 @@ std::string header_row(const TextTable& table) {
 }
 
 std::string body_row(const TextTable& table, const TextTable::Row& row) {
+  constexpr std::size_t longest_word = 32;  // characters that stay in one line
   std::string out = row.emphasis ? "<tr class=\"main\">" : "<tr>";
   for (std::size_t c = 0; c < row.cells.size(); ++c) {
+    const std::string& cell = row.cells[c];
     const bool number = table.columns()[c].align == TextTable::Align::right;
-    if (c == 0) {
-      out += element("th", row.cells[c], number ? " scope=\"row\" class=\"n\"" : " scope=\"row\"");
-    } else {
-      out += element("td", row.cells[c], number ? " class=\"n\"" : " class=\"words\"");
-    }
+    const char* kind = number ? "n" : display_width(cell) <= longest_word ? "word" : "prose";
+    out += c == 0 ? element("th", cell, fmt::format(" scope=\"row\" class=\"{}\"", kind))
+                  : element("td", cell, fmt::format(" class=\"{}\"", kind));
   }
   return out + "</tr>\n";
 }
@@ -82,7 +82,14 @@ std::string picture(const Figure& figure) {
   std::string svg = render(figure, FigureFormat::svg);
   const std::size_t root = svg.find("<svg ");
   if (root == std::string::npos) throw std::runtime_error("gnuplot wrote no SVG");
-  return "<figure class=\"picture\">\n" + svg.substr(root) + "</figure>\n";
+  svg.erase(0, root);
+  // Titles that gnuplot numbers its curves by would show up under the pointer.
+  const std::string_view begin = "<title>";
+  const std::string_view end = "</title>";
+  for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
+    svg.erase(at, svg.find(end, at) + end.size() - at);
+  }
+  return "<figure class=\"picture\">\n" + svg + "</figure>\n";
 }
 
 }  // namespace tethercalc::html

@@ -11,6 +11,7 @@ import json
 import os
 import pathlib
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -169,18 +170,18 @@ def expect(what, found, wanted):
 
 
 def check_page(browser, page, sections):
-    for scheme in ("light", "dark"):
-        where = f"{page.name}, {scheme}"
-        requests, complaints = browser.open(page, scheme=scheme)
+    for scheme, width in (("light", DESKTOP), ("dark", PHONE), ("light", SMALLEST)):
+        where = f"{page.name}, {scheme}, {width} wide"
+        requests, complaints = browser.open(page, width, scheme)
         expect(f"{where}: requests", requests, [page.as_uri()])
         expect(f"{where}: console", complaints, [])
         expect(f"{where}: low contrast", browser.value(LOW_CONTRAST), [])
-        browser.screenshot(page.with_name(f"{page.stem}-{scheme}.png"))
-        for width in (PHONE, SMALLEST):
-            browser.open(page, width, scheme)
-            expect(f"{where}: overflow at {width}", browser.value(OVERFLOWING), [])
-            if width == PHONE:
-                browser.screenshot(page.with_name(f"{page.stem}-phone-{scheme}.png"))
+        expect(f"{where}: overflow", browser.value(OVERFLOWING), [])
+        if width != SMALLEST:
+            picture = page.with_name(f"{page.stem}-{width}-{scheme}.png")
+            browser.screenshot(picture)
+            wide, high = struct.unpack(">II", picture.read_bytes()[16:24])  # in a PNG's header
+            expect(f"{where}: screenshot", (width - 20 <= wide <= width, high > 2000), (True, True))
     expect(f"{page.name}: sections",
            browser.value("[...document.querySelectorAll('main > section > h2')].map(h => h.id)"),
            sections)
@@ -196,6 +197,7 @@ def check_page(browser, page, sections):
     expect(f"{page.name}: contents on paper",
            browser.value("getComputedStyle(document.querySelector('nav')).display"), "none")
     browser.pdf(page.with_suffix(".pdf"))
+    expect(f"{page.name}: PDF", page.with_suffix(".pdf").read_bytes()[:5], b"%PDF-")
 
 
 def check_policy(browser, page):
