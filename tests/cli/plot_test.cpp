@@ -188,6 +188,28 @@ TEST_CASE("an unknown kind, suffix or motor is refused with the nearest known") 
   CHECK(run_tethercalc({"plot", "diagnosis", published}).exit_code == 2);
 }
 
+TEST_CASE("options of other figures are refused, all at once") {
+  const Ran run = run_tethercalc({"plot", "optimum", published, "--x", "supply.voltage_V",
+                                  "--mass-g", "1", "--view", "speed"});
+  CHECK(run.exit_code == 2);
+  for (const char* words : {"--x: is an option of the figures sweep, not of optimum",
+                            "--mass-g: is an option of", "--view: is an option of"}) {
+    CHECK_THAT(run.err, Contains(words));
+  }
+}
+
+TEST_CASE("a heading can be given") {
+  const Ran run =
+      run_tethercalc({"plot", "optimum", published, "--title", "Ours", "--output", "/dev/stdout"});
+  CHECK(run.exit_code == 2);  // no suffix, no format
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.gp").string();
+  CHECK(run_tethercalc({"plot", "optimum", published, "--title", "It's ours", "--output", file})
+            .exit_code == 0);
+  CHECK_THAT(file_text(file), Contains("'It'.\"'\".'s ours'"));
+  CHECK(file_text(file).find("Holybro X500") == std::string::npos);
+}
+
 TEST_CASE("a log that is too short to judge has no diagnosis to draw, and says so") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "short.csv").string();
