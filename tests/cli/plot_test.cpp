@@ -64,17 +64,6 @@ bool is_xml(const std::string& file) {
              .exit_code == 0;
 }
 
-std::size_t widest_line(const std::string& text) {
-  std::size_t widest = 0;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    widest = std::max(widest, std::size_t(std::count_if(line.begin(), line.end(), [](char c) {
-                        return (c & 0xC0) != 0x80;
-                      })));
-  }
-  return widest;
-}
-
 }  // namespace
 
 TEST_CASE("every kind is drawn in every format") {
