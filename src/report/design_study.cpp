@@ -76,6 +76,7 @@ class ProblemReader {
     if (request_.free.empty() && request_.standard.empty()) {
       throw InputError("--free", "is needed: which fields may the search change?");
     }
+    free_cross_section_where_needed();
     add_lower_bound();
   }
 
@@ -228,31 +229,86 @@ class ProblemReader {
                               *bound, text[at] == '<' ? 1 : -1});
   }
 
-  /// For the supplied power: that of the drone without a tether, over a line without loss. Holds as
-  /// long as only choices change the drone and the flight.
+  /// A candidate without a cross-section flies the one of least power that meets the requirements.
+  /// That is the best one only where this power is what is minimised, and where no demand of the
+  /// user depends on the cross-section; elsewhere it has to be searched like the free fields.
+  void free_cross_section_where_needed() {
+    const SpecField& area = *find_field("tether.cross_section_mm2");
+    const auto is_area = [&](const FreeField& f) { return f.field == &area; };
+    if (file_.design.tether.cross_section ||
+        std::any_of(range_fields.begin(), range_fields.end(), is_area) ||
+        std::any_of(choice_fields.begin(), choice_fields.end(), is_area)) {
+      return;
+    }
+    const bool at_hover = file_.design.requirements.power_at == Condition::hover;
+    const std::string& key = request_.minimize;
+    const bool least_power = key == "total_power_W" ||
+                             key == (at_hover ? "hover.total_power_W" : "forward.total_power_W");
+    const bool only_fields = std::all_of(
+        request_.subject_to.begin(), request_.subject_to.end(), [](const std::string& limit) {
+          return find_field(limit.substr(0, limit.find_first_of("<>"))) != nullptr;
+        });
+    if (least_power && only_fields && request_.pareto.empty()) return;
+    // From below AWG 36 to what no drone lifts.
+    problem.ranges.push_back({dot_path(area.pointer), {0.01, 100}, [&area](Design& d, double x) {
+                                set_field(d, area, x);
+                              }});
+    range_fields.push_back({&area, true, {}});
+  }
+
+  /// For the supplied power: that of the drone with the lightest and least resistive tether that
+  /// the ranges leave, at the highest voltage. Holds as long as ranges change nothing but the
+  /// tether and the voltage.
   void add_lower_bound() {
     const std::string key = request_.minimize;
-    const bool power =
-        key == "total_power_W" || key == "hover.total_power_W" || key == "forward.total_power_W";
-    const bool ranges_spare_drone =
-        std::all_of(range_fields.begin(), range_fields.end(), [](const FreeField& f) {
-          return f.field->pointer == "/supply/voltage_V" ||
-                 f.field->pointer.starts_with("/tether/");
-        });
-    if (!power || !ranges_spare_drone) return;
+    if (key != "total_power_W" && key != "hover.total_power_W" && key != "forward.total_power_W") {
+      return;
+    }
     const Condition condition = key.starts_with("hover")     ? Condition::hover
                                 : key.starts_with("forward") ? Condition::forward
                                                              : file_.design.requirements.power_at;
-    problem.lower_bound = [condition](const Design& design) {
+    std::vector<std::pair<const SpecField*, double>> best_ends;
+    bool area_is_free = false;
+    for (std::size_t i = 0; i < range_fields.size(); ++i) {
+      const std::string_view pointer = range_fields[i].field->pointer;
+      const VariableRange& range = problem.ranges[i].range;
+      if (pointer == "/supply/voltage_V") {
+        double highest = range.hi;
+        for (const UserLimit& limit : problem.limits) {
+          if (limit.name.starts_with("supply.voltage_V<=")) {
+            highest = std::clamp(limit.bound, range.lo, highest);
+          }
+        }
+        best_ends.emplace_back(range_fields[i].field, highest);
+      } else if (pointer == "/tether/cross_section_mm2") {
+        area_is_free = true;
+      } else if (pointer.starts_with("/tether/")) {
+        best_ends.emplace_back(range_fields[i].field, range.lo);
+      } else {
+        return;
+      }
+    }
+    problem.lower_bound = [condition, best_ends, area_is_free](const Design& design) {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      constexpr double rounding = 1e-9;
       Design bare = design;
-      bare.tether.length = 1e-6;
-      bare.tether.spooled_length = 0;
-      bare.tether.winch_pull = 0;
-      bare.tether.ambient_temperature_C.reset();
-      const double area = 1e-9;
-      const OperatingPoint point = evaluate(bare, area, condition);
-      return std::isfinite(point.drone_power) ? point.drone_power * (1 - 1e-6)
-                                              : std::numeric_limits<double>::infinity();
+      for (const auto& [field, value] : best_ends) set_field(bare, *field, value);
+      Tether& tether = bare.tether;
+      // As cold as it gets. (Sun only warms, and winches only pull.)
+      if (tether.ambient_temperature_C) {
+        tether.conductor_temperature_C = *tether.ambient_temperature_C;
+        tether.ambient_temperature_C.reset();
+      }
+      if (tether.cross_section && !area_is_free) {
+        // A wall that grows with the voltage is bounded by the one for handling.
+        tether.insulation.dielectric_safety_factor = 0;
+        const double power = evaluate(bare, *tether.cross_section, condition).total_power;
+        return std::isfinite(power) ? power * (1 - rounding) : infinity;
+      }
+      tether.length = 1e-6;
+      tether.spooled_length = 0;
+      const double power = evaluate(bare, 1e-9, condition).drone_power;
+      return std::isfinite(power) ? power * (1 - 1e-6) : infinity;
     };
   }
 
@@ -285,86 +341,205 @@ ordered_json ready_spec(const DesignFile& file, const ordered_json& values, cons
   return spec;
 }
 
-/// The least objective of the chosen combination after `change`; NaN where infeasible.
-template <typename Change>
-double least_after(const DesignProblem& problem, const DesignAnswer& answer, Change change) {
-  DesignProblem changed = problem;
-  for (std::size_t i = 0; i < changed.choices.size(); ++i) {
-    FreeChoice& choice = changed.choices[i];
-    choice.alternatives = {choice.alternatives[answer.choice[i]]};
+/// Unit in which a key's name ends, as people write it; empty where it has none.
+std::string unit_of_key(const std::string& key) {
+  const std::string last = key.substr(key.rfind('_') + 1);
+  if (last == "mm2") return "mm²";
+  if (last == "deg") return "°";
+  if (last == "ohm") return "Ω";
+  if (last == "C") return "°C";
+  if (last == "s" && key.ends_with("m_s")) return "m/s";
+  for (const char* plain : {"W", "g", "A", "V", "m", "N", "mm"}) {
+    if (last == plain) return last;
   }
-  change(changed);
-  const DesignAnswer after = search_design(changed);
-  return after.feasible ? after.minimum.value : std::numeric_limits<double>::quiet_NaN();
+  return "";
 }
 
-void add_price(std::vector<ShadowPrice>& prices, const std::string& name, bool active, double step,
-               double change, const std::string& objective) {
-  if (!std::isfinite(change)) return;
-  ShadowPrice price{name, active, change, step, {}};
-  price.sentence =
-      fmt::format("{}{}: {} by {} {} {} by {}.", name, active ? " binds" : "",
-                  step > 0 ? "raising it" : "lowering it", significant(std::abs(step), 3),
-                  change >= 0 ? "raises" : "lowers", objective, significant(std::abs(change), 3));
-  prices.push_back(std::move(price));
+std::string quantity_words(double value, const std::string& unit) {
+  return significant(value, 3) + (unit.empty() || unit == "°" ? unit : " " + unit);
 }
 
-std::vector<ShadowPrice> shadow_prices(const ProblemReader& reader, const DesignAnswer& answer,
-                                       const DesignRequest& request) {
-  std::vector<ShadowPrice> prices;
-  const DesignProblem& problem = reader.problem;
-  const double least = answer.minimum.value;
-  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
-    const UserLimit& limit = problem.limits[i];
-    const double value = limit.quantity(answer.best);
+/// "1.20 V more", "0.0100 less".
+std::string step_words(double step, const std::string& unit) {
+  return quantity_words(std::abs(step), unit) + (step > 0 ? " more" : " less");
+}
+
+/// The prices of one study: each the least objective after a change, less that before it.
+class Prices {
+ public:
+  Prices(const ProblemReader& reader, const DesignAnswer& answer, const DesignRequest& request)
+      : reader_(reader), answer_(answer), request_(request) {}
+
+  std::vector<ShadowPrice> all() {
+    for (std::size_t i = 0; i < reader_.problem.limits.size(); ++i) add_limit(i);
+    for (std::size_t i = 0; i < reader_.problem.ranges.size(); ++i) add_range_end(i);
+    add_requirements();
+    add_field("tether.length_m", 1, "One more metre of tether");
+    add_field("drone.mass_g", 100, "100 g more on the drone");
+    add_field("supply.voltage_V", 1, "One volt more of the supply");
+    return std::move(prices_);
+  }
+
+ private:
+  void add_limit(std::size_t i) {
+    const UserLimit& limit = reader_.problem.limits[i];
     const double scale = std::max(std::abs(limit.bound), 1e-3);
-    if (std::abs(value - limit.bound) > binding * scale) continue;
+    if (std::abs(limit.quantity(answer_.best) - limit.bound) > binding * scale) return;
     const double step = limit.sign * 0.01 * scale;
-    const double after =
-        least_after(problem, answer, [&](DesignProblem& p) { p.limits[i].bound += step; });
-    add_price(prices, limit.name, true, step, after - least, request.minimize);
+    const std::string key = limit.name.substr(0, limit.name.find_first_of("<>"));
+    add(limit.name, limit.name + " binds", step, step_words(step, unit_of_key(key)),
+        [&](DesignProblem& p) { p.limits[i].bound += step; });
   }
-  for (std::size_t i = 0; i < problem.ranges.size(); ++i) {
-    const FreeRange& free = problem.ranges[i];
+
+  void add_range_end(std::size_t i) {
+    const FreeRange& free = reader_.problem.ranges[i];
+    const double x = answer_.minimum.x[i];
     const double width = free.range.hi - free.range.lo;
-    if (!(width > 0)) continue;
-    const bool at_lo = answer.minimum.x[i] - free.range.lo <= binding * width;
-    const bool at_hi = free.range.hi - answer.minimum.x[i] <= binding * width;
-    if (!at_lo && !at_hi) continue;
-    const double step = (at_lo ? -0.01 : 0.01) * std::abs(answer.minimum.x[i]);
-    const FieldRange& allowed = reader.range_fields[i].field->range;
-    if (step == 0 || !allowed.contains(answer.minimum.x[i] + step)) continue;
-    const double after = least_after(problem, answer, [&](DesignProblem& p) {
-      (at_lo ? p.ranges[i].range.lo : p.ranges[i].range.hi) += step;
-    });
-    add_price(prices,
-              fmt::format("{} at the {} end of its range", free.name, at_lo ? "low" : "high"), true,
-              step, after - least, request.minimize);
+    if (!(width > 0)) return;
+    const bool at_lo = x - free.range.lo <= binding * width;
+    const bool at_hi = free.range.hi - x <= binding * width;
+    if (!at_lo && !at_hi) return;
+    const double step = (at_lo ? -0.01 : 0.01) * std::abs(x);
+    if (step == 0 || !reader_.range_fields[i].field->range.contains(x + step)) return;
+    add(fmt::format("{} at the {} end of its range", free.name, at_lo ? "low" : "high"),
+        fmt::format("{} is at the {} end of its range", free.name, at_lo ? "low" : "high"), step,
+        step_words(step, unit_of_key(free.name)),
+        [&](DesignProblem& p) { (at_lo ? p.ranges[i].range.lo : p.ranges[i].range.hi) += step; });
   }
-  const auto of_field = [&](const char* path, double step, bool active) {
-    const SpecField& field = *find_field(path);
-    const auto is_free = [&](const FreeField& f) { return f.field == &field; };
-    if (std::any_of(reader.range_fields.begin(), reader.range_fields.end(), is_free) ||
-        std::any_of(reader.choice_fields.begin(), reader.choice_fields.end(), is_free)) {
-      return;
+
+  /// The requirements of the design that bind.
+  void add_requirements() {
+    const Design& best = answer_.best.design;
+    const Requirements& need = best.requirements;
+    const bool in_hover = need.headroom_at == Condition::hover;
+    const OperatingPoint& judged = in_hover ? answer_.best.hover : answer_.best.forward;
+    if (!need.buffer_battery && judged.headroom <= need.thrust_headroom * (1 + binding)) {
+      add_requirement("requirements.thrust_headroom",
+                      fmt::format("The thrust headroom of {} in {}", fixed(need.thrust_headroom, 2),
+                                  in_hover ? "hover" : "forward flight"),
+                      -0.01, "", [](Design& d) { d.requirements.thrust_headroom -= 0.01; });
     }
-    const auto value = field_value(problem.base, field);
-    if (!value || !field.range.contains(*value + step)) return;
-    const double after = least_after(
-        problem, answer, [&](DesignProblem& p) { set_field(p.base, field, *value + step); });
-    add_price(prices, path, active, step, after - least, request.minimize);
-  };
-  const Requirements& need = problem.base.requirements;
-  const OperatingPoint& judged =
-      need.headroom_at == Condition::hover ? answer.best.hover : answer.best.forward;
-  const bool headroom_binds =
-      !need.buffer_battery && judged.headroom <= need.thrust_headroom * (1 + binding);
-  if (headroom_binds) of_field("requirements.thrust_headroom", -0.01, true);
-  of_field("tether.length_m", 1, false);
-  of_field("drone.mass_g", 100, false);
-  of_field("supply.voltage_V", 1, false);
-  return prices;
-}
+    const double pitch =
+        std::max(std::abs(answer_.best.hover.pitch), std::abs(answer_.best.forward.pitch));
+    if (pitch >= need.max_pitch * (1 - binding)) {
+      add_requirement(
+          "requirements.max_pitch_deg",
+          fmt::format("The largest tilt of {}°", significant(need.max_pitch / unit::degree, 3)), 1,
+          "°", [](Design& d) { d.requirements.max_pitch += unit::degree; });
+    }
+    if (binds("conductor_temperature")) {
+      add_requirement("tether.insulation.material.rated_temperature_C",
+                      fmt::format("The insulation's rated {} °C",
+                                  significant(*best.tether.insulation.rated_temperature_C, 3)),
+                      1, "°C", [](Design& d) { *d.tether.insulation.rated_temperature_C += 1; });
+    }
+    if (binds("tether_strength")) {
+      const double step = -0.01 * need.strength_safety_factor;
+      add_requirement("requirements.strength_safety_factor",
+                      fmt::format("The tether's strength of {} times its tension",
+                                  significant(need.strength_safety_factor, 3)),
+                      step, "", [=](Design& d) { d.requirements.strength_safety_factor += step; });
+    }
+    if (binds("converter_rating")) {
+      const double step = 0.01 * *best.supply.converter.rated_output_power;
+      add_requirement("supply.converter.rated_output_W",
+                      fmt::format("The converter's rated {} W",
+                                  significant(*best.supply.converter.rated_output_power, 4)),
+                      step, "W",
+                      [=](Design& d) { *d.supply.converter.rated_output_power += step; });
+    }
+    if (binds("converter input voltage") && best.supply.converter.max_input_voltage) {
+      const double step = 0.01 * *best.supply.converter.max_input_voltage;
+      add_requirement("supply.converter.max_input_voltage_V",
+                      fmt::format("The converter's highest input of {} V",
+                                  significant(*best.supply.converter.max_input_voltage, 4)),
+                      step, "V", [=](Design& d) { *d.supply.converter.max_input_voltage += step; });
+    }
+  }
+
+  /// Whether a demand of that name is met with nothing to spare, in either condition.
+  [[nodiscard]] bool binds(std::string_view demand) const {
+    const std::vector<DemandState> states = demand_states(answer_.best, {});
+    return std::any_of(states.begin(), states.end(), [&](const DemandState& state) {
+      return state.name.starts_with(demand) && state.violation > -binding;
+    });
+  }
+
+  [[nodiscard]] bool is_free(const SpecField* field) const {
+    const auto same = [&](const FreeField& f) { return f.field == field; };
+    return std::any_of(reader_.range_fields.begin(), reader_.range_fields.end(), same) ||
+           std::any_of(reader_.choice_fields.begin(), reader_.choice_fields.end(), same);
+  }
+
+  template <typename Change>
+  void add_requirement(const std::string& name, const std::string& subject, double step,
+                       const std::string& unit, Change change) {
+    if (const SpecField* field = find_field(name); field != nullptr && is_free(field)) return;
+    add(name, subject + " binds", step, step_words(step, unit), [&](DesignProblem& p) {
+      p.choices.push_back({name, {{name, change}}});
+    });
+  }
+
+  void add_field(const char* path, double step, const char* subject) {
+    const SpecField& field = *find_field(path);
+    const auto value = field_value(reader_.problem.base, field);
+    if (is_free(&field) || !value || !field.range.contains(*value + step)) return;
+    add(path, "", step, subject, [&](DesignProblem& p) {
+      p.choices.push_back({path, {{path, [&](Design& d) { set_field(d, field, *value + step); }}}});
+    });
+  }
+
+  /// `binding_words`: empty for a field that nothing holds; `subject`: what would cost or save.
+  template <typename Change>
+  void add(const std::string& name, const std::string& binding_words, double step,
+           const std::string& subject, Change change) {
+    const double least = answer_.minimum.value;
+    const double change_of_least = least_after(change) - least;
+    if (!std::isfinite(change_of_least)) return;
+    const bool active = !binding_words.empty();
+    ShadowPrice price{name, active, change_of_least, step, {}};
+    // What two searches may differ by.
+    constexpr double noise = 1e-9;
+    if (std::abs(change_of_least) <= noise * std::abs(least)) {
+      if (!active) return;
+      price.price = 0;
+      price.sentence =
+          binding_words +
+          ", but moving it alone would change nothing: something else binds there too.";
+    } else {
+      price.sentence = fmt::format("{}{}{} would {}.", binding_words, active ? ": " : "", subject,
+                                   effect_words(change_of_least));
+    }
+    prices_.push_back(std::move(price));
+  }
+
+  [[nodiscard]] std::string effect_words(double change) const {
+    const std::string& key = request_.minimize;
+    const std::string unit = unit_of_key(key);
+    const std::string amount = quantity_words(std::abs(change), unit);
+    if (unit.empty())
+      return fmt::format("{} {} by {}", change > 0 ? "raise" : "lower", key, amount);
+    return fmt::format("{} {}", change > 0 ? "cost" : "save", amount);
+  }
+
+  /// The least objective of the chosen combination after `change`; NaN where infeasible.
+  template <typename Change>
+  double least_after(Change change) const {
+    DesignProblem changed = reader_.problem;
+    for (std::size_t i = 0; i < changed.choices.size(); ++i) {
+      FreeChoice& choice = changed.choices[i];
+      choice.alternatives = {choice.alternatives[answer_.choice[i]]};
+    }
+    change(changed);
+    const DesignAnswer after = search_design(changed, {.seed = request_.seed});
+    return after.feasible ? after.minimum.value : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  const ProblemReader& reader_;
+  const DesignAnswer& answer_;
+  const DesignRequest& request_;
+  std::vector<ShadowPrice> prices_;
+};
 
 std::vector<FrontPoint> pareto_front(const ProblemReader& reader, const DesignFile& file,
                                      const DesignRequest& request) {
@@ -405,19 +580,33 @@ std::string value_text(const ordered_json& value) {
   return value.is_number() ? significant(value.get<double>(), 5) : value.get<std::string>();
 }
 
+std::string missed_words(const DesignAnswer& answer) {
+  std::string words;
+  for (const DemandState& demand : answer.missed) {
+    words += fmt::format("{}\"{}\" by {} %", words.empty() ? "" : ", ", demand.name,
+                         significant(100 * demand.violation, 3));
+  }
+  return words;
+}
+
 std::string confidence_text(const DesignStudy& study) {
   const Minimum& minimum = study.answer.minimum;
   const std::size_t all = study.answer.all.size();
-  std::string text = fmt::format(
-      "{} combinations of choices, {} of them discarded by a lower bound; {} designs "
-      "evaluated.",
-      all, study.answer.pruned, study.answer.evaluations);
-  if (study.answer.feasible && minimum.starts > 0) {
-    text += fmt::format(" {} of {} local searches of the best one end at the same optimum{}.",
-                        minimum.agreeing, minimum.starts,
-                        minimum.agreeing >= 2 ? "" : ": it may not be the global one");
+  std::string text;
+  if (all > 1) {
+    text = fmt::format("Of {} combinations of choices a lower bound ruled out {}; ", all,
+                       study.answer.pruned == 0 ? "none" : fmt::to_string(study.answer.pruned));
   }
-  return text;
+  text += fmt::format("{} design{} evaluated.", study.answer.evaluations,
+                      study.answer.evaluations == 1 ? " was" : "s were");
+  if (minimum.starts == 0) return text + " Nothing was left to search: the answer is exact.";
+  if (!study.answer.feasible) {
+    return text + " None of them meets every demand; the search then went for the least violation.";
+  }
+  return text + fmt::format(" {} of {} local searches{} end at the same optimum{}.",
+                            minimum.agreeing, minimum.starts,
+                            all > 1 ? " in the best combination" : "",
+                            minimum.agreeing >= 2 ? "" : ": there may be a better one elsewhere");
 }
 
 }  // namespace
@@ -470,7 +659,7 @@ DesignStudy study_design(DesignFile file, DesignRequest request) {
   study.answer = search_design(reader.problem, {.seed = request.seed});
   study.values = free_values(reader, study.answer.choice, study.answer.minimum.x);
   study.spec = ready_spec(file, study.values, study.answer.best);
-  if (study.answer.feasible) study.prices = shadow_prices(reader, study.answer, request);
+  if (study.answer.feasible) study.prices = Prices(reader, study.answer, request).all();
   if (!request.pareto.empty()) study.front = pareto_front(reader, file, request);
   study.file = std::move(file);
   study.request = std::move(request);
@@ -482,8 +671,7 @@ std::string design_text(const DesignStudy& study, const TextStyle& style) {
   std::string out = style.bold(study.file.name) + "\n\n";
   if (!answer.feasible) {
     out += style.bad(style.bold("No design within these fields meets every demand.")) + "\n";
-    out += wrapped(fmt::format("The one that comes closest misses \"{}\" by {} %:",
-                               answer.most_violated, significant(100 * answer.most_violation, 3)));
+    out += wrapped("The one that comes closest misses " + missed_words(answer) + ":");
   } else {
     out += style.good(style.bold(fmt::format("Least {}: {}", study.request.minimize,
                                              significant(answer.minimum.value, 6)))) +
@@ -493,8 +681,10 @@ std::string design_text(const DesignStudy& study, const TextStyle& style) {
     out += fmt::format("  {} = {}\n", path, value_text(value));
   }
   if (std::isfinite(answer.best.area)) {
-    out += fmt::format("  cross-section {} mm²\n",
-                       significant(answer.best.area / unit::square_millimetre, 5));
+    if (!study.values.contains("tether.cross_section_mm2")) {
+      out += fmt::format("  cross-section {} mm²\n",
+                         significant(answer.best.area / unit::square_millimetre, 5));
+    }
     TextTable table({{"", TextTable::Align::left},
                      {"supply W"},
                      {"lost W"},
@@ -577,8 +767,12 @@ ordered_json design_json(const DesignStudy& study) {
       {"pareto", front},
       {"spec", answer.feasible ? study.spec : ordered_json(nullptr)}};
   if (!answer.feasible) {
-    out["most_violated"] = {{"demand", answer.most_violated},
-                            {"by_percent", number_or_null(100 * answer.most_violation)}};
+    ordered_json missed = ordered_json::array();
+    for (const DemandState& demand : answer.missed) {
+      missed.push_back(
+          {{"demand", demand.name}, {"by_percent", number_or_null(100 * demand.violation)}});
+    }
+    out["missed"] = missed;
   }
   return out;
 }

@@ -11,6 +11,7 @@ namespace tethercalc {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 /// In place of what is not finite: far above any objective, far below what overflows in sums.
 constexpr double penalty_value = 1e30;
 /// In place of a constraint that is not finite: ten times a gross violation.
@@ -24,7 +25,7 @@ constexpr double far_apart = 0.05;
 struct Visited {
   std::vector<double> unit;
   double value = nan;
-  double violation = std::numeric_limits<double>::infinity();
+  double violation = infinity;
 
   [[nodiscard]] bool feasible() const {
     return violation <= constraint_tolerance && std::isfinite(value);
@@ -70,7 +71,8 @@ class UnitProblem {
       if (!std::isfinite(value)) value = broken_constraint;
       point.violation = std::max(point.violation, value);
     }
-    if (!std::isfinite(point.value)) point.violation = std::max(point.violation, 1.0);
+    // Where nothing is violated, what has no value is no answer either.
+    if (!std::isfinite(point.value) && point.violation <= constraint_tolerance) point.violation = 1;
     if (best_.unit.empty() || point.better_than(best_)) best_ = point;
     return point;
   }
@@ -98,11 +100,13 @@ class UnitProblem {
 /// What NLopt calls back with.
 struct Callback {
   UnitProblem* problem;
-  double weight;  ///< of violations; 0: the constraints are passed on beside the objective
+  double weight;  ///< of violations; 0: the constraints are passed on beside the objective;
+                  ///< infinite: nothing but the largest violation counts
 };
 
 double objective_of(const std::vector<double>& x, std::vector<double>&, void* data) {
   const auto* callback = static_cast<Callback*>(data);
+  if (std::isinf(callback->weight)) return callback->problem->visit(x).violation;
   if (callback->weight > 0) return callback->problem->penalised(x, callback->weight);
   const Visited point = callback->problem->visit(x);
   return std::isfinite(point.value) ? point.value : penalty_value;
@@ -231,6 +235,23 @@ int agreeing(const Visited& best, std::span<const Visited> descents,
   return static_cast<int>(std::count_if(descents.begin(), descents.end(), leads_to_best));
 }
 
+/// The least violation, from `start`: by how much a problem without a feasible point misses.
+Visited least_violation(const MinimumProblem& source, const Visited& start, int evaluations,
+                        int& spent) {
+  UnitProblem problem(source);
+  (void)problem.visit(start.unit);
+  double last = infinity;
+  for (double step = 0.1; step > 1e-6 && !problem.best().feasible(); step *= 0.1) {
+    for (const auto algorithm : {nlopt::LN_SBPLX, nlopt::LN_COBYLA}) {
+      run(algorithm, problem, problem.best().unit, step, infinity, evaluations, 1e-13);
+    }
+    if (last - problem.best().violation <= 1e-12) break;
+    last = problem.best().violation;
+  }
+  spent += problem.evaluations();
+  return problem.best();
+}
+
 }  // namespace
 
 Minimum constrained_minimum(const MinimumProblem& problem, const MinimumOptions& options) {
@@ -268,6 +289,12 @@ Minimum constrained_minimum(const MinimumProblem& problem, const MinimumOptions&
       searches.push_back(
           {start, local_search(problem, start, options.local_evaluations, 0.05, spent)});
       if (searches.back().end.better_than(best)) best = searches.back().end;
+    }
+    if (!best.feasible()) {
+      for (const Visited& start : distinct_best(visited, options.local_starts, far_apart)) {
+        const Visited end = least_violation(problem, start, options.local_evaluations, spent);
+        if (end.better_than(best)) best = end;
+      }
     }
     const Visited last = local_search(problem, best, 2 * options.local_evaluations, 1e-3, spent);
     if (last.better_than(best)) best = last;

@@ -1,8 +1,11 @@
 #include "tethercalc/solve/design_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 
 #include "solve/cable_limits.hpp"
@@ -119,6 +122,29 @@ bool better(const Minimum& a, const Minimum& b) {
   return is_feasible(a) ? a.value < b.value : a.violation < b.violation;
 }
 
+/// `x` with as few digits as leave the answer as good: 120 instead of 119.99999998741927.
+void write_short(const MinimumProblem& problem, Minimum& minimum) {
+  std::vector<double> constraints(problem.constraint_count);
+  for (std::size_t i = 0; i < minimum.x.size(); ++i) {
+    const double exact = minimum.x[i];
+    for (int digits = 3; digits < 15; ++digits) {
+      std::vector<double> x = minimum.x;
+      x[i] = std::strtod(fmt::format("{:.{}g}", exact, digits).c_str(), nullptr);
+      if (x[i] == exact) break;
+      if (x[i] < problem.variables[i].lo || x[i] > problem.variables[i].hi) continue;
+      const double value = problem.evaluate(x, constraints);
+      const bool kept = std::all_of(constraints.begin(), constraints.end(),
+                                    [](double c) { return c <= constraint_tolerance; });
+      constexpr double as_good = 1e-13;
+      if (!kept || !(value <= minimum.value + as_good * std::abs(minimum.value))) continue;
+      minimum.x = std::move(x);
+      minimum.value = value;
+      minimum.constraints = constraints;
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 Candidate candidate_of(Design design) {
@@ -195,14 +221,17 @@ DesignAnswer search_design(const DesignProblem& problem, const MinimumOptions& o
     answer.all.push_back(std::move(result));
   }
   answer.feasible = is_feasible(answer.minimum);
-  answer.best =
-      candidate_of(with_ranges(problem, with_choice(problem, answer.choice), answer.minimum.x));
-  const std::vector<DemandState> states = demand_states(answer.best, problem.limits);
-  const auto worst = std::max_element(
-      states.begin(), states.end(),
-      [](const DemandState& a, const DemandState& b) { return a.violation < b.violation; });
-  answer.most_violated = worst->name;
-  answer.most_violation = worst->violation;
+  const Design chosen = with_choice(problem, answer.choice);
+  if (answer.feasible) write_short(minimum_problem(problem, chosen), answer.minimum);
+  answer.best = candidate_of(with_ranges(problem, chosen, answer.minimum.x));
+  if (!answer.feasible) {
+    answer.missed = demand_states(answer.best, problem.limits);
+    std::erase_if(answer.missed,
+                  [](const DemandState& d) { return d.violation <= constraint_tolerance; });
+    std::stable_sort(
+        answer.missed.begin(), answer.missed.end(),
+        [](const DemandState& a, const DemandState& b) { return a.violation > b.violation; });
+  }
   return answer;
 }
 

@@ -150,6 +150,88 @@ TEST_CASE("power, current and temperature of a warm tether agree with each other
   CHECK(steady > 100);
 }
 
+namespace {
+
+/// Heat in W/m that a conductor of the pair gives off less what it takes from the sun, written anew
+/// from CIGRE TB 601 (air), Churchill and Bernstein, Churchill and Chu, Stefan and Boltzmann.
+double heat_given_off(double surface_C, double ambient_C, double density, double wind, double sun,
+                      double diameter) {
+  const double film = (surface_C + ambient_C) / 2;
+  const double k = 0.02368 + 7.23e-5 * film - 2.763e-8 * film * film;
+  const double mu = 1.7239e-5 + 4.635e-8 * film - 2.03e-11 * film * film;
+  const double nu = mu * (1 + 0.00367 * film) / (density * (1 + 0.00367 * ambient_C));
+  const double pr = 1005 * mu / k;
+  const double gr =
+      9.80665 * (surface_C - ambient_C) / (film + 273.15) * std::pow(diameter, 3) / (nu * nu);
+  const double natural = std::pow(0.60 + 0.387 * std::pow(gr * pr, 1 / 6.0) /
+                                             std::pow(1 + std::pow(0.559 / pr, 9 / 16.0), 8 / 27.0),
+                                  2) *
+                         (1 - 1.58e-4 * std::pow(60, 1.5));
+  const double re = wind * diameter / nu;
+  const double forced = 0.3 + 0.62 * std::pow(re, 1 / 2.0) * std::pow(pr, 1 / 3.0) /
+                                  std::pow(1 + std::pow(0.4 / pr, 2 / 3.0), 1 / 4.0) *
+                                  std::pow(1 + std::pow(re / 282000, 5 / 8.0), 4 / 5.0);
+  const double film_coefficient = (wind > 0 ? std::max(natural, forced) : natural) * k / diameter;
+  const double surface = (pi + 2) / (2 * pi) * pi * diameter;  // of two that touch, the hull
+  const double radiation =
+      0.9 * 5.670374419e-8 * (std::pow(surface_C + 273.15, 4) - std::pow(ambient_C + 273.15, 4));
+  return surface * (film_coefficient * (surface_C - ambient_C) + radiation) - 0.9 * sun * diameter;
+}
+
+}  // namespace
+
+TEST_CASE("the warm resistance is the fixed point that plain iteration with other code finds") {
+  int steady = 0;
+  for (unsigned i = 0; i < 60; ++i) {
+    test::Random random(test::run_seed() + i);
+    INFO("TETHERCALC_TEST_SEED=" << test::run_seed() << ", case " << i);
+    Design design = test::published_design();
+    design.tether = published_tether();
+    const double ambient = random.uniform(0, 45);
+    design.tether.ambient_temperature_C = ambient;
+    design.tether.insulation.thermal_conductivity = 0.17;
+    design.tether.sun = random.chance(0.5) ? 800 : 0;
+    design.flight.headwind = random.chance(0.5) ? random.uniform(0.5, 10) : 0;
+    design.supply.voltage = random.uniform(70, 400);
+    const double area = random.magnitude(0.3e-6, 3e-6);
+    const OperatingPoint p = evaluate(design, area, Condition::hover);
+    const double r = std::sqrt(area / pi);
+    const double s = design.tether.insulation.thickness;
+    const double u = design.supply.voltage;
+    const auto resistance = [&](double celsius) {
+      return 2 * design.tether.length * 0.0278e-6 * (1 + 0.00403 * (celsius - 20)) / area;
+    };
+    // Alternately: the current at this temperature, the temperature at that current.
+    double temperature = ambient;
+    for (int step = 0; step < 400 && temperature < 390; ++step) {
+      const double loop = resistance(temperature);
+      const double root = u * u - 4 * loop * p.drone_power;
+      if (root < 0) {
+        temperature = 1e9;
+        break;
+      }
+      const double current = (u - std::sqrt(root)) / (2 * loop);
+      double lo = ambient, hi = 400;  // of the surface
+      double inside = ambient;
+      for (int k = 0; k < 60; ++k) {
+        const double surface = (lo + hi) / 2;
+        const double heat = heat_given_off(surface, ambient, design.flight.air_density,
+                                           design.flight.headwind, design.tether.sun, 2 * (r + s));
+        inside = surface + std::max(heat, 0.0) * std::log((r + s) / r) / (2 * pi * 0.17);
+        const double made = current * current * resistance(inside) / (2 * design.tether.length);
+        (heat < made ? lo : hi) = surface;
+      }
+      temperature = inside;
+    }
+    CHECK((temperature < 390) == (p.total_power > 0));
+    if (!(p.total_power > 0)) continue;
+    ++steady;
+    CHECK(p.conductor_temperature == Approx(temperature).margin(1e-6));
+    CHECK(p.tether_resistance == Approx(resistance(temperature)).epsilon(1e-8));
+  }
+  CHECK(steady > 20);
+}
+
 TEST_CASE("a tether that heats itself beyond what the line can deliver has run away") {
   Design design = test::published_design();
   design.tether = published_tether();
@@ -235,4 +317,9 @@ TEST_CASE("a converter has its mass, its rating and its ratio") {
   CHECK(lowest_input_voltage(design.supply.converter) == 56);
   const OperatingPoint p = evaluate(design, 1e-6, Condition::hover);
   CHECK(p.available_power == Approx(56 * (75 - 56) / p.tether_resistance).epsilon(1e-12));
+  // The output follows what the loss in the tether leaves of the input.
+  CHECK(converter_output_voltage(design.supply.converter, p.received_voltage) ==
+        Approx((75 - p.tether_loss / p.current) / 4).epsilon(1e-12));
+  design.supply.converter.fixed_ratio.reset();
+  CHECK(std::isnan(converter_output_voltage(design.supply.converter, 60)));
 }

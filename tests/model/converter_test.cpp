@@ -50,3 +50,25 @@ TEST_CASE("a converter curve that cannot be inverted is refused") {
   // 100 W at 50 % draws 200 W, 110 W at 99 % would draw 111 W.
   CHECK_THROWS_AS(validate({{{100, 0.5}, {110, 0.99}}, 0}), std::invalid_argument);
 }
+
+TEST_CASE("a converter weighs what its table says, between and beyond the points") {
+  Converter converter;
+  converter.masses = {{200, 0.080}, {600, 0.160}};
+  const auto mass_at = [&](double rated) {
+    converter.rated_output_power = rated;
+    return converter_mass(converter);
+  };
+  CHECK(mass_at(400) == Approx(0.120));
+  CHECK(mass_at(600) == Approx(0.160));
+  CHECK(mass_at(50) == 0.080);                // nothing smaller is sold
+  CHECK(mass_at(1800) == Approx(3 * 0.160));  // three of them
+  converter.rated_output_power.reset();
+  CHECK(converter_mass(converter) == 0);
+
+  CHECK_NOTHROW(validate(converter.masses));
+  CHECK_THROWS_AS(validate(std::vector<ConverterMassPoint>{{200, 0.1}, {200, 0.2}}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(validate(std::vector<ConverterMassPoint>{{200, 0.2}, {300, 0.1}}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(validate(std::vector<ConverterMassPoint>{{0, 0.2}}), std::invalid_argument);
+}

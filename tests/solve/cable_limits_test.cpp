@@ -3,6 +3,7 @@
 
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
+#include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
 using namespace tethercalc;
@@ -73,4 +74,44 @@ TEST_CASE("a converter too small for the drone is named as what binds") {
   design.supply.converter.rated_output_power = 200;
   const Optimization result = optimize(design);
   CHECK_FALSE(result.feasible);
+}
+
+TEST_CASE("with a reserve battery no cross-section that meets the demands is cheaper") {
+  test::each_random(12, [](test::Random& random) {
+    Design design = test::random_design(random);
+    design.drone.reserve_battery.specific_energy = random.uniform(100, 250) * 3600;
+    const Optimization result = optimize(design);
+    const bool hover_priced = design.requirements.power_at == Condition::hover;
+    double cheapest = std::numeric_limits<double>::infinity();
+    for (double area = 0.02e-6; area < 50e-6; area *= 1.01) {
+      const OperatingPoint hover = evaluate(design, area, Condition::hover);
+      const OperatingPoint forward = evaluate(design, area, Condition::forward);
+      const Requirements& need = design.requirements;
+      const OperatingPoint& judged = need.headroom_at == Condition::hover ? hover : forward;
+      const bool met = hover.flyable && forward.flyable &&
+                       (need.buffer_battery || judged.headroom >= need.thrust_headroom);
+      if (met) {
+        cheapest = std::min(cheapest, (hover_priced ? hover : forward).total_power);
+      }
+    }
+    if (std::isinf(cheapest)) return;
+    REQUIRE(result.feasible);
+    CHECK((hover_priced ? result.hover : result.forward).total_power <= cheapest * (1 + 1e-9));
+  });
+}
+
+TEST_CASE("the best headroom of a warm or a battery-laden cable is the best of its areas") {
+  for (const bool warm : {true, false}) {
+    Design design = warm ? warm_design() : test::published_design();
+    if (!warm) design.drone.reserve_battery.specific_energy = 120 * 3600;
+    const BestHeadroom best = best_headroom(design, Condition::hover);
+    double most = 0;
+    for (double area = 0.1e-6; area < 50e-6; area *= 1.005) {
+      const double headroom = evaluate(design, area, Condition::hover).headroom;
+      if (headroom > most) most = headroom;
+    }
+    CHECK(best.value >= most * (1 - 1e-12));
+    CHECK(best.value == Approx(most).epsilon(2e-3));  // a peak between two steps of the area
+    CHECK(evaluate(design, best.area, Condition::hover).headroom == best.value);
+  }
 }

@@ -69,14 +69,19 @@ struct ChoiceResult {
   Minimum minimum;                  ///< of its ranges
 };
 
+/// A demand on a candidate and how far it is kept.
+struct DemandState {
+  std::string name;      ///< "thrust_headroom in hover", or as the user wrote it
+  double violation = 0;  ///< ≤ 0 where kept, relative to what is demanded
+};
+
 /// The answer.
 struct DesignAnswer {
   bool feasible = false;            ///< whether any design meets all demands
   Candidate best;                   ///< or the one that violates the demands least
   std::vector<std::size_t> choice;  ///< index of the alternative, in the order of `choices`
   Minimum minimum;                  ///< of that choice
-  std::string most_violated;        ///< where infeasible: the demand
-  double most_violation = 0;        ///< relative
+  std::vector<DemandState> missed;  ///< where infeasible: the demands it violates, the worst first
   std::vector<ChoiceResult> all;    ///< every combination
   int pruned = 0;                   ///< combinations not searched
   int evaluations = 0;              ///< of designs
@@ -86,12 +91,6 @@ struct DesignAnswer {
 /// cable; without, the conductor of least power that meets the requirements or, where none does,
 /// the one with the best headroom.
 [[nodiscard]] Candidate candidate_of(Design design);
-
-/// A demand on a candidate and how far it is kept.
-struct DemandState {
-  std::string name;      ///< "thrust_headroom in hover", or as the user wrote it
-  double violation = 0;  ///< ≤ 0 where kept, relative to what is demanded
-};
 
 /// All demands: the requirements of the design, then `limits`. What does not exist is violated
 /// by 1.
