@@ -127,6 +127,7 @@ TEST_CASE("power, current and temperature of a warm tether agree with each other
     around.cooling = std::pow(*drum_derating(design.tether.drum), 2);
     const ConductorHeat drum(design.tether, radius, design.tether.insulation.thickness, around);
     double current = p.current * 1.001;
+    double moved = 1;
     for (int step = 0; step < 500; ++step) {
       const auto warm = air.temperature(current);
       const auto wound = drum.temperature(current);
@@ -140,10 +141,11 @@ TEST_CASE("power, current and temperature of a warm tether agree with each other
       const double next =
           (u - std::sqrt(u * u - 4 * resistance * p.drone_power)) / (2 * resistance);
       if (!(next > 0)) break;
+      moved = std::abs(next / current - 1);
       current = 0.5 * (current + next);
     }
-    // Near the brink the upper side runs away; what it converges to otherwise is the same state.
-    if (std::abs(current / p.current - 1) < 5e-4) {
+    // Near the brink the upper side runs away, or creeps; what it converges to is the same state.
+    if (moved < 1e-13 && std::abs(current / p.current - 1) < 5e-4) {
       CHECK(current == Approx(p.current).epsilon(1e-9));
     }
   }
@@ -203,6 +205,7 @@ TEST_CASE("the warm resistance is the fixed point that plain iteration with othe
     };
     // Alternately: the current at this temperature, the temperature at that current.
     double temperature = ambient;
+    double moved = 0;
     for (int step = 0; step < 400 && temperature < 390; ++step) {
       const double loop = resistance(temperature);
       const double root = u * u - 4 * loop * p.drone_power;
@@ -221,8 +224,10 @@ TEST_CASE("the warm resistance is the fixed point that plain iteration with othe
         const double made = current * current * resistance(inside) / (2 * design.tether.length);
         (heat < made ? lo : hi) = surface;
       }
+      moved = std::abs(inside - temperature);
       temperature = inside;
     }
+    if (temperature < 390 && moved > 1e-9) continue;  // creeps, near the brink of running away
     CHECK((temperature < 390) == (p.total_power > 0));
     if (!(p.total_power > 0)) continue;
     ++steady;
