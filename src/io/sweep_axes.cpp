@@ -7,7 +7,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -188,6 +191,7 @@ class AxisReader {
               return material;
             });
       case FieldKind::strength_material:
+        return strength_axis(*field, values);
       case FieldKind::converter_masses:
         return refuse("a sweep cannot vary this field");
       default:
@@ -337,6 +341,15 @@ class AxisReader {
         field, text, {{"hover", Condition::hover}, {"forward", Condition::forward}}, access);
   }
 
+  std::optional<SweepAxis> strength_axis(const SpecField& field, std::string_view text) {
+    auto* const access = std::get<StrengthMaterial& (*)(Design&)>(field.access);
+    return chosen_axis<StrengthMaterial>(field, text,
+                                         {{"none", StrengthMaterial::none},
+                                          {"aramid", StrengthMaterial::aramid},
+                                          {"uhmwpe", StrengthMaterial::uhmwpe}},
+                                         access);
+  }
+
   template <class T>
   std::optional<SweepAxis> chosen_axis(const SpecField& field, std::string_view text,
                                        const std::vector<std::pair<std::string, T>>& known,
@@ -349,8 +362,9 @@ class AxisReader {
     for (const std::string_view part : split(text, ',')) {
       const auto found = std::find(names.begin(), names.end(), part);
       if (found == names.end()) {
-        refuse(fmt::format("expected {} or {}, found {}{}", names[0], names[1],
-                           shown(std::string(part)), did_you_mean(part, names)));
+        const std::span<const std::string> all_but_last(names.data(), names.size() - 1);
+        refuse(fmt::format("expected {} or {}, found {}{}", fmt::join(all_but_last, ", "),
+                           names.back(), shown(std::string(part)), did_you_mean(part, names)));
         good = false;
         continue;
       }
@@ -403,7 +417,7 @@ class AxisReader {
 
 // --- All rows ------------------------------------------------------------------------------------
 
-/// The numbers between which all values of an axis lie.
+/// The numbers between which all values of an axis lie; all of those that stand for names.
 std::vector<double> ends_of(const SweepAxis& axis) {
   if (const auto* list = std::get_if<std::vector<double>>(&axis.values)) {
     const auto [least, largest] = std::minmax_element(list->begin(), list->end());
@@ -414,69 +428,74 @@ std::vector<double> ends_of(const SweepAxis& axis) {
     return {quantile(axis, 0x1p-54), quantile(axis, 1 - 0x1p-53)};
   }
   if (const auto* uniform = std::get_if<Uniform>(&axis.values)) return {uniform->lo, uniform->hi};
-  const std::uint64_t last = *value_count(axis) - 1;
-  return {value_at(axis, 0), value_at(axis, last)};
+  const std::uint64_t count = *value_count(axis);
+  if (!std::holds_alternative<NamedChoices>(axis.values)) {
+    return {value_at(axis, 0), value_at(axis, count - 1)};
+  }
+  std::vector<double> all;
+  for (std::uint64_t i = 0; i < count; ++i) all.push_back(value_at(axis, i));
+  return all;
 }
 
-/// True where the ends of the axes, each with each, make designs that are allowed. Conflicts exist
-/// only between fields of the supply, and only between numbers; within the ends of those nothing
-/// else can go wrong.
-bool ends_are_allowed(const SweepSpace& space, const Design& base) {
-  std::vector<const SweepAxis*> supply;
+/// Whether the axis varies a field of which `find_conflicts` compares with others.
+bool can_conflict(const SweepAxis& axis) {
+  return axis.name.starts_with("supply.") || axis.name.starts_with("tether.insulation.");
+}
+
+/// The axes alone whose fields can be in conflict, each with its ends only.
+SweepSpace corner_space(const SweepSpace& space) {
+  std::vector<SweepAxis> corners;
   for (const SweepAxis& axis : space.axes()) {
-    if (axis.name.starts_with("supply.")) {
-      supply.push_back(&axis);
-    } else if (std::holds_alternative<Normal>(axis.values)) {
-      Design design = base;
-      try {
-        for (const double end : ends_of(axis)) axis.apply(design, end);
-      } catch (const std::invalid_argument&) {
-        return false;
-      }
-    }
+    if (can_conflict(axis)) corners.push_back({axis.name, ends_of(axis), axis.apply});
   }
-  for (std::size_t corner = 0; corner < (std::size_t{1} << supply.size()); ++corner) {
-    Design design = base;
-    try {
-      for (std::size_t i = 0; i < supply.size(); ++i) {
-        supply[i]->apply(design, ends_of(*supply[i])[(corner >> i) & 1]);
-      }
-    } catch (const std::invalid_argument&) {
-      return false;
-    }
-    if (!find_conflicts(design).empty()) return false;
-  }
-  return true;
+  return SweepSpace(std::move(corners));
 }
 
-/// The space of the supply's axes alone, whose rows are the only ones of a product that can be in
-/// conflict.
-SweepSpace supply_space(const SweepSpace& space) {
-  std::vector<SweepAxis> supply;
+/// The axes alone whose fields can be in conflict.
+SweepSpace conflict_space(const SweepSpace& space) {
+  std::vector<SweepAxis> axes;
   for (const SweepAxis& axis : space.axes()) {
-    if (axis.name.starts_with("supply.")) supply.push_back(axis);
+    if (can_conflict(axis)) axes.push_back(axis);
   }
-  return SweepSpace(std::move(supply));
+  return SweepSpace(std::move(axes));
 }
 
-/// Throws where a row of `space` is not allowed.
-void walk(const SweepSpace& space, const Design& base) {
+/// The fields in conflict somewhere in `space`, each with the first row's message; an axis's
+/// refusal of a value stands under the empty name and ends the search. It ends as well when there
+/// are `most`.
+std::map<std::string, std::string> conflicts_in(const SweepSpace& space, const Design& base,
+                                                std::size_t most) {
+  std::map<std::string, std::string> found;
   std::uint64_t row = 0;
-  const auto refuse = [&](const std::string& message) {
-    throw InputError({{"--vary", space.sample() ? fmt::format("draw {} of {}: {}", row + 1,
-                                                              space.rows(), message)
-                                                : message}});
+  const auto told = [&](const std::string& message) {
+    return space.sample() ? fmt::format("draw {} of {}: {}", row + 1, space.rows(), message)
+                          : message;
   };
   try {
     SweepCursor cursor(space, base);
-    for (; row < space.rows(); ++row) {
+    for (; row < space.rows() && found.size() < most; ++row) {
       cursor.move_to(row);
-      const auto conflicts = find_conflicts(cursor.design());
-      if (!conflicts.empty()) refuse(conflicts.front().message);
+      for (const FieldConflict& conflict : find_conflicts(cursor.design())) {
+        found.try_emplace(std::string(conflict.pointer), told(conflict.message));
+      }
     }
   } catch (const std::invalid_argument& error) {
-    refuse(error.what());
+    found.try_emplace("", told(error.what()));
   }
+  return found;
+}
+
+/// True where no draw from a normal axis can be a value that its field does not take.
+bool normal_ends_are_allowed(const SweepSpace& space, Design design) {
+  try {
+    for (const SweepAxis& axis : space.axes()) {
+      if (!std::holds_alternative<Normal>(axis.values)) continue;
+      for (const double end : ends_of(axis)) axis.apply(design, end);
+    }
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -498,8 +517,17 @@ std::vector<SweepAxis> read_sweep_axes(std::span<const std::string> varied, cons
 }
 
 void check_sweep_rows(const SweepSpace& space, const DesignFile& base) {
-  if (ends_are_allowed(space, base.design)) return;
-  walk(space.sample() ? space : supply_space(space), base.design);
+  constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+  // Where the ends of the axes, each with each, are free of conflicts, so is all between them.
+  std::size_t fields = conflicts_in(corner_space(space), base.design, all).size();
+  if (!normal_ends_are_allowed(space, base.design)) fields = all;
+  if (fields == 0) return;
+  Problems problems;
+  for (const auto& [field, message] :
+       conflicts_in(space.sample() ? space : conflict_space(space), base.design, fields)) {
+    problems.add("--vary", message);
+  }
+  problems.throw_if_any();
 }
 
 }  // namespace tethercalc

@@ -332,8 +332,9 @@ TEST_CASE("an interrupted sweep leaves whole rows and says how to go on") {
                                            "--output", file.string()};
   // Thirty million rows: it is interrupted long before the end, once there are some.
   const std::string name = shell_quoted(file.string());
-  const Ran run = run_shell(shell_line(arguments) + " & process=$!; while [ ! -s " + name +
-                            " ]; do sleep 0.05; done; kill -s TERM $process; wait $process");
+  const Ran run = run_shell(
+      shell_line(arguments) + " & process=$!; while [ ! -s " + name +
+      " ] && kill -0 $process; do sleep 0.05; done; kill -s TERM $process; wait $process");
   CHECK(run.exit_code == 128 + SIGTERM);
   CHECK_THAT(run.err, Contains("interrupted after") && Contains("--resume"));
   const std::string rows = file_text(file);

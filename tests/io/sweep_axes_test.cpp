@@ -104,7 +104,12 @@ TEST_CASE("every field of a spec that changes the result can vary") {
         CHECK_THAT(refusal_of(path + "=tru"), Contains("did you mean \"true\""));
         break;
       case FieldKind::strength_material:
-        CHECK_THAT(refusal_of(path + "=aramid"), Contains("a sweep cannot vary this field"));
+        CHECK(value_count(axis_of(path + "=none,aramid,uhmwpe")) == 3U);
+        CHECK_THAT(refusal_of(path + "=armid"),
+                   Contains("none, aramid or uhmwpe") && Contains("did you mean \"aramid\""));
+        break;
+      case FieldKind::converter_masses:
+        CHECK_THAT(refusal_of(path + "=1"), Contains("a sweep cannot vary this field"));
         break;
       case FieldKind::converter_masses:
         CHECK_THAT(refusal_of(path + "=1"), Contains("a sweep cannot vary this field"));
@@ -140,4 +145,21 @@ TEST_CASE("numbers of a material vary whatever the material") {
   axis_of("tether.insulation.material.density_g_cm3=2").apply(design, 2);
   CHECK(design.tether.insulation.density == 2000);
   CHECK_THAT(refusal_of("tether.conductor.density_g_cm3=-1"), Contains("at least"));
+}
+
+TEST_CASE("every pair of fields in conflict anywhere in a sweep is told at once") {
+  DesignFile unknown = base();
+  unknown.design.tether.insulation.breakdown_strength = 0;
+  const std::vector<std::string> varied{"supply.voltage_V=75:10:-1",
+                                        "tether.insulation.dielectric_safety_factor=0,3"};
+  const SweepSpace space(read_sweep_axes(varied, unknown, false));
+  CHECK_NOTHROW(check_sweep_rows(SweepSpace({space.axes()[1]}), base()));
+  try {
+    check_sweep_rows(space, unknown);
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Contains("supply gives only 20 V"));
+    CHECK_THAT(error.what(), Contains("breakdown strength"));
+    CHECK(error.problems().size() == 2);
+  }
 }

@@ -111,6 +111,29 @@ TEST_CASE("no area of a fine grid has more than the best headroom") {
   });
 }
 
+TEST_CASE("where the tilt limit keeps lighter tethers out, the best headroom is on it") {
+  // The designs of examples/reference/tilt-hover.json and infeasible-tilt-hover.json. The expected
+  // values are those of a script of its own with SciPy 1.10: brentq for the tilt at an area, and
+  // for the area at which it is the limit; 40 000 areas around it, and 10 000 over five decades,
+  // have no more headroom within the limit.
+  Design design = test::published_design();
+  design.flight.airspeed = 0;
+  design.flight.air_density = 1.225;
+  design.flight.headwind = 20;
+  const BestHeadroom gale = best_headroom(SteadyFlight(design, Condition::hover));
+  CHECK(gale.value == Approx(0.31990906511665107).epsilon(1e-12));
+  CHECK(gale.area == Approx(51.62748335359504e-6).epsilon(1e-12));
+
+  design.drone.mass = 1.4;
+  design.tether.length = 10;
+  design.supply.voltage = 30;
+  design.flight.headwind = 8.4;
+  design.requirements.max_pitch = 15 * test::plain::pi / 180;
+  const BestHeadroom breeze = best_headroom(SteadyFlight(design, Condition::hover));
+  CHECK(breeze.value == Approx(2.3765576065005103).epsilon(1e-12));
+  CHECK(breeze.area == Approx(9.219650740662743e-6).epsilon(1e-12));
+}
+
 TEST_CASE("the headroom asked for is reachable exactly up to the best headroom") {
   test::each_random(500, [](test::Random& random) {
     const Design design = test::random_design(random);

@@ -34,8 +34,8 @@ namespace tethercalc {
 
 /// Throws InputError where some row of `space` is not allowed: a number drawn out of its range, or
 /// fields in conflict, such as a converter that cuts off above the supply voltage; it names the
-/// first such row. Fast where the ends of the axes are allowed together; otherwise it walks a
-/// sample's draws, about ten million a second.
+/// first row of each conflict. Fast where the ends of the axes are allowed together; otherwise it
+/// walks a sample's draws, about ten million a second.
 void check_sweep_rows(const SweepSpace& space, const DesignFile& base);
 
 }  // namespace tethercalc
