@@ -510,6 +510,11 @@ Diagnosis Report::write(const FlightDiagnosisOptions& options) const {
   d.extended = {selection_.extended.holdout_rmse, parameters(selection_.complete)};
   d.spec_changes = spec_changes();
   d.budget = budget();
+  for (const Selection::TooSmall& small : selection_.too_small) {
+    d.notes.push_back(fmt::format(
+        "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",
+        groups_.groups[small.group].id, small.gain_percent, options.selection.least_gain_percent));
+  }
   d.further.push_back(
       {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
        "m/s", speed_rmse(selection_.base, options.speed_window),

@@ -147,18 +147,20 @@ class Search {
   void drop_superfluous();
   bool drop_outdone();
   void find_unnamed();
+  void add_unnamed();
   void sum_up(const BlockFit& base, Selection& result) const;
   [[nodiscard]] std::vector<std::size_t> rivals(std::size_t g, const BlockFit& all) const;
   [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const;
 
   Record record_;
-  const SelectionOptions& options_;
+  SelectionOptions options_;
   const SelectionProgress& progress_;
   double degrees_ = 0;
   double student_factor_ = 0;
   std::vector<std::size_t> selected_;
   std::vector<std::size_t> unnamed_;
   std::set<std::size_t> aliased_;
+  std::vector<std::size_t> too_small_;  ///< certain beside the selected, but not worth a name
   std::set<std::size_t> rejected_;  ///< taken back once; never tried again, so the search ends
   BlockFit current_;
 };
@@ -301,10 +303,12 @@ std::optional<Search::Trial> Search::best_step() const {
   const Trial* chosen = &*best;
   for (const Trial& trial : worthy) {
     const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
-    if (group(trial.group).parameters.size() < group(chosen->group).parameters.size() &&
-        excess.sum <= excess.se) {
-      chosen = &trial;
-    }
+    const std::size_t count = group(trial.group).parameters.size();
+    const std::size_t chosen_count = group(chosen->group).parameters.size();
+    const bool simpler =
+        count < chosen_count || (count == chosen_count && trial.fit.squared_error() <
+                                                              chosen->fit.squared_error());
+    if (simpler && excess.sum <= excess.se) chosen = &trial;
   }
   return *chosen;
 }
@@ -381,10 +385,28 @@ bool Search::drop_outdone() {
   return false;
 }
 
+/// Looks beside all effects that are certain, those too small for a name included: what a known
+/// effect explains is no unknown one.
 void Search::find_unnamed() {
+  tell("looking for structure without a name");
+  Search certain = *this;
+  certain.options_.least_gain_percent = 0;
+  certain.step_forward();
+  certain.options_ = options_;
+  certain.add_unnamed();
+  unnamed_ = certain.unnamed_;
+  too_small_.clear();
+  for (const std::size_t g : certain.selected_) {
+    if (std::find(selected_.begin(), selected_.end(), g) == selected_.end()) {
+      too_small_.push_back(g);
+    }
+  }
+  current_ = fit(selected_, &current_);
+}
+
+void Search::add_unnamed() {
   constexpr std::size_t most_regressors = 4;  // more would describe noise nobody reads
   while (unnamed_.size() < most_regressors) {
-    tell("looking for structure without a name");
     const std::optional<UnnamedTrial> best =
         best_unnamed(record_, current_, unnamed_, options_.false_alarm_probability);
     if (!best) return;
@@ -529,6 +551,14 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
     before = std::move(after);
   }
   result.extended = model_fit(before);
+  for (const std::size_t g : too_small_) {
+    const BlockFit with = named.fit([&] {
+      std::vector<std::size_t> more = selected_;
+      more.push_back(g);
+      return more;
+    }(), &before);
+    result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
+  }
   const double share = 1 - current_.squared_error() / before.squared_error();
   const bool disturbed =
       share >= structure_that_disturbs && precision(current_) > precision(before);

@@ -107,6 +107,28 @@ TEST_CASE("the acceleration follows the published force balance") {
   }
 }
 
+TEST_CASE("a frame that turns carries the speed to the right into the forward one") {
+  Observations o;
+  for (int i = 0; i < 50; ++i) {
+    o.time.push_back(0.1 * i);
+    o.yaw.push_back(0.3 * 0.1 * i);
+    o.right_speed.push_back(2.0);
+    for (auto* series : {&o.tilt, &o.roll, &o.forward_speed, &o.down_speed, &o.forward_acceleration,
+                         &o.down_acceleration, &o.expected_acceleration}) {
+      series->push_back(0);
+    }
+  }
+  const FlightRecord record = flight_record(o, 1.6, 1.25, standard_gravity);
+  FlightPrediction prediction(record);
+  FlightBase turning = base;
+  turning.turn_gain = 0.5;
+  predict_acceleration(prediction, turning, {});
+  // d(v·e)/dt = a·e + v·ė: 0.3 rad/s times 2 m/s, half of it.
+  for (std::size_t i = 1; i + 1 < record.size(); ++i) {
+    CHECK(prediction.acceleration[i] == Approx(0.3).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("propwash acts only while speed and tilt oppose each other") {
   const FlightRecord record = swinging_flight();
   const std::vector<double> plain = predicted(record, nullptr, {});

@@ -166,6 +166,39 @@ TEST_CASE("a name gives way to an unnamed shape that explains more") {
   CHECK(found.unnamed.share_percent == Approx(100 * 2.25 / 3.25).margin(12));
 }
 
+TEST_CASE("what an effect too small for a name explains is not called unknown") {
+  Random random(11);
+  std::vector<Column> columns = LinearRecord::drawn(random, 3);
+  LinearRecord record(random, {1.0, 0.0, 0.0}, 0.3, columns);
+  // The shape follows the effect, and the bar for a shape lies below the one for a name.
+  SelectionOptions options;
+  options.least_gain_percent = 4.0;
+  UnnamedRegressor shape{"time", "shape", columns[2]};
+  for (std::size_t i = 0; i < rows; ++i) {
+    record.problem.measured[i] += 0.25 * columns[2][i];
+    shape.column[i] += 0.1 * columns[1][i];
+  }
+  record.problem.unnamed.push_back(shape);
+  const Selection found = select_effects(record.problem, options);
+  CHECK(found.selected.empty());
+  CHECK(found.unnamed.regressors.empty());
+  REQUIRE(found.too_small.size() == 1);
+  CHECK(found.too_small[0].group == 2);
+  CHECK(found.too_small[0].gain_percent > 1.5);
+  CHECK(found.too_small[0].gain_percent < 4);
+}
+
+TEST_CASE("of two equally simple effects the better one is taken") {
+  Random random(12);
+  std::vector<Column> columns = LinearRecord::drawn(random, 4);
+  // Group 1 is a blurred copy of group 2; group 3 has two parameters and is as good.
+  for (std::size_t i = 0; i < rows; ++i) columns[1][i] = 0.9 * columns[2][i] + 0.3 * columns[1][i];
+  LinearRecord record(random, {1.0, 0.0, 0.6, 0.0}, 0.8, columns);
+  const Selection found = select_effects(record.problem);
+  REQUIRE_FALSE(found.selected.empty());
+  CHECK(found.selected[0].group == 2);
+}
+
 TEST_CASE("outliers in one per cent of the rows change neither selection nor estimate") {
   Random random(9);
   LinearRecord record(random, {1.0, 0.0, 1.0, 0.0}, 0.8);

@@ -212,7 +212,7 @@ TEST_CASE("optimize honours what --into writes") {
   }
 }
 
-TEST_CASE("--into never writes over what is read") {
+TEST_CASE("the extended spec is never written over what is read") {
   const TemporaryFolder folder;
   const std::string spec = written(folder, "spec.json", file_text(spec_file));
   const std::string log = written(folder, "flight.csv", flight_csv_text(a_flight(0, 100)));

@@ -145,6 +145,25 @@ TEST_CASE("a wind over ground is told from a headwind once the drone turns") {
   CHECK(right >= 3);
 }
 
+TEST_CASE("a turning wind is found in a short flight, and circles invent nothing") {
+  int right = 0;
+  int quiet = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    HiddenFlight hidden = drawn_flight(950 + seed);
+    hidden.pattern = truth::Pattern::circles;
+    hidden.duration = 200;
+    hidden.lateral_std = 1.5;
+    const Diagnosis nothing = diagnosed(hidden);
+    quiet += nothing.findings.empty() && !nothing.unexplained.detected ? 1 : 0;
+    hidden.wind = 0;
+    hidden.wind_north = 2.5;
+    hidden.wind_east = -1.5;
+    right += names_first(diagnosed(hidden), "turning_wind") ? 1 : 0;
+  }
+  CHECK(right >= 3);
+  CHECK(quiet >= 3);
+}
+
 TEST_CASE("linear drag and wind are found where the base has neither") {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     HiddenFlight hidden = drawn_flight(1100 + seed);

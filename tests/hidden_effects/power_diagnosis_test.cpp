@@ -329,6 +329,17 @@ TEST_CASE("outliers in 1 % of the samples change neither silence nor names") {
   CHECK(names(contact.findings.front(), "contact_resistance"));
 }
 
+TEST_CASE("a drone that tilted beyond the design's limit is diagnosed all the same") {
+  Scenario scenario;
+  scenario.hidden.tether_drag_factor = 2.6;  // some 45° at 10 m/s and 30 m
+  scenario.seed = seed(400'055);
+  const Diagnosis d = diagnosis_of(scenario);
+  INFO(summary(d));
+  REQUIRE(d.findings.size() == 1);
+  CHECK(d.findings.front().effect == "tether_drag");
+  CHECK(d.findings.front().parameters.front().value == Approx(2.6).margin(0.15));
+}
+
 TEST_CASE("a base effect is refitted and not reported") {
   Scenario scenario;
   scenario.hidden.extra_mass = 0.2;

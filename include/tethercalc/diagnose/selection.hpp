@@ -132,6 +132,12 @@ struct Selection {
   /// `extended`.
   ModelFit complete;
   std::vector<SelectedGroup> selected{};  ///< in the order they were found
+  /// A candidate that beats chance and gains less than is worth a name.
+  struct TooSmall {
+    std::size_t group = 0;    ///< the candidate
+    double gain_percent = 0;  ///< beside the selected groups
+  };
+  std::vector<TooSmall> too_small{};  ///< left out of the extended model
   /// Candidates whose change of the prediction is a combination of what is already free.
   struct Aliased {
     std::size_t group = 0;            ///< the candidate
