@@ -61,8 +61,8 @@ class Plot {
   void points(const std::string& data, const std::string& style, const std::string& words = "");
 
   /// Many small dots, of columns `x` and `y` of a block, such as "$samples"; `width` is a dot's in
-  /// the unit of x. They are strokes, which take a fifth of the room of points in a file, and
-  /// letters where characters are all there is.
+  /// the unit of x in one column. They are strokes, which take a fifth of the room of points in a
+  /// file, and letters where characters are all there is.
   void dots(const std::string& block, int x, int y, double width, std::string_view colour,
             const std::string& words = "", double size = 1.3);
 
