@@ -114,6 +114,11 @@ std::string Layout::title(double at, const std::string& words) const {
                      height(at));
 }
 
+std::string Layout::note_for_characters(double at, const std::string& words) const {
+  return fmt::format("if (characters) {{\n  set label 105 {} at screen 0.01,{:.4f} left\n}}\n",
+                     gnuplot_text(words, 54), height(at));
+}
+
 std::string Layout::above(double at, const std::string& left, const std::string& right) const {
   return fmt::format(
       "set label 100 {} at screen {:.4f},{:.4f} left\nset label 101 {} at screen {:.4f},{:.4f} "

@@ -118,6 +118,9 @@ class Layout {
   [[nodiscard]] std::string legend(double top, std::size_t columns,
                                    std::span<const LegendEntry> entries) const;
 
+  /// The same below it, where characters are all there is.
+  [[nodiscard]] std::string note_for_characters(double at, const std::string& words) const;
+
   /// The scale of colours from line `top` to line `bottom`, as wide as the plot, its numbers below.
   [[nodiscard]] std::string colour_box(double top, double bottom) const;
 
