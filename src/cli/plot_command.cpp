@@ -46,7 +46,7 @@ Figure motors(const PlotOptions& options) {
 
 /// A log is told by its name, a spec by its own; folders say nothing in a picture.
 std::string base_name(const std::string& file) {
-  return std::filesystem::path(file).filename().string();
+  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
 Figure log(const PlotOptions& options) {
@@ -107,8 +107,9 @@ Figure diagnosis(const PlotOptions& options) {
 Figure sweep(const PlotOptions& options) {
   const std::string& file = options.files.front();
   const MappedFile content(file == "-" ? "/dev/stdin" : file);
-  return sweep_figure(parse_sweep_csv(content.text(), file, options.value),
-                      {options.x, options.y, heading(options, base_name(file))});
+  return sweep_figure(
+      parse_sweep_csv(content.text(), file == "-" ? "standard input" : file, options.value),
+      {options.x, options.y, heading(options, base_name(file))});
 }
 
 struct Kind {

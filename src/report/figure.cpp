@@ -125,6 +125,12 @@ std::string set_terminal(const Figure& figure, FigureFormat format, const Figure
   return "";
 }
 
+/// The terminal, and how long a dot is there that is as high as its stroke is wide.
+std::string preparation(const Figure& figure, FigureFormat format, const FigureSize& size) {
+  return fmt::format("{}dot_length = {:.4g}\n", set_terminal(figure, format, size),
+                     column_mm / size.width_mm);
+}
+
 /// gnuplot's SVG with title and description for those who cannot see it, and with ids that stay
 /// unique where several figures stand in one page.
 std::string finished_svg(const Figure& figure, std::string svg) {
@@ -160,6 +166,7 @@ std::string finished_svg(const Figure& figure, std::string svg) {
 /// gnuplot's picture of characters without the form feed before it, the blanks at the ends of lines
 /// and the empty lines around it.
 std::string finished_text(std::string_view drawn) {
+  constexpr std::string_view plain_again = "\x1b[0;39m";  // gnuplot's end of a colour
   std::string out;
   std::size_t empty_lines = 0;
   while (!drawn.empty()) {
@@ -168,6 +175,7 @@ std::string finished_text(std::string_view drawn) {
     drawn.remove_prefix(std::min(end + 1, drawn.size()));
     while (line.starts_with('\f')) line.remove_prefix(1);
     while (line.ends_with(' ')) line.remove_suffix(1);
+    if (line == plain_again) line = {};
     if (line.empty()) {
       ++empty_lines;
       continue;
@@ -186,7 +194,7 @@ std::string standalone_script(const Figure& figure, const FigureSize& size) {
       "#   set terminal pngcairo size 1004,{2:.0f} noenhanced font 'sans-serif,7.5' \\\n"
       "#     fontscale 3.125 linewidth 3.125 pointscale 3.125\n{3}{4}",
       printable(figure.title, 200), figure.id, 1004 * height_over_width(figure),
-      set_terminal(figure, FigureFormat::script, size), figure.script);
+      preparation(figure, FigureFormat::script, size), figure.script);
 }
 
 }  // namespace
@@ -226,7 +234,7 @@ FigureFormat figure_format(std::string_view file, const std::string& where) {
 
 std::string render(const Figure& figure, FigureFormat format, const FigureSize& size) {
   if (format == FigureFormat::script) return standalone_script(figure, size);
-  std::string drawn = run_gnuplot(set_terminal(figure, format, size) + figure.script);
+  std::string drawn = run_gnuplot(preparation(figure, format, size) + figure.script);
   if (format == FigureFormat::svg) return finished_svg(figure, std::move(drawn));
   return format == FigureFormat::text ? finished_text(drawn) : drawn;
 }

@@ -294,8 +294,8 @@ Figure drag_surface_figure(const DragFlights& drag) {
   plot.curve("$surface using 1:2:3", gp::line(colour::vermilion, 1, 0.5), "fitted");
   plot.add("$samples using 1:2:4:(0):(0):($3-$4) with vectors nohead " +
            gp::line(colour::sky, 1, 0.5));
-  plot.add(fmt::format("$samples using 1:2:3:({}):(0):(0) with vectors nohead {}", gp::number(dot),
-                       gp::line(colour::blue, 1, 1.4)),
+  plot.add(fmt::format("$samples using 1:2:3:({}*dot_length):(0):(0) with vectors nohead {}",
+                       gp::number(dot), gp::line(colour::blue, 1, 1.4)),
            "measured" + samples_words(step));
   plot.entry({gp::LegendEntry::Sample::point, gp::point(colour::blue, 5, 0.4),
               "measured" + samples_words(step)});

@@ -43,6 +43,7 @@ std::string prelude() {
          "set termoption noenhanced\n"
          "if (!exists('characters')) characters = 0\n"
          "if (!exists('dot_scale')) dot_scale = 1\n"
+         "if (!exists('dot_length')) dot_length = 1\n"
          "set border lw 0.6\n"
          "set tics nomirror scale 0.6\n"
          "set key noautotitle samplen 2.6 Left reverse\n"
@@ -66,8 +67,8 @@ void Plot::points(const std::string& data, const std::string& style, const std::
 
 void Plot::dots(const std::string& block, int x, int y, double width, std::string_view colour,
                 const std::string& words, double size) {
-  add(fmt::format("{} using {}:{}:({}):(0) with vectors nohead lc rgb '{}' lw {}", block, x, y,
-                  number(width), colour, size));
+  add(fmt::format("{} using {}:{}:({}*dot_length):(0) with vectors nohead lc rgb '{}' lw {}", block,
+                  x, y, number(width), colour, size));
   // Elsewhere far outside of the frame: gnuplot warns of points that do not exist.
   add(fmt::format("{} using {}:(characters ? ${} : 1e30) with points pt {}", block, x, y,
                   ++letters_),
@@ -111,6 +112,11 @@ Layout Layout::column(bool second) const {
 std::string Layout::title(double at, const std::string& words) const {
   return fmt::format("set label 104 {} at screen 0.01,{:.4f} left\n", gnuplot_text(words, 54),
                      height(at));
+}
+
+std::string Layout::note_for_characters(double at, const std::string& words) const {
+  return fmt::format("if (characters) {{\n  set label 105 {} at screen 0.01,{:.4f} left\n}}\n",
+                     gnuplot_text(words, 54), height(at));
 }
 
 std::string Layout::above(double at, const std::string& left, const std::string& right) const {

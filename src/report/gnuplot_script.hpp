@@ -61,8 +61,8 @@ class Plot {
   void points(const std::string& data, const std::string& style, const std::string& words = "");
 
   /// Many small dots, of columns `x` and `y` of a block, such as "$samples"; `width` is a dot's in
-  /// the unit of x. They are strokes, which take a fifth of the room of points in a file, and
-  /// letters where characters are all there is.
+  /// the unit of x in one column. They are strokes, which take a fifth of the room of points in a
+  /// file, and letters where characters are all there is.
   void dots(const std::string& block, int x, int y, double width, std::string_view colour,
             const std::string& words = "", double size = 1.3);
 
@@ -117,6 +117,9 @@ class Layout {
   /// all there is, gnuplot's own key takes its place, from the titles of the plot.
   [[nodiscard]] std::string legend(double top, std::size_t columns,
                                    std::span<const LegendEntry> entries) const;
+
+  /// The same below it, where characters are all there is.
+  [[nodiscard]] std::string note_for_characters(double at, const std::string& words) const;
 
   /// The scale of colours from line `top` to line `bottom`, as wide as the plot, its numbers below.
   [[nodiscard]] std::string colour_box(double top, double bottom) const;

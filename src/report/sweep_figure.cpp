@@ -299,13 +299,17 @@ Figure map_figure(const SweepTable& table, const Axes& axes, const std::vector<C
   figure.lines = 34 + int(legend.size());
   const gp::Layout layout(figure.lines, 0.125, 0.045);
   const gp::Range values = gp::extent(column_of(cells, &Cell::value));
-  figure.script +=
-      "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
-      layout.above(2.7, axis_label(axes.y->path)) + layout.below(25, axis_label(axes.x->path)) +
-      layout.title(27, subtitle(table, axes)) + layout.legend(32, 1, legend) +
-      layout.colour_box(28, 29) + palette + tics("x", *axes.x) + tics("y", *axes.y) +
-      "set tics front\n" + gp::set_range("x", x.range()) + gp::set_range("y", y.range()) +
-      gp::set_range("cb", values) + gp::set_tics("cb", values, 5);
+  figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
+                   layout.above(2.7, axis_label(axes.y->path)) +
+                   layout.below(25, axis_label(axes.x->path)) +
+                   layout.title(27, subtitle(table, axes)) + layout.legend(32, 1, legend) +
+                   layout.colour_box(28, 29) +
+                   layout.note_for_characters(
+                       28.2, fmt::format("0 begins at {}, 9 ends at {}", significant(values.lo, 4),
+                                         significant(values.hi, 4))) +
+                   palette + tics("x", *axes.x) + tics("y", *axes.y) + "set tics front\n" +
+                   gp::set_range("x", x.range()) + gp::set_range("y", y.range()) +
+                   gp::set_range("cb", values) + gp::set_tics("cb", values, 5);
   if (grid) {
     figure.script += fmt::format(
         "if (!characters) {{\n  set object 1 rectangle from graph 0,0 to "

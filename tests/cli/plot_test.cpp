@@ -177,6 +177,32 @@ TEST_CASE("an unknown kind, suffix or motor is refused with the nearest known") 
   CHECK(run_tethercalc({"plot", "diagnosis", published}).exit_code == 2);
 }
 
+TEST_CASE("a heat map of characters has digits and says what they mean") {
+  if (!gnuplot_is_there()) return;
+  const std::string csv =
+      "supply.voltage_V,tether.length_m,status,forward.total_power_W\n"
+      "40,10,optimal,300\n40,20,optimal,400\n50,10,optimal,355\n"
+      "50,20,infeasible,\n";
+  const Ran run = run_tethercalc({"plot", "sweep", "-"}, csv);
+  INFO(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.out, Contains("0 begins at 300.0, 9 ends at 400.0"));
+  const auto count = [&](char digit) {  // within the frame
+    int found = 0;
+    std::istringstream lines(run.out);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t left = line.find('|');
+      if (left != std::string::npos) {
+        found += int(std::count(line.begin() + std::ptrdiff_t(left), line.end(), digit));
+      }
+    }
+    return found;
+  };
+  CHECK(count('0') == 1);
+  CHECK(count('5') == 1);
+  CHECK(count('9') == 1);
+}
+
 TEST_CASE("options of other figures are refused, all at once") {
   const Ran run = run_tethercalc({"plot", "optimum", published, "--x", "supply.voltage_V",
                                   "--mass-g", "1", "--view", "speed"});

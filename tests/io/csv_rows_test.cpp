@@ -66,3 +66,16 @@ TEST_CASE("a quote that is not closed, and text beside a quoted cell, are refuse
   CHECK_THROWS_WITH(rows_of("a\n\"b\nc\n"), Contains("a.csv:2") && Contains("not closed"));
   CHECK_THROWS_WITH(rows_of("a\n\"b\"c\n"), Contains("a.csv:2") && Contains("after"));
 }
+
+TEST_CASE("any text ends in rows or in a message with its line") {
+  CHECK(rc::check("no text is read beyond its end", [] {
+    const std::string text = *rc::gen::container<std::string>(
+        rc::gen::elementOf(std::string("a1,\"\r\n \0\xEF\xBB\xBF", 11)));
+    try {
+      for (const Row& row : rows_of(text)) RC_ASSERT(!row.empty());
+    } catch (const InputError& error) {
+      RC_ASSERT(error.problems().size() == 1U);
+      RC_ASSERT(error.problems().front().where.starts_with("a.csv:"));
+    }
+  }));
+}

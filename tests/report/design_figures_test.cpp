@@ -111,3 +111,21 @@ TEST_CASE("a figure's legend and heading survive a name of 300 characters") {
   file.name = std::string(150, 'n') + std::string(150, '\'');
   check_layout(optimum_figure(study(file)));
 }
+
+TEST_CASE("the pictures of the documents are those that the program draws") {
+  if (!gnuplot_is_there()) return;
+  const DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
+  const auto check = [](const Figure& figure, const std::string& document) {
+    INFO(document << ": scripts/draw-figures draws it anew");
+    const auto texts = [](const std::string& svg) {
+      std::vector<std::string> out;
+      for (const TextBox& box : text_boxes(svg)) out.push_back(box.text);
+      return out;
+    };
+    CHECK(texts(file_text(project_file(document))) == texts(render(figure, FigureFormat::svg)));
+    CHECK(std::filesystem::file_size(project_file(document)) < 100000);
+  };
+  check(optimum_figure(study(file)), "docs/figures/optimum.svg");
+  check(motors_figure(file, compare_motors(file.design, library_motors())),
+        "docs/figures/motors.svg");
+}
