@@ -39,10 +39,10 @@ std::vector<Row> rows() {
           {"fore_aft_asymmetry", &HiddenFlight::fore_aft_asymmetry, 0.08, 0.3, true, ""},
           {"propwash", &HiddenFlight::propwash, 0.12, 0.8, false, ""},
           {"vertical_coupling", &HiddenFlight::vertical_coupling, 0.04, 0.2, true, ""},
-          {"drag with roll", &HiddenFlight::roll_drag, 20, 80, false, "roll"},
-          {"step of the drag", &HiddenFlight::step_drag, 0.15, 0.5, true, "time"},
-          {"step of a force", &HiddenFlight::step_force, 0.3, 1, true, "time"},
-          {"drag with height", &HiddenFlight::height_drag, 0.02, 0.06, true, "height"}};
+          {"drag with roll", &HiddenFlight::roll_drag, 20, 80, false, "roll_deg"},
+          {"step of the drag", &HiddenFlight::step_drag, 0.15, 0.5, true, "time_s"},
+          {"step of a force", &HiddenFlight::step_force, 0.3, 1, true, "time_s"},
+          {"drag with height", &HiddenFlight::height_drag, 0.02, 0.06, true, "height_m"}};
 }
 
 HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, bool quiet) {
@@ -66,7 +66,7 @@ HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, bool quiet) {
   if (row.field == nullptr) return hidden;
   const double sign = row.either_sign && uniform(0, 1) < 0.5 ? -1 : 1;
   hidden.*(row.field) = sign * uniform(row.weakest, row.strongest);
-  if (row.channel == "roll") hidden.roll_std = 3.5;
+  if (row.channel == "roll_deg") hidden.roll_std = 3.5;
   if (row.hidden == "turning_wind") {
     hidden.yaw_turns = true;
     hidden.wind = 0;

@@ -289,6 +289,7 @@ class CommandLine {
     CLI::App& command =
         add("diagnose", "What the simulation of a measured flight gets wrong, and why", [this] {
           diagnose_.spec = spec_;
+          diagnose_.into = diagnose_into_->count() > 0;
           return run_diagnose(diagnose_, output_);
         });
     add_spec(command, spec_);
@@ -296,7 +297,11 @@ class CommandLine {
     command.add_option("--power", diagnose_.power_log, "Power log (CSV)");
     add_base(command, diagnose_.base);
     add_flight(command, diagnose_.flight);
-    command.add_flag("--into", diagnose_.into, "Print the extended spec instead of the diagnosis");
+    diagnose_into_ = command
+                         .add_option("--into", diagnose_.into_file,
+                                     "Write the extended spec to this file; without a name print "
+                                     "it instead of the diagnosis")
+                         ->expected(0, 1);
     add_output(command, output_);
   }
 
@@ -403,6 +408,7 @@ class CommandLine {
   std::string what_;
   DragOptions drag_;
   DiagnoseOptions diagnose_;
+  CLI::Option* diagnose_into_ = nullptr;
   std::string command_;  ///< what was typed
   std::string message_;
   PlotOptions plot_;

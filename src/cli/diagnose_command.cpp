@@ -1,12 +1,17 @@
 #include "cli/diagnose_command.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "io/closest_name.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/design_impact.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
@@ -14,18 +19,13 @@
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 
 namespace tethercalc::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// A diagnosis with the spec that it leads to.
-struct Told {
-  Diagnosis diagnosis;
-  ordered_json extended;
-};
 
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
@@ -37,10 +37,43 @@ void clear_progress() {
   if (::isatty(STDERR_FILENO) == 1) std::fprintf(stderr, "\r\x1b[K");
 }
 
-/// The spec of a design that differs from the one read in numbers, converter curve or resistivity.
-ordered_json spec_of(const DesignFile& file, const Design& extended) {
-  ordered_json document = file.document;
+/// The effects of --base that a log of `kind` can show. Every name must be one of a given log.
+std::vector<std::string> base_effects(const DiagnoseOptions& options, LogKind kind) {
+  std::vector<std::string> chosen;
+  for (const std::string& id : options.base) {
+    const Effect* effect = find_effect(id);
+    if (effect != nullptr && effect->log == kind) chosen.push_back(id);
+  }
+  return chosen;
+}
+
+void check_base(const DiagnoseOptions& options) {
+  std::vector<std::string> known;
+  for (const Effect& effect : effect_catalogue()) {
+    const bool given =
+        effect.log == LogKind::flight ? !options.flight_log.empty() : !options.power_log.empty();
+    if (given) known.push_back(effect.id);
+  }
+  for (const std::string& id : options.base) {
+    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
+    const Effect* effect = find_effect(id);
+    if (effect != nullptr) {
+      const bool flight = effect->log == LogKind::flight;
+      throw InputError("--base",
+                       fmt::format("\"{}\" is an effect of {} logs; give one with {}", id,
+                                   flight ? "flight" : "power", flight ? "--flight" : "--power"));
+    }
+    throw InputError("--base", fmt::format("\"{}\" is not an effect; allowed are {}{}", id,
+                                           fmt::join(known, ", "), did_you_mean(id, known)));
+  }
+}
+
+/// `document` with every number, converter curve and resistivity in which `extended` differs from
+/// the design of `file`. With `keep_drag` the drag block stays as it is.
+ordered_json with_changes(ordered_json document, const DesignFile& file, const Design& extended,
+                          bool keep_drag) {
   for (const SpecField& field : spec_fields()) {
+    if (keep_drag && field.pointer.starts_with("/drone/drag/")) continue;
     const auto before = field_value(file.design, field);
     const auto after = field_value(extended, field);
     if (after && before != after) {
@@ -48,7 +81,13 @@ ordered_json spec_of(const DesignFile& file, const Design& extended) {
     }
   }
   const auto& curve = extended.supply.converter.efficiency;
-  if (curve.size() > 1) {
+  const auto& old_curve = file.design.supply.converter.efficiency;
+  const bool same_curve =
+      std::equal(curve.begin(), curve.end(), old_curve.begin(), old_curve.end(),
+                 [](const EfficiencyPoint& a, const EfficiencyPoint& b) {
+                   return a.output_power == b.output_power && a.efficiency == b.efficiency;
+                 });
+  if (curve.size() > 1 && !same_curve) {
     ordered_json points = ordered_json::array();
     for (const EfficiencyPoint& point : curve) {
       points.push_back({{"output_W", point.output_power}, {"efficiency", point.efficiency}});
@@ -69,84 +108,120 @@ ordered_json spec_of(const DesignFile& file, const Design& extended) {
   return document;
 }
 
-void add_impact(Told& told, const DesignFile& file) {
-  if (told.extended == file.document) return;
-  const DesignFile after = read_design_document(told.extended, file.file, file.folder);
-  told.diagnosis.design_impact = design_impact(file.design, after.design);
-}
-
-Told diagnose_flight_log(const DiagnoseOptions& options, const DesignFile& file) {
+Diagnosis flight_diagnosis(const DiagnoseOptions& options, const DesignFile& file) {
   Design flown = file.design;
-  if (options.flight.mass_g) flown.drone.mass = *options.flight.mass_g * unit::gram;
+  if (options.flight.mass_g) {
+    if (!(*options.flight.mass_g >= 1 && *options.flight.mass_g <= 1e6)) {
+      throw InputError("--mass-g", fmt::format("{} is out of range; allowed is 1 to 1000000 g",
+                                               *options.flight.mass_g));
+    }
+    flown.drone.mass = *options.flight.mass_g * unit::gram;
+  }
   if (const auto density = air_density(options.flight)) flown.flight.air_density = *density;
   FlightDiagnosisOptions how;
-  how.base = options.base;
+  how.base = base_effects(options, LogKind::flight);
   how.pitch_offset = pitch_offset(options.flight);
-  const FlightLogReading reading = read_flight_log(options.flight_log, {options.flight.core});
+  const auto from = log_position("--from", options.flight.from);
+  const auto to = log_position("--to", options.flight.to);
+  const FlightLogReading reading = read_flight_log(
+      options.flight_log, {.core = options.flight.core, .level_where_missing = true});
   try {
-    const auto from = log_position("--from", options.flight.from);
-    const auto to = log_position("--to", options.flight.to);
     if (from || to) how.range = select_range(reading.log, from, to);
-    Told told{diagnose_flight(flown, reading.log, how, progress_line()), {}};
+    Diagnosis d = diagnose_flight(flown, reading.log, how, progress_line());
     clear_progress();
-    told.diagnosis.notes.insert(told.diagnosis.notes.begin(), reading.notes.begin(),
-                                reading.notes.end());
-    told.extended = extended_spec(file.document, told.diagnosis);
-    return told;
+    d.notes.insert(d.notes.begin(), reading.notes.begin(), reading.notes.end());
+    return d;
   } catch (const std::invalid_argument& error) {
     clear_progress();
     throw InputError(options.flight_log, error.what());
   }
 }
 
-Told diagnose_power_log(const DiagnoseOptions& options, const DesignFile& file) {
+PowerDiagnosis power_diagnosis(const DiagnoseOptions& options, const DesignFile& file) {
   const PowerLog log = read_power_log(options.power_log);
   try {
-    PowerDiagnosis found = diagnose_power(file.design, log, options.base, progress_line());
+    PowerDiagnosis found =
+        diagnose_power(file.design, log, base_effects(options, LogKind::power), progress_line());
     clear_progress();
-    return {std::move(found.diagnosis), spec_of(file, found.extended)};
+    return found;
   } catch (const std::invalid_argument& error) {
     clear_progress();
     throw InputError(options.power_log, error.what());
   }
 }
 
-Told tell(const DiagnoseOptions& options, const DesignFile& file) {
-  if (options.flight_log.empty() == options.power_log.empty()) {
-    throw InputError("diagnose", "needs one measured log: --flight LOG or --power LOG");
-  }
-  return options.power_log.empty() ? diagnose_flight_log(options, file)
-                                   : diagnose_power_log(options, file);
-}
-
-std::string answer_text(const Told& told, const Output& output) {
+std::string answer(const ToldDiagnosis& told, const Output& output) {
+  const Diagnosis& only = told.power ? *told.power : *told.flight;
+  const bool both = told.flight && told.power;
   switch (output.format) {
     case Format::json:
-      return json_text(diagnosis_json(told.diagnosis, told.extended));
-    case Format::csv:
-      return diagnosis_csv(told.diagnosis);
+      return json_text(both ? joint_diagnosis_json(*told.flight, *told.power, told.extended)
+                            : diagnosis_json(only, told.extended));
+    case Format::csv: {
+      std::vector<Finding> findings = only.findings;
+      if (both) {
+        findings.insert(findings.begin(), told.flight->findings.begin(),
+                        told.flight->findings.end());
+      }
+      return diagnosis_csv(findings);
+    }
     default:
-      return diagnosis_text(told.diagnosis, style_for(output));
+      return both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
+                  : diagnosis_text(only, style_for(output));
+  }
+}
+
+/// Refuses to write the extended spec over what it is made from.
+void check_into(const DiagnoseOptions& options) {
+  if (options.into_file.empty()) return;
+  for (const std::string& read : {options.spec.file, options.flight_log, options.power_log}) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options.into_file, read, ignored)) {
+      throw InputError(
+          "--into", fmt::format("\"{}\" is read; give another file to write", options.into_file));
+    }
   }
 }
 
 }  // namespace
 
-Diagnosis diagnose(const DiagnoseOptions& options) {
-  return tell(options, read_design(options.spec.file, options.spec.overrides)).diagnosis;
-}
-
-Diagnosis diagnose_with_impact(const DiagnoseOptions& options, const DesignFile& file) {
-  Told told = tell(options, file);
-  add_impact(told, file);
-  return std::move(told.diagnosis);
+ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
+  ToldDiagnosis told{{}, {}, file.document};
+  if (options.flight_log.empty() && options.power_log.empty()) {
+    throw InputError("diagnose", "needs a measured log: --flight LOG, --power LOG or both");
+  }
+  check_base(options);
+  if (!options.flight_log.empty()) {
+    told.flight = flight_diagnosis(options, file);
+    told.extended = extended_spec(told.extended, *told.flight);
+  }
+  if (!options.power_log.empty()) {
+    PowerDiagnosis found = power_diagnosis(options, file);
+    const bool drag_known = told.flight && !told.flight->spec_changes.empty();
+    told.extended = with_changes(told.extended, file, found.extended, drag_known);
+    told.power = std::move(found.diagnosis);
+  }
+  if (told.flight && told.power) {
+    // What a flight can never show the power log may.
+    std::erase_if(told.flight->not_identifiable, [](const NotIdentifiable& n) {
+      return find_effect(n.effect)->log == LogKind::power;
+    });
+  }
+  const DesignFile after = read_design_document(told.extended, file.file, file.folder);
+  (told.power ? told.power : told.flight)->design_impact = design_impact(file.design, after.design);
+  return told;
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
-  const DesignFile file = read_design(options.spec.file, options.spec.overrides);
-  Told told = tell(options, file);
-  add_impact(told, file);
-  emit(output, options.into ? json_text(told.extended) : answer_text(told, output));
+  check_into(options);
+  const ToldDiagnosis told =
+      diagnose_logs(options, read_design(options.spec.file, options.spec.overrides));
+  if (options.into && options.into_file.empty()) {
+    emit(output, json_text(told.extended));
+    return done;
+  }
+  if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.extended));
+  emit(output, answer(told, output));
   return done;
 }
 

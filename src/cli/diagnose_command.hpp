@@ -1,7 +1,10 @@
 // The command that tells what the simulation of a measured flight gets wrong.
 #pragma once
 
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/design_commands.hpp"
 #include "cli/flight_options.hpp"
@@ -17,15 +20,21 @@ struct DiagnoseOptions {
   std::string power_log;
   std::vector<std::string> base;  ///< ids of effects that are part of the base model
   FlightOptions flight;
-  bool into = false;  ///< print the extended spec instead of the diagnosis
+  bool into = false;      ///< print the extended spec instead of the diagnosis
+  std::string into_file;  ///< write it there instead, beside the diagnosis
 };
 
-/// The diagnosis alone, without its impact on the design. Throws InputError for bad input.
-[[nodiscard]] Diagnosis diagnose(const DiagnoseOptions& options);
+/// What the logs say; either may be absent.
+struct ToldDiagnosis {
+  std::optional<Diagnosis> flight;
+  std::optional<Diagnosis> power;
+  nlohmann::ordered_json extended;  ///< the spec with the findings of both
+};
 
-/// The diagnosis with its impact on the design, whose spec has been read already.
-[[nodiscard]] Diagnosis diagnose_with_impact(const DiagnoseOptions& options,
-                                             const DesignFile& file);
+/// Compares each log that `options` name with the spec as it stands; what both together do to the
+/// design stands in the last of them. Drag that a flight shows directly outranks what the power at
+/// the motors says of it. Throws InputError for bad input.
+[[nodiscard]] ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file);
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
 

@@ -82,12 +82,16 @@ Figure diagnosis(const PlotOptions& options) {
   how.power_log = options.power_log;
   how.base = options.base;
   how.flight = options.flight;
-  const std::string& log = options.power_log.empty() ? options.flight_log : options.power_log;
-  const Diagnosis found = diagnose(how);
+  if (how.flight_log.empty() == how.power_log.empty()) {
+    throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
+  }
+  const ToldDiagnosis told =
+      diagnose_logs(how, read_design(options.files.front(), options.overrides));
   try {
-    return diagnosis_figure(base_name(log), found);
+    return told.flight ? diagnosis_figure(base_name(options.flight_log), *told.flight)
+                       : diagnosis_figure(base_name(options.power_log), *told.power);
   } catch (const std::invalid_argument& error) {
-    throw InputError(log, error.what());
+    throw InputError(told.flight ? options.flight_log : options.power_log, error.what());
   }
 }
 

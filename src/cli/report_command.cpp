@@ -31,13 +31,6 @@ LearnedDrag learn_drag(const DiagnoseOptions& options, const Design& design) {
   }
 }
 
-LogDiagnosis diagnose_one(DiagnoseOptions options, const DesignFile& file,
-                          std::string DiagnoseOptions::*left_out) {
-  (options.*left_out).clear();
-  const std::string& log = options.flight_log.empty() ? options.power_log : options.flight_log;
-  return {base_name(log), diagnose_with_impact(options, file)};
-}
-
 std::string shell_word(std::string_view word) {
   constexpr std::string_view plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,%+@-";
@@ -55,12 +48,11 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   const DesignFile file = read_design(options.spec.file, options.spec.overrides);
   PageContent content;
   content.command = command;
-  if (!options.flight_log.empty()) {
-    content.drag = learn_drag(options, file.design);
-    content.diagnoses.push_back(diagnose_one(options, file, &DiagnoseOptions::power_log));
-  }
-  if (!options.power_log.empty()) {
-    content.diagnoses.push_back(diagnose_one(options, file, &DiagnoseOptions::flight_log));
+  if (!options.flight_log.empty()) content.drag = learn_drag(options, file.design);
+  if (!options.flight_log.empty() || !options.power_log.empty()) {
+    const ToldDiagnosis told = diagnose_logs(options, file);
+    if (told.flight) content.diagnoses.push_back({base_name(options.flight_log), *told.flight});
+    if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
   }
   content.motors = compare_motors(file.design, library_motors());
   content.study = study(file);

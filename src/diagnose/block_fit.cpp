@@ -84,6 +84,7 @@ class FreedModel {
       VectorXd column = record.scaled_column(record.problem().unnamed[freed.unnamed[k]].column);
       const double rms = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
       if (rms > 0) column /= rms;
+      column_size_.push_back(rms > 0 ? rms : 1);
       columns_.col(static_cast<Index>(k)) = column;
     }
     coefficients_ = VectorXd::Zero(columns_.cols());
@@ -92,7 +93,11 @@ class FreedModel {
   [[nodiscard]] Index size() const { return static_cast<Index>(free_.size()) + columns_.cols(); }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
-  [[nodiscard]] const VectorXd& coefficients() const { return coefficients_; }
+  /// Of the columns as they were given.
+  [[nodiscard]] VectorXd coefficients() const {
+    const auto size = VectorXd::Map(column_size_.data(), coefficients_.size());
+    return coefficients_.cwiseQuotient(size);
+  }
 
   void residuals(VectorXd& out) const {
     record_->residuals(values_, out);
@@ -144,7 +149,8 @@ class FreedModel {
   std::vector<double> values_;
   std::vector<std::size_t> free_;
   MatrixXd columns_;
-  VectorXd coefficients_;
+  std::vector<double> column_size_;
+  VectorXd coefficients_;  ///< of the columns brought to size 1
 };
 
 std::vector<Index> columns_not_held(const FreedModel& model, const VectorXd& gradient) {

@@ -58,7 +58,7 @@ struct Freed {
 struct BlockFit {
   Freed freed;
   std::vector<double> values;       ///< all parameters
-  Eigen::VectorXd coefficients;     ///< of the unnamed regressors
+  Eigen::VectorXd coefficients;     ///< of the unnamed regressors as they are given
   std::vector<std::size_t> active;  ///< parameter of each leading column of the jacobian
   Eigen::MatrixXd jacobian;         ///< of the prediction
   Eigen::VectorXd residual;         ///< in sample

@@ -11,6 +11,7 @@
 
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_structure.hpp"
+#include "diagnose/unit_checks.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/diagnose/flight_prediction.hpp"
@@ -32,8 +33,13 @@ constexpr double gap_factor = 1.5;
 /// whole log.
 constexpr double time_stamp_uncertainty = 0.05;
 
+constexpr const char* unit_of_flights = "m/s²";
 constexpr const char* areas_group = "drag areas";
 constexpr const char* vertical_group = "vertical acceleration";
+constexpr std::size_t turn_index = 2;  ///< among the groups
+constexpr const char* turn_group = "turning frame";
+/// A yaw that stays within this never turned; its noise would only be a regressor of noise.
+constexpr double steady_yaw = 0.1;  // rad
 
 /// Which group of the selection is which effect; null for the groups that are no effects.
 struct FlightGroups {
@@ -93,6 +99,7 @@ FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosi
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }
   data.step = median_step(data.observations.time);
+  check_flight_units(data.observations, data.step);
   const std::vector<bool> usable = usable_samples(log, data.faults, data.observations, data.step);
   const auto count = static_cast<std::size_t>(std::count(usable.begin(), usable.end(), true));
   data.usable = static_cast<double>(count) * data.step;
@@ -120,16 +127,27 @@ ParameterGroup vertical_acceleration(bool known) {
           std::nullopt};
 }
 
+ParameterGroup turning_frame(const std::vector<double>& yaw) {
+  const auto [least, most] = std::minmax_element(yaw.begin(), yaw.end());
+  const double upper = *most - *least > steady_yaw ? 1.5 : 0;
+  return {turn_group,
+          ParameterGroup::Role::fitted,
+          {{.neutral = 0, .lower = 0, .upper = upper, .scale = 0.2, .start = 0}},
+          std::nullopt};
+}
+
 bool testable(const Effect& effect, const LogFaults& faults) {
   const bool needs_height =
       std::find(effect.needs.begin(), effect.needs.end(), "vd_m_s") != effect.needs.end();
   return !(needs_height && faults.height_unknown);
 }
 
-FlightGroups flight_groups(const std::vector<std::string>& base, const LogFaults& faults) {
+FlightGroups flight_groups(const std::vector<std::string>& base, const FlightData& data) {
+  const LogFaults& faults = data.faults;
   FlightGroups result;
-  result.groups = {areas(), vertical_acceleration(!faults.height_unknown)};
-  result.effects = {nullptr, nullptr};
+  result.groups = {areas(), vertical_acceleration(!faults.height_unknown),
+                   turning_frame(data.record.yaw)};
+  result.effects = {nullptr, nullptr, nullptr};
   std::map<std::string, std::size_t, std::less<>> index;
   for (const Effect& effect : effect_catalogue()) {
     if (effect.log != LogKind::flight || !testable(effect, faults)) continue;
@@ -158,7 +176,10 @@ FlightGroups flight_groups(const std::vector<std::string>& base, const LogFaults
 }
 
 FlightBase flight_base(std::span<const double> values) {
-  return {.front_area = values[0], .top_area = values[1], .vertical_acceleration_gain = values[2]};
+  return {.front_area = values[0],
+          .top_area = values[1],
+          .vertical_acceleration_gain = values[2],
+          .turn_gain = values[3]};
 }
 
 std::vector<EffectValues> effect_values(const FlightGroups& groups,
@@ -214,7 +235,7 @@ struct Preliminary {
 };
 
 Preliminary preliminary_fit(const FlightData& data) {
-  const FlightGroups groups = flight_groups({"linear_drag", "wind"}, data.faults);
+  const FlightGroups groups = flight_groups({"linear_drag", "wind"}, data);
   std::size_t first = 0;
   std::size_t wind = 0;
   std::size_t delay = 0;
@@ -303,6 +324,9 @@ std::vector<ParameterEstimate> Report::parameters(const ModelFit& fit) const {
   if (!data_.faults.height_unknown) {
     out.push_back(estimate(fit, 2, "vertical_acceleration_gain", "1", 1));
   }
+  if (groups_.groups[turn_index].parameters.front().upper > 0) {
+    out.push_back(estimate(fit, 3, "turn_gain", "1", 1));
+  }
   for (std::size_t g = 0; g < groups_.groups.size(); ++g) {
     const std::size_t first = first_parameter(g);
     const auto& own = groups_.groups[g].parameters;
@@ -363,6 +387,8 @@ Unexplained Report::unexplained() const {
   if (!out.detected) return out;
   out.channels = selection_.unnamed.channels;
   out.share_percent = selection_.unnamed.share_percent;
+  out.size = selection_.extended.holdout_rmse * std::sqrt(out.share_percent / 100);
+  out.size_unit = unit_of_flights;
   out.regressor = problem_.unnamed[selection_.unnamed.regressors.front()].shape;
   out.shape = fmt::format(
       "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
@@ -545,7 +571,7 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
   if (data.blocks < fewest_blocks) {
     d = too_short(data);
   } else {
-    const FlightGroups groups = flight_groups(options.base, data.faults);
+    const FlightGroups groups = flight_groups(options.base, data);
     SelectionProblem problem = selection_problem(data, groups);
     Preliminary preliminary = preliminary_fit(data);
     problem.unnamed = flight_structure(data.observations, preliminary.wind);
@@ -559,7 +585,7 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
     }
   }
   d.kind = "flight";
-  d.unit = "m/s²";
+  d.unit = unit_of_flights;
   d.quantity = "forward acceleration";
   for (ComparedSeries& series : d.compared) {
     series.quantity = d.quantity;

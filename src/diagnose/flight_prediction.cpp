@@ -34,6 +34,12 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   for (const double roll : observations.roll) {
     record.inverse_cos_roll.push_back(1 / std::cos(roll));
   }
+  record.turn_acceleration.assign(observations.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < observations.size(); ++i) {
+    const double yaw_rate = (observations.yaw[i + 1] - observations.yaw[i - 1]) /
+                            (observations.time[i + 1] - observations.time[i - 1]);
+    record.turn_acceleration[i] = yaw_rate * observations.right_speed[i];
+  }
   record.mass = mass;
   record.air_density = air_density;
   record.gravity = gravity;
@@ -46,9 +52,10 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
-  for (auto series : {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt,
-                      &FlightRecord::yaw, &FlightRecord::forward_speed, &FlightRecord::down_speed,
-                      &FlightRecord::down_acceleration, &FlightRecord::inverse_cos_roll}) {
+  for (auto series :
+       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
+        &FlightRecord::forward_speed, &FlightRecord::down_speed, &FlightRecord::down_acceleration,
+        &FlightRecord::inverse_cos_roll, &FlightRecord::turn_acceleration}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -94,7 +101,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   for (std::size_t i = 0; i < size; ++i) {
     const double lift =
         record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
-    p.acceleration[i] = lift * tan_tilt[i] * record.inverse_cos_roll[i] - p.drag[i] / record.mass;
+    p.acceleration[i] = lift * tan_tilt[i] * record.inverse_cos_roll[i] - p.drag[i] / record.mass +
+                        base.turn_gain * record.turn_acceleration[i];
   }
 }
 

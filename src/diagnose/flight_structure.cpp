@@ -60,12 +60,12 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
   const double begin = time.front();
   const double duration = time.back() - begin;
   const auto elapsed = [begin, duration](double t) { return (t - begin) / duration - 0.5; };
-  shapes.push_back({"time", "time, steadily", map(time, elapsed)});
-  shapes.push_back({"time", "the square of the time from the middle of the flight",
+  shapes.push_back({"time_s", "time, steadily", map(time, elapsed)});
+  shapes.push_back({"time_s", "the square of the time from the middle of the flight",
                     map(time, [elapsed](double t) { return elapsed(t) * elapsed(t); })});
   for (int k = 1; k < step_places; ++k) {
     const double at = begin + duration * k / step_places;
-    shapes.push_back({"time", fmt::format("a step at about {:.0f} s", at),
+    shapes.push_back({"time_s", fmt::format("a step at about {:.0f} s", at),
                       map(time, [at](double t) { return t < at ? 0.0 : 1.0; })});
   }
 }
@@ -74,21 +74,21 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
 
 std::vector<UnnamedRegressor> flight_structure(const Observations& o, double wind) {
   std::vector<Shape> shapes;
-  add_powers(shapes, "roll", "roll", o.roll);
-  add_powers(shapes, "pitch", "pitch", o.tilt);
-  add_powers(shapes, "lateral_speed", "lateral speed", o.right_speed);
-  add_powers(shapes, "vertical_speed", "vertical speed", o.down_speed);
+  add_powers(shapes, "roll_deg", "roll", o.roll);
+  add_powers(shapes, "pitch_deg", "pitch", o.tilt);
+  add_powers(shapes, "lateral_speed_m_s", "lateral speed", o.right_speed);
+  add_powers(shapes, "vd_m_s", "vertical speed", o.down_speed);
   if (varies(o.down_speed)) {
     const Series height = centred(height_gained(o));
-    shapes.push_back({"height", "height", height});
-    shapes.push_back({"height", "the square of the height from its mean",
+    shapes.push_back({"height_m", "height", height});
+    shapes.push_back({"height_m", "the square of the height from its mean",
                       map(height, [](double h) { return h * h; })});
   }
   if (varies(o.yaw)) {
     shapes.push_back(
-        {"yaw", "the cosine of the yaw", map(o.yaw, [](double y) { return std::cos(y); })});
+        {"yaw_deg", "the cosine of the yaw", map(o.yaw, [](double y) { return std::cos(y); })});
     shapes.push_back(
-        {"yaw", "the sine of the yaw", map(o.yaw, [](double y) { return std::sin(y); })});
+        {"yaw_deg", "the sine of the yaw", map(o.yaw, [](double y) { return std::sin(y); })});
   }
   add_time(shapes, o.time);
 
@@ -114,7 +114,7 @@ std::vector<UnnamedRegressor> flight_structure(const Observations& o, double win
     }
   }
   const auto add_speed = [&](const char* words, double (*of)(double)) {
-    regressors.push_back({"speed", words, map(airspeed, of)});
+    regressors.push_back({"airspeed_m_s", words, map(airspeed, of)});
   };
   add_speed("the magnitude of the airspeed", [](double u) { return std::abs(u); });
   add_speed("the square of the airspeed", [](double u) { return u * u; });

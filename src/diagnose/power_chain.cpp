@@ -101,7 +101,9 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   deployed.length = 1;
   const double tether_mass_per_metre = airborne_mass(deployed, area);
   const double drag_area_per_metre = tether_drag_area(deployed, area);
-  const double tan_limit = std::tan(model.design.requirements.max_pitch);
+  // What was flown was flown: the design's limit of the tilt is no physics. At 80° the thrust is
+  // six times the weight, which no drone has that also lifts a tether.
+  constexpr double tan_limit = 6;
 
   std::vector<double> power(log.time.size());
   double tan_pitch = 0;
@@ -129,11 +131,15 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
 
 Design lasting_design(const PowerModel& model, const FlownRange& flown) {
   Design design = model.design;
+  // What the payload draws less than nothing is another's error; a spec cannot hold it.
+  design.drone.auxiliary_power = std::max(0.0, design.drone.auxiliary_power);
   if (model.heating) {
     const double ohm_per_metre = loop_ohm_per_metre(design.tether, 20);
-    design.tether.conductor_temperature_C =
-        flown.ambient_temperature_C +
-        settled_rise(*model.heating, flown.current * flown.current * ohm_per_metre, flown.airspeed);
+    constexpr double hottest = 250;  // °C, the spec's limit: no insulation stands more
+    design.tether.conductor_temperature_C = std::min(
+        hottest, flown.ambient_temperature_C +
+                     settled_rise(*model.heating, flown.current * flown.current * ohm_per_metre,
+                                  flown.airspeed));
   }
   if (model.converter_losses) {
     // 24 points: linear between them, the efficiency is then within 1e-3 of the formula.

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "diagnose/power_effects.hpp"
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
+#include "diagnose/unit_checks.hpp"
 #include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/diagnose/power_residuals.hpp"
 
@@ -21,6 +24,8 @@ namespace {
 /// deviation lasts, short against the minutes at one height.
 constexpr double shortest_block = 30;  // s
 constexpr std::size_t most_blocks = 24;
+/// A tenth of a log of the shortest length at 1 Hz would be too few to estimate noise from.
+constexpr std::ptrdiff_t fewest_samples = 100;
 /// Of a false name in the whole catalogue, were the noise known exactly. Its memory is estimated
 /// from some 200 rows, which makes the tails heavier; measured rates stand in
 /// docs/diagnosis-power.md.
@@ -56,6 +61,58 @@ std::string lacking(const Effect& effect, const PowerLog& log) {
     names += need;
   }
   return names;
+}
+
+/// Equal stretches of time.
+std::size_t block_count(double duration) {
+  return std::clamp<std::size_t>(static_cast<std::size_t>(duration / shortest_block), fewest_blocks,
+                                 most_blocks);
+}
+
+int block_at(const PowerLog& log, std::size_t sample) {
+  const double duration = log.time.back() - log.time.front();
+  const std::size_t blocks = block_count(duration);
+  const double share = (log.time[sample] - log.time.front()) / duration;
+  return static_cast<int>(
+      std::min(blocks - 1, static_cast<std::size_t>(share * static_cast<double>(blocks))));
+}
+
+/// Takes away the stages that too few healthy stretches are left of, with what each would need.
+std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
+  std::map<Stage, std::string> dropped;
+  for (const auto& [stage, usable] : {std::pair{Stage::tether, &screened.tether_usable},
+                                      std::pair{Stage::converter, &screened.converter_usable},
+                                      std::pair{Stage::motors, &screened.motors_usable}}) {
+    if (usable->empty()) continue;
+    std::set<int> blocks;
+    for (std::size_t i = 0; i < usable->size(); ++i) {
+      if ((*usable)[i]) blocks.insert(block_at(screened.log, i));
+    }
+    const auto healthy = std::count(usable->begin(), usable->end(), char{1});
+    if (blocks.size() >= fewest_blocks && healthy >= fewest_samples) continue;
+    dropped[stage] = fmt::format("instruments that work for longer: of {} samples {} are healthy",
+                                 usable->size(), healthy);
+    usable->clear();
+  }
+  return dropped;
+}
+
+/// What was taken for granted where the log does not say.
+void note_assumptions(const Design& design, const PowerLog& log, std::vector<std::string>& notes) {
+  if (log.ambient_temperature_C.empty()) {
+    notes.push_back(
+        fmt::format("ambient_temperature_C is missing: the cable is taken to be at the spec's {:g} "
+                    "°C before it "
+                    "heats, so its resistivity may stand for the weather",
+                    design.tether.conductor_temperature_C));
+  }
+  for (const auto& [name, values] :
+       {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
+    if (std::all_of(values->begin(), values->end(),
+                    [values](double x) { return x == values->front(); })) {
+      notes.push_back(fmt::format("{} never changes in this log: taken as it is", name));
+    }
+  }
 }
 
 bool acts_on(const Effect& effect, Stage compared) {
@@ -158,6 +215,9 @@ class PowerProblem {
 
   [[nodiscard]] std::size_t first_parameter(std::size_t e) const { return first_[e]; }
 
+  /// After the residuals' noise has changed.
+  void forget() { cache_.assign(cache_.size(), {}); }
+
  private:
   static bool is_neutral(const Effect& effect, std::span<const double> own) {
     // The first parameters are sizes; with them neutral the others change nothing.
@@ -178,20 +238,6 @@ class PowerProblem {
   std::vector<std::size_t> first_;
   std::vector<Cached> cache_;
 };
-
-/// Equal stretches of time.
-std::size_t block_count(double duration) {
-  return std::clamp<std::size_t>(static_cast<std::size_t>(duration / shortest_block), fewest_blocks,
-                                 most_blocks);
-}
-
-int block_at(const PowerLog& log, std::size_t sample) {
-  const double duration = log.time.back() - log.time.front();
-  const std::size_t blocks = block_count(duration);
-  const double share = (log.time[sample] - log.time.front()) / duration;
-  return static_cast<int>(
-      std::min(blocks - 1, static_cast<std::size_t>(share * static_cast<double>(blocks))));
-}
 
 /// Block of every row; −1 for rows that are not used.
 std::vector<int> blocks_of(const PowerResiduals& residuals) {
@@ -225,6 +271,45 @@ std::vector<SelectionPart> parts_of(const PowerResiduals& residuals,
     if (std::count(part.rows.begin(), part.rows.end(), char{1}) > 0) parts.push_back(part);
   }
   return parts;
+}
+
+/// The search with the residuals' present noise.
+Selection search(const PowerResiduals& residuals, const std::vector<const Effect*>& effects,
+                 SelectionProblem& problem, const SelectionProgress& progress) {
+  problem.measured.assign(residuals.rows(), 0);
+  problem.noise.assign(residuals.rows(), 1);
+  problem.block = blocks_of(residuals);
+  problem.unnamed = power_shapes(residuals);
+  SelectionOptions options;
+  options.false_alarm_probability = false_alarm_probability;
+  const std::vector<SelectionPart> parts = parts_of(residuals, effects);
+  Selection selection = select_subset(problem, parts, options, progress);
+  // A step must stand where it happened, or names are sought for the stretch between.
+  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
+    selection = select_subset(problem, parts, options, progress);
+  }
+  return selection;
+}
+
+/// The motors' noise lasts for seconds, and few rows tell how long. Takes it from what the model
+/// that was found leaves, provided that no unnamed structure is in it. False where it stays.
+bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
+                  const SelectionProblem& problem, const Selection& selection) {
+  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
+    const PowerStage& stage = residuals.stages()[k];
+    if (stage.stage != Stage::motors) continue;
+    for (const std::size_t u : selection.unnamed.regressors) {
+      const auto first =
+          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
+                      [](double x) { return x != 0; })) {
+        return false;
+      }
+    }
+    residuals.refine_noise(k, found);
+    return true;
+  }
+  return false;
 }
 
 std::vector<ParameterEstimate> estimates(const Effect& effect, std::size_t first,
@@ -387,31 +472,43 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.samples = log.time.size();
 
   const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
-  if (duration < shortest_power_log || log.time.size() < 100) {
+  if (duration < shortest_power_log || log.time.size() < fewest_samples) {
     const std::string needs =
         fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
                     shortest_power_log, duration, log.time.size());
     for (const Effect& effect : catalogue) diagnosis.not_testable.push_back({effect.id, needs});
     diagnosis.notes.push_back("the log is too short to judge");
+    diagnosis.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+    diagnosis.extended.holdout_rmse = diagnosis.base.holdout_rmse;
     return result;
   }
+  check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
   const PowerModel base{design, {}, {}, 1};
   ScreenedPowerLog screened = screen_power_log(base, log);
+  const std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
   diagnosis.notes = screened.notes;
-  const PowerResiduals residuals(base, std::move(screened));
+  note_assumptions(design, log, diagnosis.notes);
+  PowerResiduals residuals(base, std::move(screened));
 
   std::vector<const Effect*> effects;
   for (const Effect& effect : catalogue) {
-    const std::string needs = lacking(effect, residuals.log());
+    std::string needs = lacking(effect, residuals.log());
+    for (const auto& [stage, reason] : unusable) {
+      if (needs.empty() && acts_on(effect, stage)) needs = reason;
+    }
     if (needs.empty()) {
       effects.push_back(&effect);
     } else {
       diagnosis.not_testable.push_back({effect.id, needs});
     }
   }
-  if (residuals.stages().empty()) return result;
+  if (residuals.stages().empty()) {
+    diagnosis.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+    diagnosis.extended.holdout_rmse = diagnosis.base.holdout_rmse;
+    return result;
+  }
 
   PowerProblem view(base, residuals, effects);
   SelectionProblem problem;
@@ -420,22 +517,18 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   problem.predict = [&view](std::span<const double> values, std::span<double> out) {
     view.predict(values, out);
   };
-  problem.measured.assign(residuals.rows(), 0);
-  problem.noise.assign(residuals.rows(), 1);
-  problem.block = blocks_of(residuals);
-  problem.unnamed = power_shapes(residuals);
-
-  SelectionOptions options;
-  options.false_alarm_probability = false_alarm_probability;
-  const std::vector<SelectionPart> parts = parts_of(residuals, effects);
-  Selection selection = select_subset(problem, parts, options, progress);
-  // A step must stand where it happened, or names are sought for the stretch between.
-  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
-    selection = select_subset(problem, parts, options, progress);
+  Selection selection = search(residuals, effects, problem, progress);
+  const auto everything = [](const Effect&) { return true; };
+  const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
+  if (refine_noise(residuals, model(selection.extended.values), problem, selection)) {
+    view.forget();
+    selection = search(residuals, effects, problem, progress);
   }
 
   diagnosis.samples = residuals.samples();
-  diagnosis.effective_samples = static_cast<double>(selection.rows);
+  // Rows are whitened: each counts.
+  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
+                                           static_cast<double>(residuals.stages().size()));
   diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
   diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -474,15 +567,18 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
     }
     diagnosis.not_identifiable.push_back({effects[aliased.group]->id, because});
   }
-  const auto everything = [](const Effect&) { return true; };
-  const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
   diagnosis.budget = error_budget(selection);
   if (!selection.unnamed.regressors.empty()) {
     const UnnamedRegressor& strongest = problem.unnamed[selection.unnamed.regressors.front()];
     diagnosis.unexplained.detected = true;
     diagnosis.unexplained.channels = selection.unnamed.channels;
     diagnosis.unexplained.share_percent = selection.unnamed.share_percent;
-    diagnosis.unexplained.shape = strongest.shape;
+    const double size = strongest.size * selection.unnamed.coefficients.front();
+    diagnosis.unexplained.size = std::abs(size);
+    diagnosis.unexplained.size_unit = strongest.unit;
+    diagnosis.unexplained.shape =
+        fmt::format("{}, by {:+.2g} {}; no effect of the catalogue does, so it stays unnamed",
+                    strongest.shape, size, strongest.unit);
     diagnosis.unexplained.regressor = strongest.shape;
   }
   for (std::size_t k = 0; k < residuals.stages().size(); ++k) {

@@ -206,6 +206,38 @@ std::vector<double> row_means(const PowerStage& stage, std::span<const double> s
   return means;
 }
 
+/// Standard deviation and memory of the stage's noise, from what a fit with `parameters` left.
+void set_noise(std::vector<double> noise, std::size_t parameters, PowerStage& stage) {
+  double square = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    if (!stage.usable[i]) continue;
+    square += noise[i] * noise[i];
+    ++count;
+  }
+  if (count > parameters) {
+    stage.noise = std::sqrt(square / static_cast<double>(count - parameters));
+  }
+  if (!(stage.noise > 0) || !std::isfinite(stage.noise)) stage.noise = 1;
+  for (double& x : noise) x /= stage.noise;
+  set_usable_rows(stage);
+  const std::vector<double> averaged = row_means(stage, noise);
+  const Autoregression fitted = autoregression(averaged, stage.usable_rows);
+  double row_square = 0;
+  std::size_t row_count = 0;
+  for (std::size_t i = 0; i < averaged.size(); ++i) {
+    if (!stage.usable_rows[i]) continue;
+    row_square += averaged[i] * averaged[i];
+    ++row_count;
+  }
+  // The parameters took as many degrees of freedom from the means as from the samples.
+  const double degrees =
+      std::max(1.0, static_cast<double>(row_count) - static_cast<double>(parameters));
+  stage.memory = fitted.memory;
+  stage.innovation = fitted.innovation * std::sqrt(row_square / degrees);
+  if (!(stage.innovation > 0)) stage.innovation = 1;
+}
+
 }  // namespace
 
 PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened)
@@ -297,35 +329,15 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
     }
     noise = without_shapes(shapes, raw, stage.usable);
   }
-  double square = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!stage.usable[i]) continue;
-    square += noise[i] * noise[i];
-    ++count;
-  }
-  if (count > static_cast<std::size_t>(shapes.cols())) {
-    stage.noise =
-        std::sqrt(square / static_cast<double>(count - static_cast<std::size_t>(shapes.cols())));
-  }
-  if (!(stage.noise > 0)) stage.noise = 1;
-  for (double& x : noise) x /= stage.noise;
-  set_usable_rows(stage);
-  const std::vector<double> averaged = row_means(stage, noise);
-  const Autoregression fitted = autoregression(averaged, stage.usable_rows);
-  double row_square = 0;
-  std::size_t row_count = 0;
-  for (std::size_t i = 0; i < averaged.size(); ++i) {
-    if (!stage.usable_rows[i]) continue;
-    row_square += averaged[i] * averaged[i];
-    ++row_count;
-  }
-  // The shapes took as many degrees of freedom from the means as from the samples.
-  const double degrees =
-      std::max(1.0, static_cast<double>(row_count) - static_cast<double>(shapes.cols()));
-  stage.memory = fitted.memory;
-  stage.innovation = fitted.innovation * std::sqrt(row_square / degrees);
-  if (!(stage.innovation > 0)) stage.innovation = 1;
+  set_noise(std::move(noise), static_cast<std::size_t>(shapes.cols()), stage);
+}
+
+void PowerResiduals::refine_noise(std::size_t k, const PowerModel& model) {
+  PowerStage& stage = stages_[k];
+  stage.noise = 1;
+  std::vector<double> noise(samples());
+  standardised(k, model, noise);
+  set_noise(std::move(noise), 0, stage);
 }
 
 void PowerResiduals::standardised(std::size_t k, const PowerModel& model,

@@ -82,6 +82,17 @@ const char* stage_words(Stage stage) {
   }
 }
 
+const char* stage_unit(Stage stage) {
+  switch (stage) {
+    case Stage::tether:
+      return "ohm";
+    case Stage::converter:
+      return "W";
+    default:
+      return "%";
+  }
+}
+
 /// `shape` in stage `k` as rows.
 UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const Shape& shape) {
   const PowerStage& stage = residuals.stages()[k];
@@ -90,9 +101,10 @@ UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const
     column[i] =
         shape.at(i) * (stage.stage == Stage::tether ? residuals.log().supply_current[i] : 1.0);
   }
-  UnnamedRegressor result{shape.channel,
-                          fmt::format("{}: {}", stage_words(stage.stage), shape.words),
-                          std::vector<double>(residuals.rows(), 0)};
+  UnnamedRegressor result{
+      shape.channel, fmt::format("{}: {}", stage_words(stage.stage), shape.words),
+      std::vector<double>(residuals.rows(), 0),
+      stage.noise * (stage.stage == Stage::motors ? 100 : 1), stage_unit(stage.stage)};
   residuals.whitened(k, column, std::span(result.column).subspan(stage.first_row, stage.rows));
   return result;
 }

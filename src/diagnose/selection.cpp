@@ -131,7 +131,11 @@ class Search {
 
   [[nodiscard]] Freed freed(const std::vector<std::size_t>& selected) const;
   [[nodiscard]] BlockFit fit(const std::vector<std::size_t>& selected, const BlockFit* near) const;
+  [[nodiscard]] BlockFit fit(const Freed& free, const BlockFit* near) const;
   [[nodiscard]] double p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const;
+  [[nodiscard]] double wald_p_value(std::size_t g, const BlockFit& without,
+                                    const BlockFit& with) const;
+  [[nodiscard]] bool earns_without_shapes(std::size_t g) const;
   [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
                             std::size_t tested) const;
   [[nodiscard]] std::vector<std::size_t> candidates() const;
@@ -174,9 +178,12 @@ Freed Search::freed(const std::vector<std::size_t>& selected) const {
   return result;
 }
 
-/// Starts from the values of `near` for what is free in both.
 BlockFit Search::fit(const std::vector<std::size_t>& selected, const BlockFit* near) const {
-  const Freed free = freed(selected);
+  return fit(freed(selected), near);
+}
+
+/// Starts from the values of `near` for what is free in both.
+BlockFit Search::fit(const Freed& free, const BlockFit* near) const {
   std::vector<double> start;
   for (const ModelParameter& p : record_.parameters()) start.push_back(p.neutral);
   for (const std::size_t g : free.groups) {
@@ -191,11 +198,24 @@ BlockFit Search::fit(const std::vector<std::size_t>& selected, const BlockFit* n
   return fit_blocks(record_, free, std::move(start));
 }
 
-/// Of the hypothesis that the group is neutral: Wald's statistic with the jackknife covariance,
-/// referred to Hotelling's distribution for as many blocks. A group that replaces another has no
-/// neutral value to compare with; there the held-out errors of the blocks are compared by Student's
-/// test instead.
+/// Of the hypothesis that the group is neutral. A group that replaces another has no neutral value
+/// to compare with; it is tested in the model that holds both, where neutral leaves the other alone
+/// (the encompassing test of non-nested models: Davidson and MacKinnon, Econometrica 49, 1981).
 double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
+  if (!group(g).replaces) return wald_p_value(g, without, with);
+  Freed both = with.freed;
+  const auto replaced =
+      std::find(without.freed.groups.begin(), without.freed.groups.end(), *group(g).replaces);
+  if (replaced == without.freed.groups.end()) return wald_p_value(g, without, with);
+  both.groups.insert(std::upper_bound(both.groups.begin(), both.groups.end(), *replaced),
+                     *replaced);
+  return wald_p_value(g, without, fit(both, &with));
+}
+
+/// Wald's statistic with the jackknife covariance, referred to Hotelling's distribution for as many
+/// blocks. Where all parameters rest on a bound, and so do not vary between blocks, the held-out
+/// errors of the blocks are compared by Student's test instead.
+double Search::wald_p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
   std::vector<Index> columns;
   std::vector<double> distance;
   for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
@@ -206,7 +226,7 @@ double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& w
     columns.push_back(column - with.active.begin());
     distance.push_back((with.values[index] - p.neutral) / p.scale);
   }
-  if (columns.empty() || group(g).replaces) {
+  if (columns.empty()) {
     const BlockDifference gain = difference(without.block_error, with.block_error);
     return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
   }
@@ -248,6 +268,19 @@ std::vector<std::size_t> Search::candidates() const {
   return result;
 }
 
+/// Whether the group lowers the held-out error of the named part alone, too. A name that helps only
+/// beside an unnamed shape mends the shape, not the model.
+bool Search::earns_without_shapes(std::size_t g) const {
+  if (unnamed_.empty()) return true;
+  Search named = *this;
+  named.unnamed_.clear();
+  const BlockFit without = named.fit(selected_, &current_);
+  std::vector<std::size_t> more = selected_;
+  more.push_back(g);
+  const BlockFit with = named.fit(more, &without);
+  return gain_percent(without.squared_error(), with.squared_error()) >= options_.least_gain_percent;
+}
+
 /// The candidate with the least held-out error; among those within one standard error of it the one
 /// with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical Learning,
 /// 2nd ed., section 7.10).
@@ -259,7 +292,7 @@ std::optional<Search::Trial> Search::best_step() const {
     std::vector<std::size_t> more = selected_;
     more.push_back(g);
     Trial trial = judge(g, current_, fit(more, &current_), open.size());
-    if (trial.worth_a_name) worthy.push_back(std::move(trial));
+    if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
   }
   if (worthy.empty()) return std::nullopt;
   const auto best = std::min_element(
@@ -503,6 +536,7 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
 
   if (unnamed_.empty()) return;
   result.unnamed.regressors = unnamed_;
+  result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
   for (const std::size_t u : unnamed_) {
     const std::string& channel = record_.problem().unnamed[u].channel;
     auto& channels = result.unnamed.channels;
@@ -520,7 +554,7 @@ Selection Search::run() {
   result.student_factor = student_factor_;
 
   tell("fitting the base model");
-  const BlockFit base = fit({}, nullptr);
+  const BlockFit base = fit(selected_, nullptr);
   current_ = base;
   result.base = model_fit(base);
   find_aliased(base, result);

@@ -434,8 +434,9 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
     merge_fit(search, search.base().fit, block_ids, result.base);
     merge_fit(search, *before, block_ids, result.extended);
     merge_fit(search, best.fit, block_ids, result.complete);
-    for (const std::size_t u : best.shapes) {
-      result.unnamed.regressors.push_back(shape_index[u]);
+    for (std::size_t k = 0; k < best.shapes.size(); ++k) {
+      result.unnamed.regressors.push_back(shape_index[best.shapes[k]]);
+      result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
     }
   }
 

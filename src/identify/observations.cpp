@@ -200,7 +200,8 @@ double pitch_offset_from_hover(const FlightLog& hover) {
   std::vector<double> speeds(size);
   for (std::size_t i = 0; i < size; ++i) speeds[i] = std::abs(forward_speed(hover, i));
   // The way to the place of hover and back may be part of it.
-  const auto typical = speeds.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(size));
+  const auto typical =
+      speeds.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(size));
   std::nth_element(speeds.begin(), typical, speeds.end());
   if (*typical > fastest_hover) {
     throw UnsuitableFlight(

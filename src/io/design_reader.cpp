@@ -82,10 +82,37 @@ void read_efficiency(const JsonPlace& place, const SpecField& field, Converter& 
   const std::size_t before = problems.count();
   std::vector<EfficiencyPoint> points = checked_efficiency_points(place, problems);
   if (problems.count() > before) return;
-  Converter candidate{std::move(points), converter.min_input_voltage};
+  Converter candidate = converter;
+  candidate.efficiency = std::move(points);
   try {
     validate(candidate);
     converter = std::move(candidate);
+  } catch (const std::invalid_argument& error) {
+    problems.add(place.where(), error.what());
+  }
+}
+
+void read_converter_masses(const JsonPlace& place, Converter& converter, Problems& problems) {
+  if (!place.value->is_array()) {
+    problems.add(place.where(),
+                 fmt::format("expected a list of {{rated_output_W, mass_g}}, found {}",
+                             type_name(*place.value)));
+    return;
+  }
+  const auto fields = converter_mass_fields();
+  const std::size_t before = problems.count();
+  std::vector<ConverterMassPoint> masses;
+  for (std::size_t i = 0; i < place.value->size(); ++i) {
+    const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
+    const std::vector<JsonPlace> places = field_places(at, fields, problems);
+    const auto rated = checked_number(places[0], fields[0], problems);
+    const auto mass = checked_number(places[1], fields[1], problems);
+    if (rated && mass) masses.push_back({*rated, *mass * unit::gram});
+  }
+  if (problems.count() > before) return;
+  try {
+    validate(masses);
+    converter.masses = std::move(masses);
   } catch (const std::invalid_argument& error) {
     problems.add(place.where(), error.what());
   }
@@ -145,6 +172,10 @@ class SpecReader {
         return;
       case FieldKind::text:
         read_text(place, field);
+        return;
+      case FieldKind::converter_masses:
+        read_converter_masses(place, std::get<Converter& (*)(Design&)>(field.access)(design),
+                              problems_);
         return;
       case FieldKind::efficiency:
         read_efficiency(place, field, std::get<Converter& (*)(Design&)>(field.access)(design),

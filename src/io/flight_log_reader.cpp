@@ -222,24 +222,33 @@ FlightLogReading read_dataflash(std::span<const std::byte> content, const std::s
   return reading;
 }
 
-FlightLogReading read_csv(std::string_view text, const std::string& name) {
+FlightLogReading read_csv(std::string_view text, const std::string& name,
+                          const FlightLogOptions& options) {
   if (text.starts_with("FMT,")) {
     fail(name, "is a DataFlash log converted to text; expected the .bin log itself, or CSV");
   }
   constexpr auto within = [](std::string_view column, double limit) {
     return CsvColumn{.name = column, .minimum = -limit, .maximum = limit};
   };
-  constexpr std::array<CsvColumn, channel_count> wanted = {
-      CsvColumn{.name = "time_s", .increasing = true},
-      within("roll_deg", furthest_roll_deg),
-      within("pitch_deg", steepest_pitch_deg),
-      within("yaw_deg", furthest_yaw_deg),
-      within("vn_m_s", fastest_m_s),
-      within("ve_m_s", fastest_m_s),
-      within("vd_m_s", fastest_m_s)};
+  std::array<CsvColumn, channel_count> wanted = {CsvColumn{.name = "time_s", .increasing = true},
+                                                 within("roll_deg", furthest_roll_deg),
+                                                 within("pitch_deg", steepest_pitch_deg),
+                                                 within("yaw_deg", furthest_yaw_deg),
+                                                 within("vn_m_s", fastest_m_s),
+                                                 within("ve_m_s", fastest_m_s),
+                                                 within("vd_m_s", fastest_m_s)};
   FlightLogReading reading;
   reading.source = "CSV";
-  reading.log = to_flight_log(read_csv_columns(text, name, wanted, OtherCsvColumns::rejected));
+  wanted[roll_deg].required = wanted[vd].required = !options.level_where_missing;
+  Samples samples = read_csv_columns(text, name, wanted, OtherCsvColumns::rejected);
+  for (const auto& [channel, taken_for] :
+       {std::pair{roll_deg, "level flight"}, std::pair{vd, "flight at one height"}}) {
+    if (!samples[channel].empty()) continue;
+    samples[channel].assign(samples[time_s].size(), 0.0);
+    reading.notes.push_back(
+        fmt::format("{} is missing: taken for {}", wanted[channel].name, taken_for));
+  }
+  reading.log = to_flight_log(std::move(samples));
   return reading;
 }
 
@@ -259,7 +268,7 @@ FlightLogReading parse_flight_log(std::span<const std::byte> content, const std:
     fail("core", fmt::format("{} is no EKF core, expected 0 to 255", options.core));
   }
   if (looks_like_dataflash(content)) return read_dataflash(content, name, options);
-  return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name);
+  return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name, options);
 }
 
 FlightLogReading read_flight_log(const std::filesystem::path& path,

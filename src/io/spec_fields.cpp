@@ -69,6 +69,21 @@ const std::array all_spec_fields{
               Number([](Design& d) -> double& {
                 return d.drone.translational_lift.hover_induced_speed;
               })},
+    SpecField{
+        "/drone/reserve_battery/specific_energy_Wh_kg", FieldKind::number, "Wh/kg",
+        between(0, 1000), "0",
+        "Energy per mass of a battery that lands the drone from its height if the tether fails; "
+        "its mass, as the landing asks for, comes to mass_g. 0: there is none.",
+        3600, Number([](Design& d) -> double& { return d.drone.reserve_battery.specific_energy; })},
+    SpecField{"/drone/reserve_battery/usable_share", FieldKind::number, "", positive_fraction,
+              "0.8", "Part of its energy that the landing may use.", 1,
+              Number([](Design& d) -> double& { return d.drone.reserve_battery.usable_share; })},
+    SpecField{"/drone/reserve_battery/discharge_C", FieldKind::number, "1/h", above(0, 1000), "10",
+              "Most power it gives over its energy: its C rating.", 1 / 3600.0,
+              Number([](Design& d) -> double& { return d.drone.reserve_battery.discharge_rate; })},
+    SpecField{"/drone/reserve_battery/descent_speed_m_s", FieldKind::number, "m/s", above(0, 50),
+              "1.5", "Speed of the landing.", 1,
+              Number([](Design& d) -> double& { return d.drone.reserve_battery.descent_speed; })},
     SpecField{"/tether/length_m", FieldKind::number, "m", between(0.1, 1e4), "",
               "Length of the tether in the air, which is the flight height.", 1,
               Number([](Design& d) -> double& { return d.tether.length; })},
@@ -172,6 +187,10 @@ const std::array all_spec_fields{
               between(0, 100), "0",
               "Mass of the converter per rated output, which the drone carries beside its own.",
               1e-3, Number([](Design& d) -> double& { return d.supply.converter.specific_mass; })},
+    SpecField{"/supply/converter/mass_table", FieldKind::converter_masses, "", any_number, "[]",
+              "Instead of that, what converters weigh: points over their rated output.", 1,
+              static_cast<Converter& (*)(Design&)>(
+                  [](Design& d) -> Converter& { return d.supply.converter; })},
     SpecField{
         "/supply/converter/fixed_ratio", FieldKind::optional_number, "", above(0, 100), "null",
         "Output over input voltage of a converter whose output follows its input.", 1,
@@ -280,6 +299,11 @@ const std::array all_efficiency_point_fields{
     SpecField{"/efficiency", FieldKind::number, "", positive_fraction, "",
               "Efficiency at that output power."}};
 
+const std::array all_converter_mass_fields{
+    SpecField{"/rated_output_W", FieldKind::number, "W", above(0, 1e6), "", "Rated output."},
+    SpecField{"/mass_g", FieldKind::number, "g", between(0, 1e6), "", "Mass of such a converter.",
+              unit::gram}};
+
 std::string_view last_part(std::string_view path, char separator) {
   return path.substr(path.rfind(separator) + 1);
 }
@@ -296,6 +320,7 @@ std::span<const SpecField> motor_point_fields() { return all_motor_point_fields;
 std::span<const SpecField> conductor_fields() { return all_conductor_fields; }
 std::span<const SpecField> insulation_fields() { return all_insulation_fields; }
 std::span<const SpecField> efficiency_point_fields() { return all_efficiency_point_fields; }
+std::span<const SpecField> converter_mass_fields() { return all_converter_mass_fields; }
 
 std::string dot_path(std::string_view pointer) {
   std::string path(pointer.substr(pointer.starts_with('/') ? 1 : 0));
@@ -412,6 +437,32 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
              "the converter cuts off below {} V, but the supply gives only {} V; the supply "
              "voltage must be the higher one",
              converter.min_input_voltage, design.supply.voltage)});
+  }
+  if (converter.min_input_voltage < design.supply.voltage &&
+      lowest_input_voltage(converter) >= design.supply.voltage) {
+    conflicts.push_back(
+        {"/supply/converter/min_output_voltage_V",
+         fmt::format("behind the fixed ratio of {} even the supply's {} V make only {} V, and the "
+                     "motors need {} V",
+                     *converter.fixed_ratio, design.supply.voltage,
+                     *converter.fixed_ratio * design.supply.voltage,
+                     converter.min_output_voltage)});
+  }
+  if (!converter.fixed_ratio && converter.min_output_voltage > 0) {
+    conflicts.push_back({"/supply/converter/min_output_voltage_V",
+                         "is for converters whose output follows their input; give fixed_ratio"});
+  }
+  if (!converter.rated_output_power && (converter.specific_mass > 0 || !converter.masses.empty())) {
+    conflicts.push_back(
+        {converter.masses.empty() ? "/supply/converter/specific_mass_kg_per_kW"
+                                  : "/supply/converter/mass_table",
+         "the converter's mass follows from its rated output, which is not known; give "
+         "rated_output_W"});
+  }
+  if (converter.specific_mass > 0 && !converter.masses.empty()) {
+    conflicts.push_back({"/supply/converter/mass_table",
+                         "and specific_mass_kg_per_kW both give the converter's mass; only one can "
+                         "be right"});
   }
   const Insulation& insulation = design.tether.insulation;
   if (insulation.dielectric_safety_factor > 0 && !(insulation.breakdown_strength > 0)) {

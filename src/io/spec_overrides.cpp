@@ -38,13 +38,16 @@ std::span<const SpecField> fields_of_object(FieldKind kind) {
       return motor_point_fields();
     case FieldKind::efficiency:
       return efficiency_point_fields();
+    case FieldKind::converter_masses:
+      return converter_mass_fields();
     default:
       return {};
   }
 }
 
 bool is_list(FieldKind kind) {
-  return kind == FieldKind::motor_points || kind == FieldKind::efficiency;
+  return kind == FieldKind::motor_points || kind == FieldKind::efficiency ||
+         kind == FieldKind::converter_masses;
 }
 
 std::string_view without_index(std::string_view rest) {

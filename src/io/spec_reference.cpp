@@ -25,6 +25,8 @@ std::string allowed(const SpecField& field) {
       return "name, `.json` file, [conductor](#conductor)";
     case FieldKind::insulation_material:
       return "name, `.json` file, [material](#insulation-material)";
+    case FieldKind::converter_masses:
+      return "list of [rows](#row-of-a-converters-table-of-masses)";
     case FieldKind::efficiency:
       return describe_range(field) + ", or list of [points](#point-of-an-efficiency-curve)";
     case FieldKind::motor_points:
@@ -96,6 +98,11 @@ std::string spec_reference() {
   text +=
       "\nThe points stand by rising `output_W`; efficiency is linear between them and constant\n"
       "outside. The power drawn must rise with the output.\n";
+  text += object_section("Row of a converter's table of masses", converter_mass_fields());
+  text +=
+      "\nThe rows stand by rising `rated_output_W`; mass is linear between them, that of the "
+      "first\n"
+      "below it, and that of the last in proportion above it.\n";
   return text;
 }
 

@@ -60,6 +60,8 @@ Json schema_of_kind(FieldKind kind) {
       return {{"type", {"number", "array"}},
               {"minItems", 1},
               {"items", reference_to("efficiency_point")}};
+    case FieldKind::converter_masses:
+      return {{"type", "array"}, {"items", reference_to("converter_mass")}};
     case FieldKind::motor_points:
       return list_of("motor_point", 2);
   }
@@ -128,7 +130,8 @@ Json spec_schema() {
                      {"motor_point", motor_point_schema()},
                      {"conductor", schema_of_object(conductor_fields())},
                      {"insulation", schema_of_object(insulation_fields())},
-                     {"efficiency_point", schema_of_object(efficiency_point_fields())}};
+                     {"efficiency_point", schema_of_object(efficiency_point_fields())},
+                     {"converter_mass", schema_of_object(converter_mass_fields())}};
   return schema;
 }
 

@@ -188,6 +188,7 @@ class AxisReader {
               return material;
             });
       case FieldKind::strength_material:
+      case FieldKind::converter_masses:
         return refuse("a sweep cannot vary this field");
       default:
         return refuse("this field does not change the result");

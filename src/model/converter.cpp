@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -58,8 +59,43 @@ void validate(const Converter& converter) {
   }
 }
 
+void validate(const std::vector<ConverterMassPoint>& masses) {
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    const std::string name = "converter " + std::to_string(i + 1);
+    if (!(masses[i].rated_output_power > 0 && masses[i].mass >= 0)) {
+      throw std::invalid_argument(name +
+                                  " has a rated output that is not positive or a negative "
+                                  "mass");
+    }
+    if (i == 0) continue;
+    if (!(masses[i].rated_output_power > masses[i - 1].rated_output_power)) {
+      throw std::invalid_argument(name +
+                                  " does not have a higher rated output than the one before");
+    }
+    if (!(masses[i].mass >= masses[i - 1].mass)) {
+      throw std::invalid_argument(name + " is lighter than the one before");
+    }
+  }
+}
+
 double converter_mass(const Converter& converter) {
-  return converter.specific_mass * converter.rated_output_power.value_or(0);
+  const double rated = converter.rated_output_power.value_or(0);
+  const auto& masses = converter.masses;
+  if (masses.empty() || rated == 0) return converter.specific_mass * rated;
+  if (rated <= masses.front().rated_output_power) return masses.front().mass;
+  const ConverterMassPoint& last = masses.back();
+  if (rated >= last.rated_output_power) return last.mass * (rated / last.rated_output_power);
+  const auto above = std::upper_bound(
+      masses.begin(), masses.end(), rated,
+      [](double power, const ConverterMassPoint& p) { return power < p.rated_output_power; });
+  const ConverterMassPoint& a = *(above - 1);
+  return a.mass + (above->mass - a.mass) * (rated - a.rated_output_power) /
+                      (above->rated_output_power - a.rated_output_power);
+}
+
+double converter_output_voltage(const Converter& converter, double input_voltage) {
+  return converter.fixed_ratio ? *converter.fixed_ratio * input_voltage
+                               : std::numeric_limits<double>::quiet_NaN();
 }
 
 double lowest_input_voltage(const Converter& converter) {

@@ -1,19 +1,11 @@
 #include "tethercalc/model/motor_curve.hpp"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace tethercalc {
-
-/// A rising piecewise-linear curve: vertices from (0, 0) on and the slope of each piece.
-struct MotorCurve::Polyline {
-  std::vector<MotorPoint> vertices;
-  std::vector<double> slopes;              ///< W/N, one fewer than vertices
-  std::shared_ptr<const MotorCurve> hull;  ///< null where the curve is its own lower convex hull
-};
 
 namespace {
 
@@ -41,20 +33,6 @@ std::vector<MotorPoint> lower_hull(std::span<const MotorPoint> vertices) {
     hull.push_back(next);
   }
   return hull;
-}
-
-/// Index of the piece that holds `value` of the rising `member`, the first piece for smaller values
-/// and the last for larger ones.
-std::size_t piece_at(std::span<const MotorPoint> vertices, double MotorPoint::*member,
-                     double value) {
-  const MotorPoint* base = vertices.data();
-  std::size_t count = vertices.size() - 1;
-  while (count > 1) {
-    const std::size_t half = count / 2;
-    base += base[half].*member <= value ? half : 0;  // branch-free: this is the hottest loop
-    count -= half;
-  }
-  return static_cast<std::size_t>(base - vertices.data());
 }
 
 void check(std::span<const MotorPoint> points) {
@@ -99,17 +77,6 @@ MotorCurve::MotorCurve(std::vector<MotorPoint> points) {
 
 MotorCurve::MotorCurve(std::shared_ptr<const Polyline> line) : line_(std::move(line)) {}
 
-double MotorCurve::power(double thrust) const {
-  if (thrust <= 0) return 0;
-  // A thrust that was solved for to be the last point's may miss it by rounding.
-  constexpr double rounding = 1e-12;
-  if (line_->slopes.empty() || thrust > line_->vertices.back().thrust * (1 + rounding)) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const std::size_t i = piece(thrust);
-  return line_->vertices[i].power + line_->slopes[i] * (thrust - line_->vertices[i].thrust);
-}
-
 double MotorCurve::thrust(double power) const {
   if (power <= 0 || line_->slopes.empty()) return 0;
   if (power >= line_->vertices.back().power) return line_->vertices.back().thrust;
@@ -117,20 +84,8 @@ double MotorCurve::thrust(double power) const {
   return line_->vertices[i].thrust + (power - line_->vertices[i].power) / line_->slopes[i];
 }
 
-std::size_t MotorCurve::piece(double thrust) const {
-  return piece_at(line_->vertices, &MotorPoint::thrust, thrust);
-}
-
-double MotorCurve::slope(std::size_t index) const { return line_->slopes[index]; }
-
 const MotorCurve& MotorCurve::convex_hull() const { return line_->hull ? *line_->hull : *this; }
 
 bool MotorCurve::is_convex() const { return !line_->hull; }
-
-double MotorCurve::max_thrust() const { return line_->vertices.back().thrust; }
-
-double MotorCurve::max_power() const { return line_->vertices.back().power; }
-
-std::span<const MotorPoint> MotorCurve::vertices() const { return line_->vertices; }
 
 }  // namespace tethercalc

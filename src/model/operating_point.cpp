@@ -54,9 +54,14 @@ void warm_up(const SteadyFlight& flight, double radius, OperatingPoint& point) {
   if (state.drum_temperature_C) point.drum_temperature = *state.drum_temperature_C;
 }
 
-}  // namespace
+/// Mass of what flies, but for the battery.
+double mass_without_battery(const SteadyFlight& flight, double radius) {
+  const Design& design = flight.design();
+  return design.drone.mass + converter_mass(design.supply.converter) + flight.tether_mass(radius);
+}
 
-OperatingPoint evaluate(const SteadyFlight& flight, double area) {
+/// The operating point of a flight that carries a battery of `battery_mass`.
+OperatingPoint evaluate_carrying(const SteadyFlight& flight, double area, double battery_mass) {
   const Design& design = flight.design();
   const double radius = conductor_radius(area);
   const double tangent =
@@ -65,8 +70,8 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   OperatingPoint point;
   point.cross_section = area;
   point.tether_mass = flight.tether_mass(radius);
-  point.takeoff_mass =
-      design.drone.mass + converter_mass(design.supply.converter) + point.tether_mass;
+  point.takeoff_mass = mass_without_battery(flight, radius) + battery_mass;
+  point.battery_mass = battery_mass;
   point.pitch = flight.pitch_sign() * std::atan(tangent);
   point.necessary_thrust = flight.necessary_thrust(radius, tangent);
   point.drone_power = or_nan(flight.drone_power(within_reach(point.necessary_thrust, design)));
@@ -88,6 +93,38 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   constexpr double edge_rounding = 1e-12;
   point.flyable = point.headroom >= 1 - edge_rounding && !point.thermal_runaway;
   return point;
+}
+
+/// A drone that no battery lands, since none can carry itself.
+OperatingPoint beyond_any_battery(const SteadyFlight& flight, double area) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const double radius = conductor_radius(area);
+  OperatingPoint point;
+  point.cross_section = area;
+  point.tether_mass = flight.tether_mass(radius);
+  point.tether_resistance = flight.resistance(radius);
+  point.battery_mass = std::numeric_limits<double>::infinity();
+  for (double OperatingPoint::*quantity :
+       {&OperatingPoint::takeoff_mass, &OperatingPoint::pitch, &OperatingPoint::available_power,
+        &OperatingPoint::available_thrust, &OperatingPoint::necessary_thrust,
+        &OperatingPoint::headroom, &OperatingPoint::drone_power, &OperatingPoint::total_power,
+        &OperatingPoint::tether_loss, &OperatingPoint::current, &OperatingPoint::received_voltage,
+        &OperatingPoint::tether_tension}) {
+    point.*quantity = nan;
+  }
+  return point;
+}
+
+}  // namespace
+
+OperatingPoint evaluate(const SteadyFlight& flight, double area) {
+  const Design& design = flight.design();
+  if (design.drone.reserve_battery.specific_energy == 0) return evaluate_carrying(flight, area, 0);
+  const double battery =
+      reserve_battery_mass(design.drone, mass_without_battery(flight, conductor_radius(area)),
+                           design.tether.length, design.flight.gravity);
+  return std::isfinite(battery) ? evaluate_carrying(flight.carrying(battery), area, battery)
+                                : beyond_any_battery(flight, area);
 }
 
 OperatingPoint evaluate(const Design& design, double area, Condition condition) {

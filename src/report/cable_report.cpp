@@ -36,6 +36,65 @@ std::string temperature_words(const char* condition, const OperatingPoint& point
   return words;
 }
 
+double output_voltage(const Design& design, const OperatingPoint& point) {
+  return converter_output_voltage(design.supply.converter, point.received_voltage);
+}
+
+std::string battery_sentence(const Design& design, const OperatingPoint& point) {
+  const ReserveBattery& battery = design.drone.reserve_battery;
+  const double seconds = landing_time(battery, design.tether.length);
+  if (!std::isfinite(point.battery_mass)) {
+    return fmt::format(
+        "No reserve battery could land the drone from {} m: it could not carry itself.",
+        significant(design.tether.length, 3));
+  }
+  const double power = landing_power(design.drone, point.takeoff_mass, design.flight.gravity);
+  const bool by_energy = seconds / battery.usable_share >= 1 / battery.discharge_rate;
+  constexpr double joules_per_Wh = 3600;
+  return fmt::format(
+      "A reserve battery of {} g ({} Wh) lands it from {} m within {} s at {} W; {} makes it so "
+      "large.",
+      significant(point.battery_mass / unit::gram, 3),
+      significant(point.battery_mass * battery.specific_energy / joules_per_Wh, 3),
+      significant(design.tether.length, 3), significant(seconds, 3), significant(power, 3),
+      by_energy ? "its energy" : "its discharge rate");
+}
+
+std::string converter_sentence(const Design& design, const OperatingPoint& hover,
+                               const OperatingPoint& forward) {
+  const Converter& converter = design.supply.converter;
+  const auto volts = [&](const OperatingPoint& point) {
+    const double voltage = output_voltage(design, point);
+    return std::isfinite(voltage) ? significant(voltage, 3) + " V" : std::string("no voltage");
+  };
+  return fmt::format(
+      "The motors get {} in hover and {} in forward flight behind the fixed ratio of {}{}; "
+      "without load {} V.",
+      volts(hover), volts(forward), significant(*converter.fixed_ratio, 4),
+      converter.min_output_voltage > 0
+          ? fmt::format(", and need {} V", significant(converter.min_output_voltage, 3))
+          : "",
+      significant(converter_output_voltage(converter, design.supply.voltage), 3));
+}
+
+ordered_json battery_json(const Design& design, const OperatingPoint& point) {
+  const ReserveBattery& battery = design.drone.reserve_battery;
+  if (battery.specific_energy == 0) return nullptr;
+  return {{"mass_g", number_or_null(point.battery_mass / unit::gram)},
+          {"landing_time_s", landing_time(battery, design.tether.length)},
+          {"landing_power_W",
+           number_or_null(landing_power(design.drone, point.takeoff_mass, design.flight.gravity))}};
+}
+
+ordered_json converter_json(const Design& design, const OperatingPoint& hover,
+                            const OperatingPoint& forward) {
+  const Converter& converter = design.supply.converter;
+  const double mass = converter_mass(converter);
+  return {{"mass_g", mass / unit::gram},
+          {"hover_output_voltage_V", number_or_null(output_voltage(design, hover))},
+          {"forward_output_voltage_V", number_or_null(output_voltage(design, forward))}};
+}
+
 }  // namespace
 
 VoltageClass voltage_class(double voltage) {
@@ -81,7 +140,9 @@ ordered_json cable_json(const Design& design, const OperatingPoint& hover,
           {"required_safety_factor", design.requirements.strength_safety_factor},
           {"wall_mm",
            insulation_wall(design.tether.insulation, design.supply.voltage) / unit::millimetre},
-          {"breakdown_voltage_V", breakdown > 0 ? ordered_json(breakdown) : ordered_json(nullptr)}};
+          {"breakdown_voltage_V", breakdown > 0 ? ordered_json(breakdown) : ordered_json(nullptr)},
+          {"converter", converter_json(design, hover, forward)},
+          {"reserve_battery", battery_json(design, hover)}};
 }
 
 std::vector<std::string> cable_sentences(const Design& design, const OperatingPoint& hover,
@@ -111,6 +172,17 @@ std::vector<std::string> cable_sentences(const Design& design, const OperatingPo
                     3),
         significant(breakdown_voltage(design), 3),
         significant(breakdown_voltage(design) / design.supply.voltage, 3)));
+  }
+  if (const double mass = converter_mass(design.supply.converter); mass > 0) {
+    sentences.push_back(fmt::format("The converter for {} W weighs {} g, beside the drone's mass.",
+                                    significant(*design.supply.converter.rated_output_power, 4),
+                                    significant(mass / unit::gram, 3)));
+  }
+  if (design.supply.converter.fixed_ratio) {
+    sentences.push_back(converter_sentence(design, hover, forward));
+  }
+  if (design.drone.reserve_battery.specific_energy > 0) {
+    sentences.push_back(battery_sentence(design, hover));
   }
   sentences.push_back(fmt::format("{} V is {}.", significant(design.supply.voltage, 3),
                                   voltage_class(design.supply.voltage).sentence));

@@ -62,14 +62,6 @@ Table binned(const Table& rows, gp::Range range) {
   return out;
 }
 
-/// All of a column but its rare outliers, which would flatten everything else.
-gp::Range bulk(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const std::size_t outliers = values.size() / 200;
-  return gp::with_margin(values[outliers], values[values.size() - 1 - outliers], 0.1);
-}
-
 gp::Range joint(gp::Range a, gp::Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
 /// Held-out errors of a compared quantity before and after, in words.
@@ -98,8 +90,8 @@ std::string compared_panels(const gp::Layout& layout, double top, const Diagnosi
   const ComparedSeries& series = d.compared[k];
   const Table rows = complete_rows({series.measured, series.before, series.after});
   const std::string name = fmt::format("compared{}", k + 1);
-  const gp::Range measured = bulk(rows[0]);
-  const gp::Range range = joint(measured, joint(bulk(rows[1]), bulk(rows[2])));
+  const gp::Range measured = gp::bulk(rows[0]);
+  const gp::Range range = joint(measured, joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
   const Errors errors = errors_of(d, k);
   std::string out = thinned_block(name, rows) + gp::set_range("x", measured) +
                     gp::set_range("y", range) + gp::set_tics("x", measured, 5) +
@@ -128,7 +120,7 @@ std::string finding_panel(const gp::Layout& layout, double top, const Diagnosis&
   const ComparedSeries& series = d.compared[trace.series];
   const Table rows = complete_rows({trace.channel.values, trace.without, trace.with});
   const std::string name = fmt::format("finding{}", k + 1);
-  const gp::Range x = bulk(rows[0]);
+  const gp::Range x = gp::bulk(rows[0]);
   const Table means = binned(rows, x);
   const double dot = dot_width / 2 * (x.hi - x.lo);
   gp::Plot plot;
@@ -138,7 +130,7 @@ std::string finding_panel(const gp::Layout& layout, double top, const Diagnosis&
   plot.curve("$means" + name + " using 1:3", gp::line(colour::blue, 2, 2), "means with it");
   std::string out =
       thinned_block(name, rows) + gp::data_block("means" + name, {means[0], means[1], means[2]});
-  out += gp::set_range("x", x) + gp::set_range("y", joint(bulk(rows[1]), bulk(rows[2])));
+  out += gp::set_range("x", x) + gp::set_range("y", joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
   out +=
       "set xtics autofreq\nset xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset format x '%g'\nset "
       "format y '%g'\n";

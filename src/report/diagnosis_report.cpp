@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -53,11 +54,50 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return fmt::format("{}", fmt::join(words, between));
 }
 
-/// Value and uncertainty with as many digits as the uncertainty deserves.
+/// Value and uncertainty with as many digits as two of the interval's half width.
 std::string with_interval(const ParameterEstimate& p) {
-  const std::string name_unit = p.unit == "1" ? "" : " " + p.unit;
-  return fmt::format("{} = {}{} (95 %: {} to {})", p.name, significant(p.value, 3), name_unit,
-                     significant(p.ci95_lower, 3), significant(p.ci95_upper, 3));
+  const double half_width = (p.ci95_upper - p.ci95_lower) / 2;
+  int decimals = 2 - static_cast<int>(std::floor(std::log10(std::abs(p.value) + 1e-300))) + 1;
+  if (half_width > 0 && std::isfinite(half_width)) {
+    decimals = 1 - static_cast<int>(std::floor(std::log10(half_width)));
+  }
+  decimals = std::clamp(decimals, 0, 9);
+  const std::string unit = p.unit == "1" ? "" : " " + p.unit;
+  return fmt::format("{} = {}{} (95 %: {} to {})", p.name, fixed(p.value, decimals), unit,
+                     fixed(p.ci95_lower, decimals), fixed(p.ci95_upper, decimals));
+}
+
+std::string with_stop(std::string sentence) {
+  if (!sentence.ends_with('.')) sentence += '.';
+  return sentence;
+}
+
+constexpr const char* impact_heading = "What it does to the design";
+
+std::string impact_sentence(const DesignImpact& impact) {
+  const auto move = [](const BeforeAfter& pair, const char* unit, int decimals) {
+    const std::string before = fixed(*pair.before, decimals) + " " + unit;
+    const std::string after = fixed(*pair.after, decimals) + " " + unit;
+    return before == after ? "stays at " + before : "moves from " + before + " to " + after;
+  };
+  const BeforeAfter& area = impact.cross_section_mm2;
+  if (!area.before && !area.after) {
+    return "No cross-section meets the requirements, neither before nor after.";
+  }
+  if (!area.after) {
+    return fmt::format(
+        "The optimum cross-section of {} mm² is lost: with the findings no "
+        "cross-section meets the requirements any more.",
+        fixed(*area.before, 3));
+  }
+  if (!area.before) {
+    return fmt::format(
+        "By the spec no cross-section meets the requirements; with the findings "
+        "{} mm² does, at {} W.",
+        fixed(*area.after, 3), fixed(impact.total_power_W.after.value_or(0), 1));
+  }
+  return fmt::format("The optimum cross-section {}, the power there {}.", move(area, "mm²", 3),
+                     move(impact.total_power_W, "W", 1));
 }
 
 class Story {
@@ -67,6 +107,7 @@ class Story {
   std::vector<StoryPart> tell() {
     if (std::isfinite(d_.base.holdout_rmse)) {
       open();
+      errors();
       budget();
       for (const Finding& f : d_.findings) finding(f);
       unexplained();
@@ -82,30 +123,43 @@ class Story {
   void heading(std::string text) { out_.emplace_back(StoryHeading{std::move(text)}); }
 
   void open() {
-    const double gain =
-        100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
+    std::string text;
     if (d_.findings.empty()) {
-      paragraph(
-          fmt::format("Nothing of the catalogue explains the {} of this log better than the "
-                      "base model: it is predicted to {} {} (rms, held out).",
-                      d_.quantity, significant(d_.base.holdout_rmse, 3), d_.unit));
+      text = fmt::format(
+          "Nothing of the catalogue explains this {} log better than the base model.", d_.kind);
     } else {
+      const double gain =
+          100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
       std::vector<std::string> names;
       for (const Finding& f : d_.findings) names.push_back(f.effect);
-      paragraph(
-          fmt::format("{} explain{} {:.0f} % of the error: predicted and measured {} differ by "
-                      "{} {} instead of {} {} (rms, on parts of the log that were not fitted).",
-                      style_.good(joined(names, ", ")), names.size() == 1 ? "s" : "", gain,
-                      d_.quantity, significant(d_.extended.holdout_rmse, 3), d_.unit,
-                      significant(d_.base.holdout_rmse, 3), d_.unit));
+      text = fmt::format("{} explain{} {:.0f} % of the error of this {} log.",
+                         style_.good(joined(names, ", ")), names.size() == 1 ? "s" : "", gain,
+                         d_.kind);
     }
-    paragraph(fmt::format("{} samples, worth {:.0f} independent ones.", d_.samples,
+    paragraph(fmt::format("{} It has {} samples, worth {:.0f} independent ones.", text, d_.samples,
                           d_.effective_samples));
-    for (const HoldoutComparison& c : d_.further) {
-      paragraph(fmt::format("Beside it, {}: off by {} {} instead of {} {}.", c.quantity,
-                            significant(c.extended_rmse, 3), c.unit, significant(c.base_rmse, 3),
-                            c.unit));
+  }
+
+  /// Rms in the units of the instruments.
+  void errors() {
+    const bool found = !d_.findings.empty();
+    std::vector<TextTable::Column> columns{{"quantity", TextTable::Align::left}, {"base model"}};
+    if (found) columns.push_back({"with findings"});
+    TextTable table(columns);
+    const auto row = [&](const std::string& quantity, const std::string& unit, double base,
+                         double extended) {
+      table.add({quantity, significant(base, 3) + " " + unit,
+                 found ? significant(extended, 3) + " " + unit : ""});
+    };
+    if (d_.kind == "flight") {
+      row(d_.quantity, d_.unit, d_.base.holdout_rmse, d_.extended.holdout_rmse);
     }
+    for (const HoldoutComparison& c : d_.further) {
+      row(c.quantity, c.unit, c.base_rmse, c.extended_rmse);
+    }
+    out_.emplace_back(
+        TitledTable{"Measured against predicted (rms, on parts of the log that were not fitted)",
+                    std::move(table)});
   }
 
   void budget() {
@@ -123,17 +177,17 @@ class Story {
 
   void finding(const Finding& f) {
     heading(f.title + " (" + f.effect + ", " + f.stage + ")");
-    paragraph(f.mechanism);
     std::vector<std::string> values;
     for (const ParameterEstimate& p : f.parameters) values.push_back(with_interval(p));
-    paragraph(fmt::format("With {} the held-out error falls from {} to {} {}: {:.1f} ± {:.1f} %.",
-                          joined(values, ", "), significant(f.holdout_rmse_before, 3),
-                          significant(f.holdout_rmse_after, 3), d_.unit, f.gain_percent,
-                          f.gain_se_percent));
+    std::string text = fmt::format(
+        "{} With {} the held-out error falls from {} to {} {}, by {:.1f} ± {:.1f} %.", f.mechanism,
+        joined(values, ", "), significant(f.holdout_rmse_before, 3),
+        significant(f.holdout_rmse_after, 3), d_.unit, f.gain_percent, f.gain_se_percent);
     if (!f.indistinguishable_from.empty()) {
-      paragraph(fmt::format("This log is explained as well by {}. To tell them apart: {}.",
-                            joined(f.indistinguishable_from, " or "), f.to_separate));
+      text += fmt::format(" This log is explained as well by {}. To tell them apart: {}",
+                          joined(f.indistinguishable_from, " or "), with_stop(f.to_separate));
     }
+    paragraph(text);
   }
 
   void unexplained() {
@@ -142,36 +196,39 @@ class Story {
       paragraph("No structure against any channel or time: what is left looks like noise.");
       return;
     }
-    paragraph(fmt::format("{} {:.0f} % of the squared error left is no noise but follows {}: {}.",
-                          style_.bad("Unnamed structure:"), d_.unexplained.share_percent,
-                          joined(d_.unexplained.channels, ", "), d_.unexplained.shape));
+    const Unexplained& u = d_.unexplained;
+    paragraph(
+        fmt::format("{} {:.0f} % of the squared error left ({} {}) is no noise but follows "
+                    "{}: {}",
+                    style_.bad("Unnamed structure:"), u.share_percent, significant(u.size, 2),
+                    u.size_unit, joined(u.channels, ", "), with_stop(u.shape)));
   }
 
   void design() {
     if (!d_.design_impact) return;
-    heading("What it does to the design");
-    row("optimum cross-section", d_.design_impact->cross_section_mm2, "mm²", 3);
-    row("power there", d_.design_impact->total_power_W, "W", 1);
-  }
-
-  void row(const char* what, const BeforeAfter& pair, const char* unit, int decimals) {
-    const auto number = [&](const std::optional<double>& value) {
-      return value ? fixed(*value, decimals) + " " + unit : std::string("none that can be flown");
-    };
-    paragraph(fmt::format("{}: {} → {}", what, number(pair.before), number(pair.after)));
+    heading(impact_heading);
+    paragraph(impact_sentence(*d_.design_impact));
   }
 
   void not_tested() {
     if (!d_.not_testable.empty()) {
       heading("What this log could not test");
+      // Effects that lack the same go into one line.
+      std::vector<std::pair<std::string, std::vector<std::string>>> lacking;
       for (const NotTestable& n : d_.not_testable) {
-        paragraph(fmt::format("{} needs {}.", n.effect, n.needs));
+        const auto same = std::find_if(lacking.begin(), lacking.end(),
+                                       [&n](const auto& entry) { return entry.first == n.needs; });
+        (same == lacking.end() ? lacking.emplace_back(n.needs, 0) : *same)
+            .second.push_back(n.effect);
+      }
+      for (const auto& [needs, effects] : lacking) {
+        paragraph(fmt::format("{}: needs {}", joined(effects, ", "), with_stop(needs)));
       }
     }
     if (!d_.not_identifiable.empty()) {
       heading("What this log can never show");
       for (const NotIdentifiable& n : d_.not_identifiable) {
-        paragraph(fmt::format("{}: {}.", n.effect, n.because));
+        paragraph(fmt::format("{}: {}", n.effect, with_stop(n.because)));
       }
     }
   }
@@ -179,7 +236,7 @@ class Story {
   void notes() {
     if (d_.notes.empty()) return;
     heading("Notes");
-    for (const std::string& note : d_.notes) paragraph(note + ".");
+    for (const std::string& note : d_.notes) paragraph(with_stop(note));
   }
 
   const Diagnosis& d_;
@@ -224,6 +281,8 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   out["unexplained"] = {{"detected", d.unexplained.detected},
                         {"channels", d.unexplained.channels},
                         {"share_percent", number_or_null(d.unexplained.share_percent)},
+                        {"size", number_or_null(d.unexplained.size)},
+                        {"size_unit", d.unexplained.size_unit},
                         {"shape", d.unexplained.shape},
                         {"regressor", d.unexplained.regressor}};
   out["extended"] = {{"holdout_rmse", number_or_null(d.extended.holdout_rmse)},
@@ -261,16 +320,57 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style) {
     } else if (const auto* table = std::get_if<TitledTable>(&part)) {
       out += table->text(style);
     } else {
-      out += wrapped(std::get<std::string>(part)) + "\n";
+      out += wrapped(std::get<std::string>(part));
     }
   }
   return out;
 }
 
-std::string diagnosis_csv(const Diagnosis& diagnosis) {
+ordered_json joint_diagnosis_json(const Diagnosis& flight, const Diagnosis& power,
+                                  const ordered_json& extended) {
+  ordered_json out;
+  out["kind"] = "flight and power";
+  const ordered_json parts[] = {diagnosis_json(flight, nullptr), diagnosis_json(power, nullptr)};
+  for (const char* list : {"findings", "not_testable", "not_identifiable"}) {
+    out[list] = ordered_json::array();
+    for (const ordered_json& part : parts) {
+      for (const ordered_json& entry : part[list]) out[list].push_back(entry);
+    }
+  }
+  ordered_json channels = ordered_json::array();
+  for (const Diagnosis* d : {&flight, &power}) {
+    for (const std::string& channel : d->unexplained.channels) channels.push_back(channel);
+  }
+  out["unexplained"] = {{"detected", flight.unexplained.detected || power.unexplained.detected},
+                        {"channels", channels}};
+  out["extended"] = {{"spec", extended}};
+  out["design_impact"] = parts[1]["design_impact"];
+  out["flight"] = parts[0];
+  out["power"] = parts[1];
+  for (const char* log : {"flight", "power"}) {
+    out[log].erase("design_impact");
+    out[log]["extended"].erase("spec");
+  }
+  return out;
+}
+
+std::string joint_diagnosis_text(Diagnosis flight, Diagnosis power, const TextStyle& style) {
+  std::string out;
+  const std::optional<DesignImpact> impact = std::exchange(power.design_impact, std::nullopt);
+  flight.design_impact.reset();
+  out += style.bold("THE FLIGHT LOG") + "\n" + diagnosis_text(flight, style);
+  out += "\n" + style.bold("THE POWER LOG") + "\n" + diagnosis_text(power, style);
+  if (impact) {
+    out += "\n" + style.bold(impact_heading) + ", both logs together\n" +
+           wrapped(impact_sentence(*impact));
+  }
+  return out;
+}
+
+std::string diagnosis_csv(const std::vector<Finding>& findings) {
   std::string out =
       "effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent\n";
-  for (const Finding& f : diagnosis.findings) {
+  for (const Finding& f : findings) {
     for (const ParameterEstimate& p : f.parameters) {
       const std::vector<std::string> cells{
           csv_text(f.effect),       csv_text(f.stage),          csv_text(p.name),

@@ -38,8 +38,18 @@ ReachWords words_of(Reach reach) {
   return {"airspeed_m_s", "airspeed", "m/s", 1, 2};
 }
 
+std::string headroom_ends(const Design& design, Condition condition) {
+  const Requirements& need = design.requirements;
+  const bool asked = condition == need.headroom_at && !need.buffer_battery;
+  if (!asked || need.thrust_headroom == 1) {
+    return "the motors no longer get what " + condition_words(condition) + " takes";
+  }
+  return fmt::format("the thrust headroom in {} falls below {}", condition_words(condition),
+                     fixed(need.thrust_headroom, 2));
+}
+
 /// What a limit means to somebody who pushes one of these further.
-std::string beyond_words(const ReachEnd& end) {
+std::string beyond_words(const Design& design, const ReachEnd& end) {
   if (!end.bounded) return "nothing ends it within the search";
   const std::string where = " in " + condition_words(end.condition);
   switch (end.limit) {
@@ -52,16 +62,16 @@ std::string beyond_words(const ReachEnd& end) {
     case Limit::converter_rating:
       return "the converter's rating is passed" + where;
     default:
-      return "the thrust headroom is no longer left" + where;
+      return headroom_ends(design, end.condition);
   }
 }
 
-std::string sentence_of(const ReachResult& result) {
+std::string sentence_of(const Design& design, const ReachResult& result) {
   const ReachWords words = words_of(result.reach);
   if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
   return fmt::format("Greatest {}: {} {}; beyond it {}.", words.noun,
                      fixed(result.end->value / words.si_factor, words.decimals), words.unit,
-                     beyond_words(*result.end));
+                     beyond_words(design, *result.end));
 }
 
 ordered_json end_json(const std::optional<ReachEnd>& end, double si_factor) {
@@ -101,7 +111,8 @@ std::string envelope_text(const EnvelopeStudy& study, const TextStyle& style) {
       fmt::format("{} mm² of {}, {} V\n",
                   significant(*study.file.design.tether.cross_section / unit::square_millimetre, 4),
                   study.file.conductor.id, significant(study.file.design.supply.voltage, 3));
-  for (const ReachResult& result : study.greatest) out += wrapped(sentence_of(result));
+  for (const ReachResult& result : study.greatest)
+    out += wrapped(sentence_of(study.file.design, result));
   for (const EnvelopeCurve& curve : study.curves) {
     if (curve.points.empty()) continue;
     const ReachWords of = words_of(curve.of);
@@ -113,7 +124,8 @@ std::string envelope_text(const EnvelopeStudy& study, const TextStyle& style) {
     for (const EnvelopePoint& point : curve.points) {
       const std::string end = point.end ? fixed(point.end->value / of.si_factor, of.decimals) : "–";
       table.add({fixed(point.against / against.si_factor, against.decimals), end,
-                 point.end ? beyond_words(*point.end) : std::string("the demands are not met")});
+                 point.end ? beyond_words(study.file.design, *point.end)
+                           : std::string("the demands are not met")});
     }
     out += table.text(style);
   }
@@ -128,7 +140,7 @@ ordered_json envelope_json(const EnvelopeStudy& study) {
   for (const ReachResult& result : study.greatest) {
     const ReachWords words = words_of(result.reach);
     ordered_json end = end_json(result.end, words.si_factor);
-    if (result.end) end["sentence"] = sentence_of(result);
+    if (result.end) end["sentence"] = sentence_of(study.file.design, result);
     greatest[words.key] = std::move(end);
   }
   ordered_json curves = ordered_json::array();

@@ -157,6 +157,28 @@ std::string finished_svg(const Figure& figure, std::string svg) {
   return svg;
 }
 
+/// gnuplot's picture of characters without the form feed before it, the blanks at the ends of lines
+/// and the empty lines around it.
+std::string finished_text(std::string_view drawn) {
+  std::string out;
+  std::size_t empty_lines = 0;
+  while (!drawn.empty()) {
+    const std::size_t end = std::min(drawn.find('\n'), drawn.size());
+    std::string_view line = drawn.substr(0, end);
+    drawn.remove_prefix(std::min(end + 1, drawn.size()));
+    while (line.starts_with('\f')) line.remove_prefix(1);
+    while (line.ends_with(' ')) line.remove_suffix(1);
+    if (line.empty()) {
+      ++empty_lines;
+      continue;
+    }
+    if (!out.empty()) out.append(empty_lines, '\n');
+    empty_lines = 0;
+    out.append(line) += '\n';
+  }
+  return out;
+}
+
 std::string standalone_script(const Figure& figure, const FigureSize& size) {
   return fmt::format(
       "# {0}\n# Draw it with: gnuplot {1}.gp > {1}.pdf\n"
@@ -205,7 +227,8 @@ FigureFormat figure_format(std::string_view file, const std::string& where) {
 std::string render(const Figure& figure, FigureFormat format, const FigureSize& size) {
   if (format == FigureFormat::script) return standalone_script(figure, size);
   std::string drawn = run_gnuplot(set_terminal(figure, format, size) + figure.script);
-  return format == FigureFormat::svg ? finished_svg(figure, std::move(drawn)) : drawn;
+  if (format == FigureFormat::svg) return finished_svg(figure, std::move(drawn));
+  return format == FigureFormat::text ? finished_text(drawn) : drawn;
 }
 
 }  // namespace tethercalc

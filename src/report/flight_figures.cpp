@@ -106,6 +106,14 @@ std::string parameter_words(const DragFit& fit) {
                      significant(fit.linear_speed().estimate.value, 3));
 }
 
+/// How many values the frame leaves out, where it does.
+std::string outside_words(std::span<const double> values, gp::Range range) {
+  const auto outside = std::count_if(values.begin(), values.end(), [range](double value) {
+    return value < range.lo || value > range.hi;
+  });
+  return outside == 0 ? "" : fmt::format("{} sample{} outside", outside, outside == 1 ? "" : "s");
+}
+
 std::string samples_words(std::size_t step) {
   if (step == 1) return "";
   const std::size_t last = step % 10;
@@ -229,16 +237,15 @@ Figure drag_figure(const DragFlights& drag) {
 
   figure.script +=
       gp::set_range("x", speeds) + "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset multiplot\n";
-  const auto [least, most] = gp::extent(shown.measured);
+  const gp::Range forces = gp::bulk(all.measured);
   figure.script += layout.panel(3.5, 20) + layout.heading(drag.name) +
-                   layout.above(2.6, "drag (N)") + layout.legend(21.2, 2, plot.legend()) +
-                   gp::set_range("y", gp::with_margin(least, most)) + "set format x ''\n" +
-                   plot.text();
-  const auto [residual_least, residual_most] = gp::extent(residual);
+                   layout.above(2.6, "drag (N)", outside_words(all.measured, forces)) +
+                   layout.legend(21.2, 2, plot.legend()) + gp::set_range("y", forces) +
+                   "set format x ''\n" + plot.text();
   figure.script += layout.panel(27, 36) + layout.above(26, "measured less fitted (N)") +
                    layout.legend(0, 1, {}) + layout.below(38.6, "airspeed, forward (m/s)") +
-                   gp::set_range("y", gp::with_margin(residual_least, residual_most)) +
-                   "set format x '%g'\n" + rest.text() + "unset multiplot\n";
+                   gp::set_range("y", gp::bulk(residual)) + "set format x '%g'\n" + rest.text() +
+                   "unset multiplot\n";
   return figure;
 }
 
@@ -250,14 +257,18 @@ Figure drag_surface_figure(const DragFlights& drag) {
   const auto [slowest, fastest] = gp::extent(all.airspeed);
   const auto [least_tilt, most_tilt] = gp::extent(all.tilt);
 
+  const gp::Range forces = gp::bulk(all.measured);
+  const std::string outside = outside_words(all.measured, forces);
+
   Figure figure;
   figure.id = "dragsurface";
   figure.title = "Drag of " + drag.name + " over airspeed and tilt";
   figure.description = fmt::format(
       "A surface of drag in newtons over airspeed from {} to {} m/s and tilt from {} to {} "
-      "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady flight.",
+      "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady "
+      "flight{}.",
       fixed(slowest, 1), fixed(fastest, 1), fixed(least_tilt, 0), fixed(most_tilt, 0),
-      parameter_words(drag.fit), samples_words(step));
+      parameter_words(drag.fit), samples_words(step), outside.empty() ? "" : "; " + outside);
   figure.lines = 32;
   constexpr int grid = 16;
   figure.script = gp::prelude() + "$surface << EOD\n";
@@ -295,15 +306,20 @@ Figure drag_surface_figure(const DragFlights& drag) {
   figure.script += layout.heading(drag.name) + layout.above(6.5, "drag (N)") +
                    layout.legend(29, 2, plot.legend());
   figure.script +=
-      "set view 58,332,1.2,0.85\nset size 1,0.82\nset origin 0,0.12\nset ticslevel 0\nset border "
-      "31 lw 0.5\nset grid lw 0.3\n"
-      "set xlabel 'airspeed (m/s)' offset 0,-0.5\nset ylabel 'tilt (deg)' offset 0.5,-0.5\n"
-      "set xtics offset 0,-0.3\nset ytics offset "
-      "0.3,-0.2\n";
-  const auto [least, most] = gp::extent(shown.measured);
+      "set view 58,332,1.2,0.85\n"
+      "set size 1,0.82\n"
+      "set origin 0,0.12\n"
+      "set ticslevel 0\n"
+      "set border 31 lw 0.5\n"
+      "set grid lw 0.3\n"
+      "set xtics offset 0,-0.3\n"
+      "set ytics offset 0.3,-0.2\n"
+      // gnuplot's own axis labels may be pushed out of the picture, and are then left out.
+      "set label 1 'tilt (deg)' at screen 0.01,screen 0.24 left\n"
+      "set label 2 'airspeed (m/s)' at screen 0.97,screen 0.18 right\n";
   figure.script += gp::set_range("x", {slowest, fastest}) +
-                   gp::set_range("y", {least_tilt, most_tilt}) +
-                   gp::set_range("z", gp::with_margin(least, most, 0.02)) + plot.text("splot");
+                   gp::set_range("y", {least_tilt, most_tilt}) + gp::set_range("z", forces) +
+                   plot.text("splot");
   return figure;
 }
 

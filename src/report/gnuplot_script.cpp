@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "tethercalc/report/figure.hpp"
@@ -67,7 +68,8 @@ void Plot::dots(const std::string& block, int x, int y, double width, std::strin
                 const std::string& words, double size) {
   add(fmt::format("{} using {}:{}:({}):(0) with vectors nohead lc rgb '{}' lw {}", block, x, y,
                   number(width), colour, size));
-  add(fmt::format("{} using {}:(characters ? ${} : NaN) with points pt {}", block, x, y,
+  // Elsewhere far outside of the frame: gnuplot warns of points that do not exist.
+  add(fmt::format("{} using {}:(characters ? ${} : 1e30) with points pt {}", block, x, y,
                   ++letters_),
       words);
   if (!words.empty()) {
@@ -232,6 +234,17 @@ Range extent(std::span<const double> values) {
     }
   }
   return range.lo > range.hi ? Range{} : range;
+}
+
+Range bulk(std::span<const double> values, double outlying) {
+  std::vector<double> sorted;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
+               [](double value) { return std::isfinite(value); });
+  if (sorted.empty()) return {};
+  std::sort(sorted.begin(), sorted.end());
+  const auto skipped = std::size_t(outlying * double(sorted.size()));
+  const Range most = with_margin(sorted[skipped], sorted[sorted.size() - 1 - skipped], 0.25);
+  return with_margin(std::max(sorted.front(), most.lo), std::min(sorted.back(), most.hi));
 }
 
 std::string set_tics(std::string_view axis, Range range, int most) {

@@ -157,6 +157,11 @@ struct Series {
 /// The least and greatest finite value; {0, 1} where there is none.
 [[nodiscard]] Range extent(std::span<const double> values);
 
+/// The extent of `values` with a margin, but for the rare ones (`outlying` of them at either end)
+/// that would flatten all the others: it reaches to those only as far as a quarter of the length
+/// of the rest.
+[[nodiscard]] Range bulk(std::span<const double> values, double outlying = 0.003);
+
 /// "set xtics step" with a round step that makes at most `most` of them on [lo, hi].
 [[nodiscard]] std::string set_tics(std::string_view axis, Range range, int most);
 

@@ -81,6 +81,16 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
   return sentence;
 }
 
+/// Whether the thrust available at `area` is what the converter's rating leaves of the line's.
+bool converter_caps_headroom(const Design& design, Condition condition, double area) {
+  const Converter& converter = design.supply.converter;
+  if (!converter.rated_output_power) return false;
+  const double arriving = evaluate(design, area, condition).available_power;
+  // At the best of all areas the line gives just as much, but for the refinement of that area.
+  return converter_output_power(converter, arriving - design.drone.auxiliary_power) >
+         *converter.rated_output_power * (1 - 1e-3);
+}
+
 /// Why no area keeps a limit of the cable or the converter; empty for the other limits.
 std::string broken_limit_sentence(const Design& design, const Optimization& result) {
   const std::string where = condition_words(result.limiting_condition);
@@ -113,7 +123,7 @@ std::string infeasible_words(const Design& design, const Optimization& result) {
   if (result.limited_by == Limit::tether_strength) return "tether too weak";
   if (result.limited_by == Limit::converter_rating) return "converter too small";
   const Condition where = result.limiting_condition;
-  const BestHeadroom best = best_headroom(SteadyFlight(design, where));
+  const BestHeadroom best = best_headroom(design, where);
   const double demanded = demanded_headroom(design, where);
   switch (result.limited_by) {
     case Limit::max_pitch:
@@ -136,7 +146,7 @@ std::string infeasible_sentence(const Design& design, const Optimization& result
     return broken;
   }
   const Condition where = result.limiting_condition;
-  const BestHeadroom best = best_headroom(SteadyFlight(design, where));
+  const BestHeadroom best = best_headroom(design, where);
   const double demanded = demanded_headroom(design, where);
   const std::string demand = headroom_words(demanded) + " in " + condition_words(where);
   if (result.limited_by == Limit::max_pitch && !(best.value > 0)) {
@@ -152,6 +162,13 @@ std::string infeasible_sentence(const Design& design, const Optimization& result
   }
   if (best.value >= demanded) {
     return "No cross-section works: each demand can be met by some, but none meets all of them.";
+  }
+  if (converter_caps_headroom(design, where, best.area)) {
+    return fmt::format(
+        "No cross-section gives {}. The most is a headroom of {} at {} mm², where the converter "
+        "gives its rated {} W: a thicker conductor would only weigh more.",
+        demand, significant(best.value, 3), significant(square_millimetres(best.area), 4),
+        significant(*design.supply.converter.rated_output_power, 4));
   }
   const char* reason = result.limited_by == Limit::motor_thrust
                            ? "where the motors are at the end of their data sheet: a thicker "

@@ -295,7 +295,7 @@ OptimizeStudy study(DesignFile file) {
   OptimizeStudy study;
   const Design& design = file.design;
   study.result = optimize(design);
-  study.best_headroom = best_headroom(SteadyFlight(design, design.requirements.headroom_at));
+  study.best_headroom = best_headroom(design, design.requirements.headroom_at);
   study.table = evaluate_areas(design, table_areas(study.result, study.best_headroom));
   study.sizes =
       sizes_near(file, study.result.feasible ? study.result.area : study.best_headroom.area);
@@ -519,8 +519,7 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
     MotorOptimum entry{std::move(motor), design, {}, {}};
     entry.design.drone.motor = entry.motor.curve;
     entry.result = optimize(entry.design);
-    entry.best_headroom =
-        best_headroom(SteadyFlight(entry.design, design.requirements.headroom_at));
+    entry.best_headroom = best_headroom(entry.design, design.requirements.headroom_at);
     ranking.push_back(std::move(entry));
   }
   const bool by_hover = design.requirements.power_at == Condition::hover;

@@ -51,7 +51,7 @@ ordered_json results_of(const Design& design) {
   SweepRows({}, RowFormat::json_lines).append(row, {}, sweep_outcome(design));
   ordered_json results = ordered_json::parse(row);
   results.erase("reason");  // a sentence for people, which may be put better at any time
-  const BestHeadroom best = best_headroom(SteadyFlight(design, design.requirements.headroom_at));
+  const BestHeadroom best = best_headroom(design, design.requirements.headroom_at);
   const MinimumPower least = optimize(design).minimum_power;
   results["headroom.best"] = number_or_null(best.value);
   results["headroom.best_at_mm2"] = number_or_null(best.area / unit::square_millimetre);

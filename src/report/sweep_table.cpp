@@ -157,7 +157,7 @@ std::string axis_label(std::string_view name) {
        {"_MPa", "MPa"},
        {"_ohm", "Ω"},
        {"_percent", "%"},
-       {"_deg", "deg"},
+       {"_deg", "°"},
        {"_in", "in"},
        {"_N", "N"},
        {"_W", "W"},

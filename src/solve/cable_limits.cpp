@@ -123,8 +123,9 @@ IntervalSet in_square_metres(IntervalSet logarithms) {
   return logarithms;
 }
 
-/// The design as cold as it can be, without limits: whatever is feasible with them is feasible
-/// here, since resistance only rises with temperature.
+/// The design as cold and as light as it can be, without limits: whatever is feasible with them is
+/// feasible here, since resistance only rises with temperature and thrust with mass. (Tilt falls
+/// with mass, so that its limit is not the light design's to judge.)
 Design without_limits(Design design) {
   Tether& tether = design.tether;
   if (tether.ambient_temperature_C) {
@@ -132,7 +133,24 @@ Design without_limits(Design design) {
     tether.ambient_temperature_C.reset();
   }
   design.requirements.strength_safety_factor = 0;
+  if (design.drone.reserve_battery.specific_energy > 0) {
+    design.drone.reserve_battery.specific_energy = 0;
+    design.requirements.max_pitch = std::max(design.requirements.max_pitch, 85 * unit::degree);
+  }
   return design;
+}
+
+/// The areas at which `cold`, the design without limits, meets the demands on the thrust.
+IntervalSet areas_without_limits(const Design& design, const Design& cold) {
+  const Requirements& need = design.requirements;
+  IntervalSet possible = headroom_areas(SteadyFlight(cold, Condition::hover), 1);
+  possible = intersection(possible, headroom_areas(SteadyFlight(cold, Condition::forward), 1));
+  if (!need.buffer_battery) {
+    const SteadyFlight judged(cold, need.headroom_at);
+    possible = intersection(possible, headroom_areas(judged, need.thrust_headroom));
+  }
+  std::erase_if(possible, [](const Interval& i) { return !(i.lo > 0 && i.hi < infinity); });
+  return possible;
 }
 
 double margin_of(double have, double need) {
@@ -146,7 +164,8 @@ void add_flight_margins(const Design& design, const OperatingPoint& point, Condi
   const bool asked = condition == need.headroom_at && !need.buffer_battery;
   margins.push_back({Limit::available_power, condition,
                      margin_of(point.headroom, asked ? need.thrust_headroom : 1)});
-  margins.push_back({Limit::max_pitch, condition, std::isnan(point.pitch) ? -1.0 : 0.0});
+  const bool tilts_too_far = std::isnan(point.pitch) && std::isfinite(point.battery_mass);
+  margins.push_back({Limit::max_pitch, condition, tilts_too_far ? -1.0 : 0.0});
   const Tether& tether = design.tether;
   if (tether.ambient_temperature_C) {
     const std::optional<double> rated = tether.insulation.rated_temperature_C;
@@ -180,6 +199,7 @@ void add_flight_margins(const Design& design, const OperatingPoint& point, Condi
 bool has_cable_limits(const Design& design) {
   return design.tether.ambient_temperature_C.has_value() ||
          design.requirements.strength_safety_factor > 0 ||
+         design.drone.reserve_battery.specific_energy > 0 ||
          design.supply.converter.rated_output_power.has_value();
 }
 
@@ -191,14 +211,40 @@ std::vector<Margin> requirement_margins(const Design& design, const OperatingPoi
   return margins;
 }
 
+BestHeadroom best_headroom(const Design& design, Condition condition) {
+  const SteadyFlight flight(design, condition);
+  const BestHeadroom bare = best_headroom(flight);
+  const bool depends_on_area =
+      design.tether.ambient_temperature_C || design.drone.reserve_battery.specific_energy > 0;
+  if (!depends_on_area || !(bare.value > 0)) return bare;
+  const auto headroom = [&](double log_area) {
+    const double value = evaluate(flight, std::exp(log_area)).headroom;
+    return value > 0 ? value : 0;  // none where it does not exist
+  };
+  // Warmer and heavier conductors are better thicker and thinner; by a factor of 20 suffices.
+  const double middle = std::log(bare.area);
+  const double best = argmax(headroom, grid(middle - 3, middle + 3));
+  return headroom(best) > 0 ? BestHeadroom{headroom(best), std::exp(best)} : BestHeadroom{0, nan};
+}
+
+bool feasible_within_cable_limits(const Design& design) {
+  const Design cold = without_limits(design);
+  const BothFlights flights(design);
+  const auto worst_margin = [&](double x) { return flights.worst(x).value; };
+  for (const Interval& range : areas_without_limits(design, cold)) {
+    const std::vector<double> points = grid(std::log(range.lo), std::log(range.hi));
+    if (std::any_of(points.begin(), points.end(), [&](double x) { return worst_margin(x) >= 0; }) ||
+        worst_margin(argmax(worst_margin, points)) >= 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 Optimization optimize_within_cable_limits(const Design& design) {
   const Design cold = without_limits(design);
   Optimization result = optimize_without_cable_limits(cold);
-  IntervalSet possible = headroom_areas(SteadyFlight(cold, Condition::hover), 1);
-  possible = intersection(possible, headroom_areas(SteadyFlight(cold, Condition::forward), 1));
-  if (!design.requirements.buffer_battery) {
-    possible = intersection(possible, result.headroom_areas);
-  }
+  const IntervalSet possible = areas_without_limits(design, cold);
   const bool possible_at_all = result.feasible;
   const BothFlights flights(design);
   const auto met = [&](double x) { return flights.worst(x).value >= 0; };
@@ -214,7 +260,6 @@ Optimization optimize_within_cable_limits(const Design& design) {
   double best_x = nan;
   Margin least_violated{result.limited_by, result.limiting_condition, -infinity};
   for (const Interval& range : possible) {
-    if (!(range.lo > 0 && range.hi < infinity)) continue;
     const double lo = std::log(range.lo);
     const double hi = std::log(range.hi);
     const double most_met = argmax(worst_margin, grid(lo, hi));

@@ -135,7 +135,7 @@ Candidate candidate_of(Design design) {
       candidate.forward = optimum.forward;
     } else {
       // Nearest to feasible, so that it can be told by how much the demands are missed.
-      candidate.area = best_headroom(SteadyFlight(design, design.requirements.headroom_at)).area;
+      candidate.area = best_headroom(design, design.requirements.headroom_at).area;
       if (std::isfinite(candidate.area)) {
         candidate.hover = evaluate(design, candidate.area, Condition::hover);
         candidate.forward = evaluate(design, candidate.area, Condition::forward);

@@ -71,6 +71,8 @@ class MarginCurve {
     return with_available(radius, 0, tan_guess);
   }
 
+  [[nodiscard]] const SteadyFlight& flight() const { return flight_; }
+
   /// Radii of the converter's efficiency points strictly between two samples, rising.
   [[nodiscard]] std::vector<double> converter_radii(const Sample& a, const Sample& b) const {
     std::vector<double> radii;
@@ -97,6 +99,30 @@ class MarginCurve {
   double hi_;
 };
 
+/// About the radius between two samples of opposite margin, on a smooth piece, at which the margin
+/// vanishes, and about dΦ/dr there.
+struct CrossingGuess {
+  double radius = 0;
+  double needed_slope = 0;
+};
+
+/// Exact where the tilt is that of `a` all the way and contacts have no resistance: then available
+/// thrust is linear in r², and necessary thrust proportional to the mass.
+CrossingGuess guess_crossing(const SteadyFlight& flight, const Sample& a, const Sample& b) {
+  const double width = b.radius - a.radius;
+  const double per_square = (b.available - a.available) / (width * (b.radius + a.radius));
+  const double per_mass = a.necessary / flight.takeoff_mass(a.radius);
+  // Margin over x = r − a.radius: a.margin + slope·x + curvature·x².
+  const double slope = 2 * per_square * a.radius - per_mass * flight.mass_slope(a.radius);
+  const double curvature = per_square - 0.5 * per_mass * flight.mass_curvature();
+  const double root = std::sqrt(slope * slope - 4 * curvature * a.margin());
+  const double x = -2 * a.margin() / (slope + (a.margin() < 0 ? root : -root));
+  const double share = a.margin() / (a.margin() - b.margin());
+  const double radius = a.radius + (x > 0 && x < width ? x : width * share);
+  const double needed_slope = per_mass * flight.mass_slope(radius) / (2 * per_square * radius);
+  return {radius, needed_slope < 1 ? needed_slope : 0};  // 1 and more only where there are two edges
+}
+
 /// The radius between two samples of opposite margin, on a smooth piece, at which the margin
 /// vanishes: the root of Φ(r) − r by secants, which Φ's small slope makes quick.
 double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
@@ -104,14 +130,17 @@ double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
   if (b.margin() == 0) return b.radius;
   const bool enters = a.margin() < 0;
   // A secant's error is less than the product of its two points' errors: 1e-17 relative. That is
-  // not so of a step without a secant, the first and those to the middle, however short they are.
-  constexpr double last_step = 1e-10;
+  // not so of a step without a secant, the first and those to the middle, which end the search only
+  // where they are as short as the accuracy asked for.
+  constexpr double last_secant = 1e-10;
+  constexpr double last_other = 1e-14;
   double lo = a.radius;
   double hi = b.radius;
   double previous = 0;
   double previous_gap = std::numeric_limits<double>::quiet_NaN();
   double tangent = a.tan_pitch;
-  double radius = lo + (hi - lo) * a.margin() / (a.margin() - b.margin());
+  const CrossingGuess guess = guess_crossing(curve.flight(), a, b);
+  double radius = guess.radius;
   for (int step = 0; step < 100; ++step) {
     const Sample sample = curve.necessary_at(radius, tangent);
     tangent = sample.tan_pitch;
@@ -121,9 +150,10 @@ double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
     const double slope = (gap - previous_gap) / (radius - previous);
     // Where the motors could not make the thrust, there was no gap to draw a secant through.
     const bool secant = std::isfinite(slope);
-    const double next = radius - gap / (secant ? slope : -1);
+    const double next = radius - gap / (secant ? slope : guess.needed_slope - 1);
     // Rounding may take the last one out of the bracket, the end of which is then the root.
-    if (secant && std::abs(next - radius) <= last_step * radius) return std::clamp(next, lo, hi);
+    const double last_step = secant ? last_secant : last_other;
+    if (std::abs(next - radius) <= last_step * radius) return std::clamp(next, lo, hi);
     previous = radius;
     previous_gap = gap;
     radius = next > lo && next < hi ? next : 0.5 * (lo + hi);

@@ -198,11 +198,17 @@ MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
   return a.power <= b.power || std::isnan(b.power) ? a : b;
 }
 
-bool has_one_valley(const SteadyFlight& flight) {
-  if (flight.design().supply.converter.efficiency.size() > 1) return false;
-  if (!flight.design().drone.motor.is_convex()) return false;
+bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
+  const Design& design = flight.design();
+  if (design.supply.converter.efficiency.size() > 1) return false;
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  return !(beyond.lo < beyond.hi);
+  if (beyond.lo < beyond.hi) return false;
+  const MotorCurve& motor = design.drone.motor;
+  if (motor.is_convex()) return true;
+  const double radius = conductor_radius(area);
+  const double thrust = flight.necessary_thrust(radius, flight.tan_pitch(radius, infinity));
+  constexpr double rounding = 1e-14;
+  return motor.power(thrust) <= motor.convex_hull().power(thrust) * (1 + rounding);
 }
 
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {

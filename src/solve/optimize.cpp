@@ -29,8 +29,9 @@ struct Flights {
 double cheapest_area(const SteadyFlight& flight, const IntervalSet& areas,
                      const MinimumPower& unconstrained) {
   if (contains(areas, unconstrained.area)) return unconstrained.area;
-  if (areas.size() == 1 && unconstrained.power > 0 && has_one_valley(flight)) {
-    return std::clamp(unconstrained.area, areas[0].lo, areas[0].hi);
+  if (areas.size() == 1 && unconstrained.power > 0) {
+    const double nearest = std::clamp(unconstrained.area, areas[0].lo, areas[0].hi);
+    if (is_cheapest_beyond(flight, nearest)) return nearest;
   }
   MinimumPower best{std::numeric_limits<double>::quiet_NaN(),
                     std::numeric_limits<double>::quiet_NaN()};

@@ -14,8 +14,8 @@
 namespace tethercalc {
 namespace {
 
-/// ln x for x ≥ 0 near 1, with an error of the third order; within ±2 everywhere.
-double near_log(double x) { return x < 1e300 ? 2 * (x - 1) / (x + 1) : 2; }
+/// ln(a/b) for a, b ≥ 0 near each other, with an error of the third order; within ±2 everywhere.
+double near_log(double a, double b) { return 2 * (a - b) / (a + b); }
 
 /// exp(x) for |x| < 1, with an error of the third order.
 double near_exp(double x) { return (2 + x) / (2 - x); }
@@ -41,22 +41,23 @@ class ValleySearch {
     stay_within_motors(at);
     std::size_t piece = piece_at(at);
     for (int step = 1; step < 200; ++step) {
-      const double excess = near_log(saved_per_spent(at, piece));
+      const Trade trade = trade_at(at, piece);
+      const double excess = near_log(trade.saved, trade.spent);
       const bool falls = excess > 0;
       if (falls ? at.radius >= right_.radius : at.radius <= left_.radius) return at;
       (falls ? left_ : right_) = {at.radius, true};
 
-      const double fall = fall_at(at, piece, excess);
-      double next = at.radius * near_exp(excess / fall);
+      const double growth = growth_at(at, piece, excess);
+      double next = at.radius * near_exp(excess * growth);
       const std::size_t vertex = falls ? piece + 1 : piece;
       if (passes(at, next, vertex, falls)) {
-        next = at.radius * near_exp((excess + jump_at(vertex, falls)) / fall);
+        next = at.radius * near_exp((excess + jump_at(vertex, falls)) * growth);
         const bool tiny = std::abs(next - at.radius) <= 1e-3 * at.radius;
         if (tiny || !passes(at, next, vertex, falls)) {
           const ThrustAt kink = at_thrust(flight_, vertices_[vertex].thrust, at);
           if (left_.radius < kink.radius && kink.radius < right_.radius) {
-            const bool falls_up_to = saved_per_spent(kink, vertex - 1) >= 1;
-            const bool rises_from = vertex > pieces_.last || saved_per_spent(kink, vertex) <= 1;
+            const bool falls_up_to = trade_at(kink, vertex - 1).pays();
+            const bool rises_from = vertex > pieces_.last || !trade_at(kink, vertex).pays();
             if (falls_up_to && rises_from) return kink;
             at = kink;
             piece = falls_up_to ? vertex : vertex - 1;
@@ -79,32 +80,43 @@ class ValleySearch {
     bool known = false;  ///< else the end of the range, not looked at yet
   };
 
-  /// Loss saved over power spent by a little more radius, −I²R'/P', were the motor curve to follow
-  /// `piece` everywhere: above 1 where the total power falls with the radius.
-  [[nodiscard]] double saved_per_spent(const ThrustAt& at, std::size_t piece) const {
+  /// Loss saved and power spent by a little more radius, −I²R' and P', both times the same factor.
+  struct Trade {
+    double saved = 0;
+    double spent = 0;
+    [[nodiscard]] bool pays() const { return saved > spent; }
+  };
+
+  /// The trade, were the motor curve to follow `piece` everywhere.
+  [[nodiscard]] Trade trade_at(const ThrustAt& at, std::size_t piece) const {
     const MotorPoint& start = vertices_[piece];
     const double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
     const double power =
         idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
     const double resistance = flight_.resistance(at.radius);
-    const double discriminant = 1 - 4 * resistance * power * per_voltage_ * per_voltage_;
-    const double current = 2 * power * per_voltage_ / (1 + std::sqrt(std::max(0.0, discriminant)));
-    const double current_squared = discriminant >= 0 ? current * current : power / resistance;
-    return -current_squared * flight_.resistance_slope(at.radius) / (slope * at.thrust.slope);
+    const double least_current = power * per_voltage_;
+    const double discriminant = 1 - 4 * resistance * least_current * per_voltage_;
+    // I = 2·least_current/share, and times share² both sides are without a division.
+    const double share = 1 + std::sqrt(std::max(0.0, discriminant));
+    const double current_squared =
+        discriminant >= 0 ? 4 * least_current * least_current : power / resistance;
+    return {-current_squared * flight_.resistance_slope(at.radius),
+            slope * at.thrust.slope * share * share};
   }
 
-  /// About −d ln(saved_per_spent)/d ln r on `piece`: through the place before, where that was on
-  /// the same piece, else as 3 from the savings and what the tether's growing mass adds.
-  double fall_at(const ThrustAt& at, std::size_t piece, double excess) {
+  /// About −d ln r/d ln(saved/spent) on `piece`: through the place before, where that was on the
+  /// same piece, else as a third from the savings, less what the tether's growing mass adds.
+  double growth_at(const ThrustAt& at, std::size_t piece, double excess) {
     const Side before = before_;
     const double change = excess - before_excess_;
     const bool same_piece = before.known && before_piece_ == piece;
     before_ = {at.radius, true};
     before_excess_ = excess;
     before_piece_ = piece;
-    const double secant = -change / near_log(at.radius / before.radius);
-    if (same_piece && secant > 1 && secant < 20) return secant;
-    return 3 + flight_.mass_curvature() * at.radius / flight_.mass_slope(at.radius);
+    const double secant = near_log(at.radius, before.radius) / -change;
+    if (same_piece && secant > 0.05 && secant < 1) return secant;
+    const double mass_slope = flight_.mass_slope(at.radius);
+    return mass_slope / (3 * mass_slope + flight_.mass_curvature() * at.radius);
   }
 
   [[nodiscard]] std::size_t piece_at(const ThrustAt& at) const {
@@ -130,11 +142,11 @@ class ValleySearch {
     return up ? thrust > limit : thrust < limit;
   }
 
-  /// What crossing the vertex adds to the logarithm of saved_per_spent.
+  /// What crossing the vertex adds to the logarithm of saved over spent.
   [[nodiscard]] double jump_at(std::size_t vertex, bool up) const {
     if (vertex > pieces_.last) return -2;  // more thrust is not to be had
-    const double ratio = motor_.slope(vertex - 1) / motor_.slope(vertex);
-    return up ? near_log(ratio) : -near_log(ratio);
+    const double jump = near_log(motor_.slope(vertex - 1), motor_.slope(vertex));
+    return up ? jump : -jump;
   }
 
   void stay_within_motors(ThrustAt& at) {

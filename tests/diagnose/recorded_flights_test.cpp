@@ -94,7 +94,7 @@ TEST_CASE("the practice flights are answered correctly") {
     CHECK(d.unexplained.detected == unknown);
     if (unknown || effect == "none") {
       CHECK(d.findings.empty());
-      if (unknown) CHECK(d.unexplained.channels.front() == "roll");
+      if (unknown) CHECK(d.unexplained.channels.front() == "roll_deg");
       continue;
     }
     REQUIRE(d.findings.size() == 1);

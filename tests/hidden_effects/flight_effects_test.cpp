@@ -161,10 +161,10 @@ TEST_CASE("linear drag and wind are found where the base has neither") {
 
 TEST_CASE("what no catalogue knows is detected on its channel and not named") {
   const std::vector<std::pair<const char*, std::pair<double HiddenFlight::*, double>>> unknown{
-      {"roll", {&HiddenFlight::roll_drag, 60}},
-      {"time", {&HiddenFlight::step_drag, 0.4}},
-      {"time", {&HiddenFlight::step_force, 0.7}},
-      {"height", {&HiddenFlight::height_drag, 0.04}}};
+      {"roll_deg", {&HiddenFlight::roll_drag, 60}},
+      {"time_s", {&HiddenFlight::step_drag, 0.4}},
+      {"time_s", {&HiddenFlight::step_force, 0.7}},
+      {"height_m", {&HiddenFlight::height_drag, 0.04}}};
   int flights = 0;
   int detected = 0;
   int names = 0;

@@ -6,28 +6,30 @@ namespace power_truth {
 
 using namespace tethercalc;
 
-Design spec() {
+Design spec(const Rig& rig) {
   // Data sheet of the Holybro AIR2216 920 KV with a 10 inch propeller at 16 V: g, g/W.
   const double sheet[15][2] = {{210, 9.12}, {259, 8.67},  {309, 8.45},  {373, 8.15},  {447, 7.76},
                                {536, 7.39}, {628, 7.01},  {729, 6.73},  {814, 6.44},  {906, 6.18},
                                {993, 5.88}, {1087, 5.65}, {1191, 5.43}, {1289, 5.18}, {1332, 5.13}};
   std::vector<MotorPoint> points;
   for (const auto& row : sheet) {
-    points.push_back({row[0] * unit::gram_force, row[0] / row[1]});
+    points.push_back(
+        {rig.motor_size * row[0] * unit::gram_force, rig.motor_size * row[0] / row[1]});
   }
   Design design;
-  design.drone.mass = 1.710;
+  design.drone.mass = rig.mass;
   design.drone.motor_count = 4;
   design.drone.motor = MotorCurve(points);
-  design.drone.auxiliary_power = 15;
-  design.drone.drag = {0.01451, 0.01361, 19.27, 0};
-  design.tether.length = 30;
-  design.tether.cross_section = 1.09e-6;
+  design.drone.auxiliary_power = rig.auxiliaries;
+  design.drone.drag = {0.01451 * rig.drag_scale, 0.01361 * rig.drag_scale, 19.27, 0};
+  design.tether.length = rig.length;
+  design.tether.cross_section = rig.area;
   design.tether.conductor = {0.0278e-6, 0.00403, 2700};
   design.tether.insulation = {1360, 0.75e-3};
-  design.supply.voltage = 75;
-  design.supply.converter = {{{0.0, 0.9}}, 20};
+  design.supply.voltage = rig.voltage;
+  design.supply.converter = {{{0.0, rig.efficiency}}, 20};
   design.flight.airspeed = 8.3333;
+  design.flight.air_density = rig.air_density;
   return design;
 }
 

@@ -13,7 +13,7 @@
 namespace power_truth {
 
 /// The spec the simulator deviates from.
-[[nodiscard]] tethercalc::Design spec();
+[[nodiscard]] tethercalc::Design spec(const Rig& rig = {});
 
 [[nodiscard]] tethercalc::PowerLog as_power_log(const Log& log);
 

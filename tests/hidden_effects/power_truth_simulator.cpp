@@ -39,25 +39,26 @@ double motor_watts(double grams) {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double gravity = 9.80665;
-constexpr double air = 1.293;
-constexpr double conductor_area = 1.09e-6;
 constexpr double wall = 0.75e-3;
-const double outer_radius = std::sqrt(conductor_area / pi) + wall;
-constexpr double ohm_per_metre_20C = 2 * 0.0278e-6 / conductor_area;
 constexpr double temperature_coefficient = 0.00403;
-const double kg_per_metre =
-    2 * (2700 * conductor_area + 1360 * (pi * outer_radius * outer_radius - conductor_area));
+
+double outer_radius(const Rig& rig) { return std::sqrt(rig.area / pi) + wall; }
+double ohm_per_metre_20C(const Rig& rig) { return 2 * 0.0278e-6 / rig.area; }
+double kg_per_metre(const Rig& rig) {
+  const double outer_area = pi * outer_radius(rig) * outer_radius(rig);
+  return 2 * (2700 * rig.area + 1360 * (outer_area - rig.area));
+}
 
 /// W at the bus for steady flight, without the random deviation.
-double motor_power(const HiddenEffects& hidden, double height, double speed) {
-  const double weight = (1.71 + hidden.extra_mass + kg_per_metre * height) * gravity;
-  const double tether_drag =
-      0.5 * air * hidden.tether_drag_factor * 0.75 * 4 * height * outer_radius * speed * speed;
+double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, double speed) {
+  const double weight = (rig.mass + hidden.extra_mass + kg_per_metre(rig) * height) * gravity;
+  const double tether_drag = 0.5 * rig.air_density * hidden.tether_drag_factor * 0.75 * 4 * height *
+                             outer_radius(rig) * speed * speed;
   double angle = 0;
   for (int i = 0; i < 60; ++i) {  // contraction: drag changes little with the angle
-    const double area =
-        hidden.airframe_drag_factor * (0.01451 * std::cos(angle) + 0.01361 * std::sin(angle));
-    const double drag = 0.5 * air * area * (speed * speed + 19.27 * speed);
+    const double area = rig.drag_scale * hidden.airframe_drag_factor *
+                        (0.01451 * std::cos(angle) + 0.01361 * std::sin(angle));
+    const double drag = 0.5 * rig.air_density * area * (speed * speed + 19.27 * speed);
     angle = std::atan((drag + tether_drag) / weight);
   }
   const double thrust_g = weight / std::cos(angle) / 4 / gravity * 1000;
@@ -68,7 +69,8 @@ double motor_power(const HiddenEffects& hidden, double height, double speed) {
     induced = 0.5 * (induced + next);
   }
   const double relief = 1 - hidden.translational_lift * (1 - induced / hidden.induced_speed);
-  return 4 * motor_watts(thrust_g) * hidden.motor_power_factor * relief;
+  return 4 * rig.motor_size * motor_watts(thrust_g / rig.motor_size) * hidden.motor_power_factor *
+         relief;
 }
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
@@ -91,6 +93,7 @@ std::vector<double> stamped_late(const std::vector<double>& x, double offset, do
 
 Log simulate(const Scenario& scenario) {
   const HiddenEffects& hidden = scenario.hidden;
+  const Rig& rig = scenario.rig;
   std::mt19937_64 engine(scenario.seed * 0x9E3779B97F4A7C15ULL + 17);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -103,20 +106,21 @@ Log simulate(const Scenario& scenario) {
       scenario.ambient_temperature != 0 ? scenario.ambient_temperature : 17 + 5 * uniform(engine);
 
   // The six plateaus in random order, each held equally long; a new airspeed every 40 s or so.
-  std::array<double, 6> plateau{5, 10, 15, 20, 25, 30};
+  std::array<double, 6> plateau{};
+  for (std::size_t k = 0; k < 6; ++k) plateau[k] = static_cast<double>(k + 1) / 6 * rig.length;
   std::shuffle(plateau.begin(), plateau.end(), engine);
-  if (scenario.profile == Profile::one_height) plateau.fill(15);
+  if (scenario.profile == Profile::one_height) plateau.fill(rig.length / 2);
   constexpr std::array<double, 4> speeds{0, 3, 6, 9};
 
   Log log;
   std::vector<double> height(n), speed(n), supply_current(n), drone_voltage(n), bus_power(n);
-  double h = scenario.profile == Profile::one_height ? 15 : 1;
+  double h = scenario.profile == Profile::one_height ? rig.length / 2 : 1;
   double v = 0;
   double steady_speed = 0;
   double gust = 0;
   double target_speed = 0;
   double next_change = 0;
-  double deviation = 0.012 * normal(engine);
+  double deviation = scenario.deviation * normal(engine);
   double rise = 0;
   const double memory = std::pow(0.79, dt);
   for (std::size_t i = 0; i < n; ++i) {
@@ -132,34 +136,37 @@ Log simulate(const Scenario& scenario) {
     const double gust_memory = std::pow(0.85, dt);
     gust = gust_memory * gust + 0.3 * std::sqrt(1 - gust_memory * gust_memory) * normal(engine);
     v = std::max(0.0, steady_speed + gust * std::min(1.0, steady_speed / 3));
-    deviation = memory * deviation + 0.012 * std::sqrt(1 - memory * memory) * normal(engine);
+    deviation =
+        memory * deviation + scenario.deviation * std::sqrt(1 - memory * memory) * normal(engine);
 
-    double power = motor_power(hidden, h, v) * (1 + deviation);
+    double power = motor_power(rig, hidden, h, v) * (1 + deviation);
     if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
-    power *= 1 + hidden.motor_power_per_height * (h / 30) * (h / 30);
+    power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
     power *= 1 + hidden.motor_power_swing * std::sin(2 * pi * t / 600);
 
     const double converter_input =
         hidden.converter_fixed_loss > 0
             ? power + hidden.converter_fixed_loss + hidden.converter_square_loss * power * power
-            : power / 0.9;
-    const double input = converter_input + 15 + hidden.auxiliary_power;
+            : power / rig.efficiency;
+    const double input = converter_input + rig.auxiliaries + hidden.auxiliary_power;
 
-    const double cable = hidden.spooled_length >= 0 ? 30 + hidden.spooled_length : h;
+    const double cable = hidden.spooled_length >= 0 ? rig.length + hidden.spooled_length : h;
     const double temperature = hidden.heating > 0 ? ambient + rise : 20;
-    const double ohm_per_metre = ohm_per_metre_20C * hidden.resistivity_factor *
+    const double ohm_per_metre = ohm_per_metre_20C(rig) * hidden.resistivity_factor *
                                  (1 + temperature_coefficient * (temperature - 20));
     double resistance = ohm_per_metre * cable + hidden.contact_resistance;
     if (share >= hidden.step_at) resistance += hidden.step_in_resistance;
-    const double current = (75 - std::sqrt(75 * 75 - 4 * resistance * input)) / (2 * resistance);
-    const double settled = hidden.heating * current * current * ohm_per_metre_20C /
+    const double current =
+        (rig.voltage - std::sqrt(rig.voltage * rig.voltage - 4 * resistance * input)) /
+        (2 * resistance);
+    const double settled = hidden.heating * current * current * ohm_per_metre_20C(rig) /
                            (1 + hidden.heating_wind_cooling * std::sqrt(v));
     rise += (settled - rise) * (1 - std::exp(-dt / hidden.heating_time_constant));
 
     height[i] = h;
     speed[i] = v;
     supply_current[i] = current;
-    drone_voltage[i] = 75 - current * resistance;
+    drone_voltage[i] = rig.voltage - current * resistance;
     bus_power[i] = power;
   }
 
@@ -167,17 +174,20 @@ Log simulate(const Scenario& scenario) {
   speed = stamped_late(speed, scenario.flight_clock_offset, dt);
   bus_power = stamped_late(bus_power, scenario.bus_clock_offset, dt);
   for (std::size_t i = 0; i < n; ++i) {
+    const auto noise = [&](double standard_deviation) {
+      return scenario.instrument_noise * standard_deviation * normal(engine);
+    };
     const double bus_voltage = 16 - 0.004 * bus_power[i] / 16;
     log.time.push_back(static_cast<double>(i + 1) * dt);
-    log.height.push_back(rounded(height[i] + 0.05 * normal(engine), 0.01));
-    log.airspeed.push_back(rounded(std::max(0.0, speed[i] + 0.15 * normal(engine)), 0.01));
-    log.ambient_temperature.push_back(rounded(ambient + 0.1 * normal(engine), 0.1));
-    log.supply_voltage.push_back(rounded(75 + 0.035 * normal(engine), 0.01));
+    log.height.push_back(rounded(height[i] + noise(0.05), 0.01));
+    log.airspeed.push_back(rounded(std::max(0.0, speed[i] + noise(0.15)), 0.01));
+    log.ambient_temperature.push_back(rounded(ambient + noise(0.1), 0.1));
+    log.supply_voltage.push_back(rounded(rig.voltage + noise(0.035), 0.01));
     log.supply_current.push_back(
-        rounded(hidden.supply_current_gain * supply_current[i] + 0.015 * normal(engine), 0.001));
-    log.drone_voltage.push_back(rounded(drone_voltage[i] + 0.025 * normal(engine), 0.01));
-    log.bus_voltage.push_back(rounded(bus_voltage + 0.01 * normal(engine), 0.001));
-    log.bus_current.push_back(rounded(bus_power[i] / bus_voltage + 0.06 * normal(engine), 0.01));
+        rounded(hidden.supply_current_gain * supply_current[i] + noise(0.015), 0.001));
+    log.drone_voltage.push_back(rounded(drone_voltage[i] + noise(0.025), 0.01));
+    log.bus_voltage.push_back(rounded(bus_voltage + noise(0.01), 0.001));
+    log.bus_current.push_back(rounded(bus_power[i] / bus_voltage + noise(0.06), 0.01));
   }
 
   const std::array<std::pair<const char*, std::vector<double>*>, 8> channels{{

@@ -38,6 +38,20 @@ struct HiddenEffects {
   double motor_power_swing = 0;       ///< relative amplitude of a slow wave in time, period 600 s
 };
 
+/// The drone and the tether that fly, as the spec has them. The default is a Holybro X500 on 30 m
+/// of aluminium at 75 V.
+struct Rig {
+  double mass = 1.71;          ///< kg
+  double voltage = 75;         ///< V at the ground
+  double length = 30;          ///< m, as high as it flies
+  double area = 1.09e-6;       ///< m²
+  double efficiency = 0.9;     ///< of the converter
+  double auxiliaries = 15;     ///< W
+  double motor_size = 1;       ///< thrust and power of the data sheet are multiplied with it
+  double drag_scale = 1;       ///< of the airframe's areas
+  double air_density = 1.293;  ///< kg/m³
+};
+
 enum class Profile {
   plateaus,    ///< 5 … 30 m, airspeed 0 … 9 m/s in steps
   one_height,  ///< 15 m throughout, airspeed as above
@@ -45,11 +59,15 @@ enum class Profile {
 
 struct Scenario {
   HiddenEffects hidden;
+  Rig rig;
   Profile profile = Profile::plateaus;
   double duration = 0;             ///< s; 0: about 1,550
   double sample_interval = 1;      ///< s
   double ambient_temperature = 0;  ///< °C; 0: drawn between 17 and 22
   std::uint64_t seed = 1;
+
+  double instrument_noise = 1;  ///< all standard deviations are multiplied with it
+  double deviation = 0.012;     ///< of the motor power, relative
 
   // Bad instruments.
   double bus_clock_offset = 0;     ///< s: bus readings are stamped this much late

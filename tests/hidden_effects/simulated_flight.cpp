@@ -11,10 +11,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double gravity = 9.80665;
-constexpr double step = 0.01;  // s, integration
-constexpr int steps_per_sample = 10;
+constexpr double step = 0.01;           // s, integration
 constexpr double pitch_rate = 0.6;      // rad/s, as fast as the pilot tilts the drone
 constexpr double response_time = 0.12;  // s, attitude controller
+constexpr double climb_period = 120;    // s
 
 using Random = std::mt19937_64;
 
@@ -41,13 +41,19 @@ class Wander {
 /// Forward and backward passes: tilt into the motion, hold, tilt against it, with pauses.
 class Pilot {
  public:
-  explicit Pilot(double steepest) : steepest_(steepest * degree) {}
+  Pilot(Pattern pattern, double steepest, double duration)
+      : pattern_(pattern), steepest_(steepest * degree), duration_(duration) {}
   double tilt(double time, Random& random) {
     if (time >= until_) {
       direction_ = -direction_;
-      const bool pause = uniform(random, 0, 1) < 0.1;
+      const bool pause =
+          uniform(random, 0, 1) < 0.1 || (pattern_ == Pattern::hover_first && time < duration_ / 3);
       wanted_ = pause ? 0 : direction_ * uniform(random, 0.2, 1) * steepest_;
       until_ = time + uniform(random, 2.5, 8);
+      if (pattern_ == Pattern::long_forward && direction_ > 0) {
+        until_ += uniform(random, 10, 30);
+        wanted_ *= 0.6;
+      }
     }
     commanded_ += std::clamp(wanted_ - commanded_, -pitch_rate * step, pitch_rate * step);
     actual_ += (commanded_ - actual_) * step / response_time;
@@ -55,7 +61,9 @@ class Pilot {
   }
 
  private:
+  Pattern pattern_;
   double steepest_;
+  double duration_;
   double direction_ = 1;
   double until_ = 0;
   double wanted_ = 0;
@@ -80,16 +88,16 @@ double drag(const HiddenFlight& h, double u, double tilt, double down, double ro
 FlightLog fly(const HiddenFlight& h) {
   Random random(h.seed);
   FlightLog log;
-  Pilot pilot(h.steepest_pitch);
+  Pilot pilot(h.pattern, h.steepest_pitch, h.duration);
   Wander gust(h.gust_std, h.gust_time);
   Wander rolling(h.roll_std * degree, 1.0);
-  Wander sideways(0.35, 2.0);
+  Wander sideways(h.lateral_std, 4.5);
   Wander sinking(0.4, 1.5);
   std::deque<double> pitch_on_its_way;
-  const auto delay_steps =
-      static_cast<std::size_t>(std::max(0.0, std::round(h.attitude_delay / step)));
+  const double delay_steps = std::max(0.0, h.attitude_delay / step);
 
   double speed = 0;
+  double last_tilt = 0;
   double down = 0;
   double height = 10;
   double yaw = uniform(random, 0, 2 * std::numbers::pi);
@@ -103,38 +111,57 @@ FlightLog fly(const HiddenFlight& h) {
       wanted_yaw += uniform(random, 0.8, 2.2);
       next_turn += 40;
     }
-    yaw += std::clamp(wanted_yaw - yaw, -0.5 * step, 0.5 * step);
+    if (h.pattern == Pattern::circles) wanted_yaw += 2 * std::numbers::pi / 60 * step;
+    const double turn = std::clamp(wanted_yaw - yaw, -0.5 * step, 0.5 * step);
+    yaw += turn;
     const double tilt = pilot.tilt(time, random);
     const double roll = rolling.next(random);
+    const double right = sideways.next(random);
     const double old_down = down;
-    down += (sinking.next(random) - down) * step / 0.6;  // smooth: the drone has inertia
+    const double climbing = -h.climb * std::numbers::pi / climb_period *
+                            std::sin(2 * std::numbers::pi * time / climb_period);
+    down += (sinking.next(random) + climbing - down) * step / 0.6;  // smooth: inertia
     const double down_acceleration = (down - old_down) / step;
     height -= down * step;
     const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
                          h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw);
-    const double push =
-        (gravity - down_acceleration) * std::tan(tilt) / std::cos(roll) + gust.next(random);
+    // A frame that turns carries the speed to the right into the forward one.
+    const double push = (gravity - down_acceleration) * std::tan(tilt) / std::cos(roll) +
+                        gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) +
+                        turn / step * right;
     const auto acceleration = [&](double v) {
       return push - drag(h, v - along, tilt, down, roll, height - 10, late) / h.mass;
     };
     const double halfway = speed + acceleration(speed) * step / 2;
 
-    pitch_on_its_way.push_back(-tilt);
-    if (pitch_on_its_way.size() > delay_steps + 1) pitch_on_its_way.pop_front();
-    if (k % steps_per_sample == 0) {
-      const double right = sideways.next(random);
+    // Each tilt acts from one step to the next: at a step it is between the two. The front two lie
+    // on either side of the delay.
+    pitch_on_its_way.push_back(-(tilt + last_tilt) / 2);
+    last_tilt = tilt;
+    if (static_cast<double>(pitch_on_its_way.size()) > delay_steps + 2)
+      pitch_on_its_way.pop_front();
+    const double part = delay_steps - std::floor(delay_steps);
+    const double late_pitch = pitch_on_its_way.size() < 2
+                                  ? pitch_on_its_way.front()
+                                  : part * pitch_on_its_way[0] + (1 - part) * pitch_on_its_way[1];
+    if (k % static_cast<std::size_t>(h.steps_per_sample) == 0) {
       const auto hundredth = [](double angle) {
         return std::round(angle / degree * 100) / 100 * degree;
       };
       log.time.push_back(10 + time);
       log.roll.push_back(hundredth(roll + h.angle_noise * degree * normal(random)));
-      log.pitch.push_back(hundredth(pitch_on_its_way.front() + h.pitch_trim * degree +
-                                    h.angle_noise * degree * normal(random)));
+      log.pitch.push_back(
+          hundredth(late_pitch + h.pitch_trim * degree +
+                    h.pitch_drift * degree * std::sin(2 * std::numbers::pi * time / 200) +
+                    h.angle_noise * degree * normal(random)));
       log.yaw.push_back(hundredth(yaw));
       const double forward = speed + h.speed_noise * normal(random);
-      log.north_velocity.push_back(forward * std::cos(yaw) - right * std::sin(yaw));
-      log.east_velocity.push_back(forward * std::sin(yaw) + right * std::cos(yaw));
-      log.down_velocity.push_back(down + h.speed_noise * normal(random));
+      const auto rounded = [&h](double v) {
+        return h.speed_digit > 0 ? std::round(v / h.speed_digit) * h.speed_digit : v;
+      };
+      log.north_velocity.push_back(rounded(forward * std::cos(yaw) - right * std::sin(yaw)));
+      log.east_velocity.push_back(rounded(forward * std::sin(yaw) + right * std::cos(yaw)));
+      log.down_velocity.push_back(rounded(down + h.speed_noise * normal(random)));
     }
     speed += acceleration(halfway) * step;
   }

@@ -9,6 +9,14 @@
 
 namespace tethercalc::truth {
 
+/// How the pilot flies.
+enum class Pattern {
+  passes,        ///< to and fro without end
+  hover_first,   ///< hover for a third of the flight, then passes
+  long_forward,  ///< long stretches forward at a few tilts, seldom backward
+  circles,       ///< passes while the yaw turns steadily, once a minute
+};
+
 /// What is true of a flight. Effects that are hidden in it have values other than zero.
 struct HiddenFlight {
   std::uint64_t seed = 1;
@@ -28,7 +36,14 @@ struct HiddenFlight {
   double angle_noise = 0.15;   ///< deg, white
   double roll_std = 2.0;       ///< deg
   bool yaw_turns = false;      ///< a new heading every 40 s
+  Pattern pattern = Pattern::passes;
+  double lateral_std = 0.35;   ///< m/s, speed to the right
+  double gust_with_speed = 0;  ///< s/m: gusts grow by this part with each m/s of speed
+  double pitch_drift = 0;      ///< deg, slow wave of the logged pitch, period 200 s
+  double speed_digit = 0;      ///< m/s, speeds are rounded to this
   double steepest_pitch = 30;  ///< deg
+  int steps_per_sample = 10;   ///< of 10 ms: 10 Hz
+  double climb = 0;            ///< m, a climb to this height and back every two minutes
 
   double attitude_delay = 0;  ///< s, attitude is logged this late
   double pitch_trim = 0;      ///< deg, logged minus true pitch
@@ -46,7 +61,7 @@ struct HiddenFlight {
   double height_drag = 0;  ///< 1/m: drag grows by this part with each metre
 };
 
-/// 10 Hz from take-off to landing.
+/// From take-off to landing.
 [[nodiscard]] FlightLog fly(const HiddenFlight& hidden);
 
 /// Replaces `part` of all pitch and forward-speed samples by values far off.

@@ -86,7 +86,7 @@ TEST_CASE("the story tells finding, uncertainty, rival and gain") {
 }
 
 TEST_CASE("the CSV has one row a parameter") {
-  CHECK(diagnosis_csv(example()) ==
+  CHECK(diagnosis_csv(example().findings) ==
         "effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent\n"
         "wind,airframe,wind_m_s,-1.2,m/s,-1.3,-1.1,20,2\n");
 }

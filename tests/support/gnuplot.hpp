@@ -113,4 +113,17 @@ inline std::vector<std::string> overlaps(const std::vector<TextBox>& boxes) {
   return out;
 }
 
+/// What is wrong with the places of the texts in an SVG of one column's width: those that cover
+/// each other or reach beyond the edges.
+inline std::vector<std::string> layout_problems(const std::string& svg) {
+  const std::vector<TextBox> boxes = text_boxes(svg);
+  std::vector<std::string> out = overlaps(boxes);
+  constexpr double width = 85 / 25.4 * 96;
+  for (const TextBox& box : boxes) {
+    if (box.left < -1 || box.right > width + 1 || box.top < 0)
+      out.push_back("outside: " + box.text);
+  }
+  return out;
+}
+
 }  // namespace tethercalc::test

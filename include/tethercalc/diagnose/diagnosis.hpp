@@ -50,8 +50,11 @@ struct Unexplained {
   bool detected = false;              ///< whether it beats chance and is worth a word
   std::vector<std::string> channels;  ///< the one it follows most closely first
   double share_percent = 0;           ///< part of the remaining held-out squared error it makes up
-  std::string shape;                  ///< plain words; empty where nothing was detected
-  std::string regressor;              ///< the one that captures it best
+  double size = 0;        ///< of a flight the root mean square of what follows it; of a power log
+                          ///< the height of the step, or the amplitude, of the strongest
+  std::string size_unit;  ///< "m/s²"; of a power log "ohm", "W" or "%", by stage
+  std::string shape;      ///< plain words; empty where nothing was detected
+  std::string regressor;  ///< the one that captures it best
 };
 
 /// A model fitted to the log, judged on data it was not fitted to.
@@ -127,7 +130,8 @@ struct FindingTrace {
 struct Diagnosis {
   std::string kind;                               ///< "flight" or "power"
   std::size_t samples = 0;                        ///< used
-  double effective_samples = 0;                   ///< as many independent ones would weigh as much
+  double effective_samples = 0;                   ///< as many independent ones would weigh as much;
+                                                  ///< of a power log the mean over its comparisons
   std::string unit;                               ///< of every held-out error
   std::string quantity;                           ///< in words: what is predicted and compared
   ModelQuality base;                              ///< without any finding

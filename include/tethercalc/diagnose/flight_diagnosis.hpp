@@ -41,7 +41,7 @@ struct FlightDiagnosisOptions {
 ///
 /// Throws std::invalid_argument where `options.base` names an effect that is not one of a flight,
 /// or where mass or air density is not positive; UnsuitableFlight where the log has no usable
-/// flight.
+/// flight, and where its pitch is stuck, upside down, or in another unit.
 [[nodiscard]] Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
                                         const FlightDiagnosisOptions& options = {},
                                         const SelectionProgress& progress = {});

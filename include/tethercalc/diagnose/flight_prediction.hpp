@@ -22,6 +22,9 @@ struct FlightRecord {
   std::vector<double> down_speed;         ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
   std::vector<double> inverse_cos_roll;   ///< 1/cos φ
+  /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
+  /// speed, force or no force.
+  std::vector<double> turn_acceleration;
   double mass = 0;                        ///< kg
   double air_density = 0;                 ///< kg/m³
   double gravity = 0;                     ///< m/s²
@@ -45,6 +48,9 @@ struct FlightBase {
   /// (Fuller, Measurement Error Models, 1987, section 1.1). Left at 1, its noise times tan θ would
   /// enter every prediction.
   double vertical_acceleration_gain = 1;
+  /// Part of the turning frame's acceleration that the logged speed shows: 1 for a drone that moves
+  /// through space, less where the speed to the right is noise, 0 where the log never knew a frame.
+  double turn_gain = 0;
 };
 
 /// A prediction in the making. The catalogue's effects work on it in three phases: attitude, air

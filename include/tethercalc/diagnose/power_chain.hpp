@@ -57,8 +57,8 @@ struct ConverterInput {
 [[nodiscard]] ConverterInput converter_input(const PowerModel& model, double output_power);
 
 /// Power in W at the bus in steady flight at every sample's height and airspeed. Above the motors'
-/// largest thrust their curve is continued straight, so that the value stays finite. NaN where the
-/// tilt would reach the design's limit.
+/// largest thrust their curve is continued straight, and the design's limit of the tilt does not
+/// count, so that the value stays finite: a log shows what was flown. NaN beyond a tilt of 80°.
 [[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
 
 /// The design that flies as `model` does, for everything in it that outlives the flight: the

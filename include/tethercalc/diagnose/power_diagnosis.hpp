@@ -29,8 +29,8 @@ inline constexpr double shortest_power_log = 180;
 ///
 /// A log that is too short, or lacks channels, has the effects that it cannot show under
 /// `not_testable`; that is an answer, not an error. Throws std::invalid_argument where the design
-/// has no cable cross-section, a base effect is unknown or belongs to flights, or the channels
-/// differ in length.
+/// has no cable cross-section, a base effect is unknown or belongs to flights, the channels differ
+/// in length, or their values cannot be in the units their names say.
 [[nodiscard]] PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                                             std::span<const std::string> base_effects = {},
                                             const SelectionProgress& progress = {});

@@ -41,9 +41,8 @@ struct PowerStage {
 /// - *motors*: the logarithm of the power at the bus with that of steady flight at the measured
 ///   height and airspeed, averaged over some seconds; its error is relative, and lasts for seconds.
 ///
-/// Noise and its memory are estimated once, from what a flexible smooth function of time, height
-/// and airspeed leaves of the base model's residuals, so that what is hidden does not pass for
-/// noise.
+/// Noise and its memory are estimated from what a flexible smooth function of time, height and
+/// airspeed leaves of the base model's residuals, so that what is hidden does not pass for noise.
 class PowerResiduals {
  public:
   /// Stages whose channels are missing do not appear. Throws std::invalid_argument where the
@@ -68,6 +67,11 @@ class PowerResiduals {
   /// standard deviation of what is left: rows of independent noise of size 1. Linear. Unusable rows
   /// become 0.
   void whitened(std::size_t k, std::span<const double> standardised, std::span<double> out) const;
+
+  /// Takes the noise of stage `k` and its memory from all that `model` leaves. The smooth functions
+  /// of the first estimate take slow noise away with what is hidden; once nothing is hidden any
+  /// more, what is left shows all of it.
+  void refine_noise(std::size_t k, const PowerModel& model);
 
  private:
   void estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k);

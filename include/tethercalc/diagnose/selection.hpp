@@ -44,6 +44,8 @@ struct UnnamedRegressor {
   std::string channel{};         ///< such as "roll"
   std::string shape{};           ///< plain words, such as "roll squared, times airspeed"
   std::vector<double> column{};  ///< one element a row; its scale does not matter
+  double size = 1;               ///< what a coefficient of 1 stands for, in `unit`
+  std::string unit{};            ///< empty where the column has a unit of its own
 };
 
 /// A record and the model that should explain it. Readings of several instruments are stacked: one
@@ -113,6 +115,7 @@ struct ModelFit {
 /// What is left and no candidate explains.
 struct UnnamedStructure {
   std::vector<std::size_t> regressors{};  ///< into SelectionProblem::unnamed, strongest first
+  std::vector<double> coefficients{};     ///< of their columns, in the unit of `measured`
   std::vector<std::string> channels{};    ///< theirs, without repetition
   double share_percent = 0;               ///< of the held-out squared error of the extended model
 };

@@ -15,6 +15,9 @@ namespace tethercalc {
 struct FlightLogOptions {
   /// Which of the estimators that run side by side, 0 ≤ core ≤ 255. Not used for CSV.
   int core = 0;
+  /// Whether a CSV file may lack `roll_deg` and `vd_m_s`. They then count as 0, level flight at one
+  /// height, and a note says so.
+  bool level_where_missing = false;
 };
 
 /// A flight log, and how it came about.
@@ -40,7 +43,8 @@ struct FlightLogReading {
 ///
 /// From CSV: columns `time_s, roll_deg, pitch_deg, yaw_deg, vn_m_s, ve_m_s, vd_m_s` in any order,
 /// named exactly so; every value finite, angles within ±90° (pitch), ±360° (roll) and ±360 000°
-/// (yaw), velocities within ±500 m/s, time increasing.
+/// (yaw), velocities within ±500 m/s, time increasing. Which of them may be missing, the options
+/// tell.
 ///
 /// Which of the two it is, the content tells: a log has zero bytes or marks among its first bytes.
 ///

@@ -29,6 +29,7 @@ enum class FieldKind {
   conductor,            ///< name in the library, path of a .json file, or an object
   insulation_material,  ///< likewise
   efficiency,           ///< a number, or a list of objects with `efficiency_point_fields`
+  converter_masses,     ///< a list of objects with `converter_mass_fields`
   motor_points          ///< a list of objects with `motor_point_fields`, at least two
 };
 
@@ -81,6 +82,9 @@ struct SpecField {
 
 /// The fields of one point of a converter's efficiency curve.
 [[nodiscard]] std::span<const SpecField> efficiency_point_fields();
+
+/// The fields of one row of a converter's table of masses.
+[[nodiscard]] std::span<const SpecField> converter_mass_fields();
 
 /// The field of a spec at `path`, either "supply.voltage_V" or "/supply/voltage_V"; null where
 /// there is none.

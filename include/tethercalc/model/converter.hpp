@@ -12,6 +12,12 @@ struct EfficiencyPoint {
   double efficiency = 1;    ///< in (0, 1]
 };
 
+/// What one converter of a family weighs.
+struct ConverterMassPoint {
+  double rated_output_power = 0;  ///< W, > 0
+  double mass = 0;                ///< kg, ≥ 0
+};
+
 /// A converter by its efficiency over load and the input voltage at which it cuts off.
 ///
 /// Efficiency is linear between the points and constant outside them; a single point is a constant
@@ -24,11 +30,14 @@ struct Converter {
   std::optional<double> max_input_voltage{};   ///< V, the most it stands
   std::optional<double> rated_output_power{};  ///< W, the most it gives continuously
   double specific_mass = 0;                    ///< kg per W of rated output
+  std::vector<ConverterMassPoint> masses{};    ///< by rising power; where given, instead of that
   std::optional<double> fixed_ratio{};  ///< output over input voltage, where that does not vary
   double min_output_voltage = 0;        ///< V that the motors need of a fixed-ratio converter
 };
 
-/// Mass in kg: specific mass times rated output; 0 where either is not stated.
+/// Mass in kg for the rated output: from the table `masses`, linear between its points, that of the
+/// first below it (nothing smaller is sold), that of the last in proportion above it (several of
+/// them); without a table specific mass times rated output. 0 where no rated output is stated.
 [[nodiscard]] double converter_mass(const Converter& converter);
 
 /// Input voltage in V below which the converter does not serve: its cut-off, or where its ratio is
@@ -39,6 +48,13 @@ struct Converter {
 /// Throws std::invalid_argument where the curve is empty, not by strictly rising output power, has
 /// an efficiency outside (0, 1], or would draw less power at a higher load.
 void validate(const Converter& converter);
+
+/// Throws std::invalid_argument where `masses` is not by strictly rising power, or falls with it.
+void validate(const std::vector<ConverterMassPoint>& masses);
+
+/// Output voltage in V at `input_voltage` V of a converter of fixed ratio; NaN for others, which
+/// regulate it.
+[[nodiscard]] double converter_output_voltage(const Converter& converter, double input_voltage);
 
 /// Efficiency at `output_power` in W (≥ 0).
 [[nodiscard]] double efficiency_at(const Converter& converter, double output_power);

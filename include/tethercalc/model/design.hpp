@@ -6,6 +6,7 @@
 #include "tethercalc/model/airframe.hpp"
 #include "tethercalc/model/converter.hpp"
 #include "tethercalc/model/motor_curve.hpp"
+#include "tethercalc/model/reserve_battery.hpp"
 #include "tethercalc/model/tether.hpp"
 #include "tethercalc/model/translational_lift.hpp"
 #include "tethercalc/model/units.hpp"
@@ -25,6 +26,7 @@ struct Drone {
   double auxiliary_power = 0;     ///< W at the converter input: flight controller and payload
   AirframeDrag drag;              ///< of the airframe, not of the tether
   TranslationalLift translational_lift;  ///< of the rotors
+  ReserveBattery reserve_battery{};      ///< its mass comes to `mass`, and to the tether's
 };
 
 /// What feeds the drone: the ground supply, and the converter at the tether's upper end.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -36,17 +37,28 @@ class MotorCurve {
 
   /// Electrical power in W for `thrust` in N; 0 for thrust ≤ 0; +infinity above `max_thrust()`
   /// (by more than 1e-12 of it, so that rounding does not decide).
-  [[nodiscard]] double power(double thrust) const;
+  [[nodiscard]] double power(double thrust) const {
+    if (thrust <= 0) return 0;
+    // A thrust that was solved for to be the last point's may miss it by rounding.
+    constexpr double rounding = 1e-12;
+    if (!(thrust <= max_thrust() * (1 + rounding))) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const std::size_t i = piece(thrust);
+    return line_->vertices[i].power + line_->slopes[i] * (thrust - line_->vertices[i].thrust);
+  }
 
   /// Thrust in N from electrical power in W; 0 for power ≤ 0; `max_thrust()` from `max_power()` on.
   [[nodiscard]] double thrust(double power) const;
 
   /// Index i of the piece, between vertices i and i + 1, that holds `thrust`; the upper one at a
   /// vertex, the nearest one outside the curve. Not for the empty curve.
-  [[nodiscard]] std::size_t piece(double thrust) const;
+  [[nodiscard]] std::size_t piece(double thrust) const {
+    return piece_at(line_->vertices, &MotorPoint::thrust, thrust);
+  }
 
   /// Slope of `power` on piece `index`, W/N.
-  [[nodiscard]] double slope(std::size_t index) const;
+  [[nodiscard]] double slope(std::size_t index) const { return line_->slopes[index]; }
 
   /// The largest convex curve nowhere above this one, through some of its vertices and with the
   /// same limits (its lower convex hull). A convex curve is its own. Lives as long as this curve.
@@ -55,14 +67,36 @@ class MotorCurve {
   /// Whether the power of an additional thrust rises from piece to piece.
   [[nodiscard]] bool is_convex() const;
 
-  [[nodiscard]] double max_thrust() const;  ///< N, 0 for the empty curve
-  [[nodiscard]] double max_power() const;   ///< W, 0 for the empty curve
+  /// N, 0 for the empty curve.
+  [[nodiscard]] double max_thrust() const { return line_->vertices.back().thrust; }
+  /// W, 0 for the empty curve.
+  [[nodiscard]] double max_power() const { return line_->vertices.back().power; }
 
   /// The points with (0, 0) in front. At least one.
-  [[nodiscard]] std::span<const MotorPoint> vertices() const;
+  [[nodiscard]] std::span<const MotorPoint> vertices() const { return line_->vertices; }
 
  private:
-  struct Polyline;
+  /// A rising piecewise-linear curve: vertices from (0, 0) on and the slope of each piece.
+  struct Polyline {
+    std::vector<MotorPoint> vertices;
+    std::vector<double> slopes;              ///< W/N, one fewer than vertices
+    std::shared_ptr<const MotorCurve> hull;  ///< null where the curve is its own lower convex hull
+  };
+
+  /// Index of the piece that holds `value` of the rising `member`, the first piece for smaller
+  /// values and the last for larger ones.
+  [[nodiscard]] static std::size_t piece_at(std::span<const MotorPoint> vertices,
+                                            double MotorPoint::*member, double value) {
+    const MotorPoint* base = vertices.data();
+    std::size_t count = vertices.size() - 1;
+    while (count > 1) {
+      const std::size_t half = count / 2;
+      base += base[half].*member <= value ? half : 0;  // branch-free: this is the hottest loop
+      count -= half;
+    }
+    return static_cast<std::size_t>(base - vertices.data());
+  }
+
   explicit MotorCurve(std::shared_ptr<const Polyline> line);
   std::shared_ptr<const Polyline> line_;  ///< never null
 };

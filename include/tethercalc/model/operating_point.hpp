@@ -15,7 +15,8 @@ struct OperatingPoint {
   double cross_section = 0;      ///< m², one conductor
   double tether_resistance = 0;  ///< Ω, loop
   double tether_mass = 0;        ///< kg, airborne
-  double takeoff_mass = 0;       ///< kg, drone and airborne tether
+  double takeoff_mass = 0;       ///< kg, drone, converter, reserve battery and airborne tether
+  double battery_mass = 0;       ///< kg, of the reserve battery; infinite where none suffices
   double pitch = 0;              ///< rad, positive leaning into the motion
   double available_power = 0;    ///< W at the converter input, at the lowest received voltage
   double available_thrust = 0;   ///< N per motor from that power

@@ -11,8 +11,9 @@ namespace tethercalc {
 /// Everything that steady flight needs as a function of the conductor's radius r, with what does
 /// not depend on r computed once. The tether's mass is a quadratic in r, its drag linear in r, its
 /// resistance linear in 1/r², at the tether's `conductor_temperature_C`: the heat balance, where
-/// one is asked for, is `evaluate`'s. `evaluate` and the solvers share these functions, so they
-/// cannot disagree. Refers to the design's motor and converter: the design must outlive it.
+/// one is asked for, is `evaluate`'s, and so is the mass of a reserve battery, which depends on r.
+/// `evaluate` and the solvers share these functions, so they cannot disagree. Refers to the
+/// design's motor and converter: the design must outlive it.
 ///
 /// Radii are in m and positive; thrusts are in N per motor; powers in W; masses in kg.
 class SteadyFlight {
@@ -22,6 +23,13 @@ class SteadyFlight {
 
   /// The same design in another condition, sooner than from the design.
   [[nodiscard]] SteadyFlight in(Condition condition) const;
+
+  /// The same with `mass` kg more on board.
+  [[nodiscard]] SteadyFlight carrying(double mass) const {
+    SteadyFlight heavier = *this;
+    heavier.drone_mass_ += mass;
+    return heavier;
+  }
 
   /// Mass of the airborne tether.
   [[nodiscard]] double tether_mass(double radius) const {

@@ -39,6 +39,16 @@ using StoryPart = std::variant<StoryHeading, std::string, TitledTable>;
 
 /// A header and one row a parameter of a finding:
 /// effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent.
-[[nodiscard]] std::string diagnosis_csv(const Diagnosis& diagnosis);
+[[nodiscard]] std::string diagnosis_csv(const std::vector<Finding>& findings);
+
+/// A flight log and a power log of one drone: the lists of both in one, what of the two design
+/// impacts `power` carries, and each diagnosis by itself under "flight" and "power".
+[[nodiscard]] nlohmann::ordered_json joint_diagnosis_json(const Diagnosis& flight,
+                                                          const Diagnosis& power,
+                                                          const nlohmann::ordered_json& extended);
+
+/// Both stories, then the design impact that `power` carries.
+[[nodiscard]] std::string joint_diagnosis_text(Diagnosis flight, Diagnosis power,
+                                               const TextStyle& style);
 
 }  // namespace tethercalc

@@ -23,7 +23,13 @@ struct BestHeadroom {
   double area = 0;   ///< m², where it is reached; NaN where value is 0
 };
 
-/// The cross-section that leaves the most thrust in hand, whatever it costs in power.
+/// The cross-section that leaves the most thrust in hand, whatever it costs in power. A heat
+/// balance or a reserve battery of the design is left out of account: the cable has its
+/// `conductor_temperature_C`.
 [[nodiscard]] BestHeadroom best_headroom(const SteadyFlight& flight);
+
+/// The same with the conductor as warm and the reserve battery as heavy as each cross-section makes
+/// them; then the best of a grid around the result without them, refined, to about 1e-8 relative.
+[[nodiscard]] BestHeadroom best_headroom(const Design& design, Condition condition);
 
 }  // namespace tethercalc

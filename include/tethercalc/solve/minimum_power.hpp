@@ -35,9 +35,10 @@ struct MinimumPower {
                                          Interval within = {
                                              0, std::numeric_limits<double>::infinity()});
 
-/// Whether the power over all areas within the tilt limit is certain to be one valley, so that the
-/// least power in a range beside its bottom is at the range's nearest end: a constant efficiency, a
-/// motor curve that is its own convex hull, and no area beyond the tilt limit.
-[[nodiscard]] bool has_one_valley(const SteadyFlight& flight);
+/// Whether `area` (m²) is certain to draw the least power of all areas on its side of the one that
+/// draws the least of all: no area is beyond the tilt limit, the efficiency is constant, and the
+/// motor curve is at its convex hull there, with which the power would be one valley and is nowhere
+/// less.
+[[nodiscard]] bool is_cheapest_beyond(const SteadyFlight& flight, double area);
 
 }  // namespace tethercalc

@@ -1,0 +1,62 @@
+// Logs in memory as the CSV files that the program reads.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tethercalc/diagnose/power_log.hpp"
+#include "tethercalc/identify/flight_log.hpp"
+
+namespace tethercalc::test {
+
+/// Columns that are empty are left out.
+inline std::string csv_text(
+    const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
+  std::string text;
+  for (const auto& [name, values] : columns) {
+    if (!values.empty()) text += (text.empty() ? "" : ",") + name;
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < columns.front().second.size(); ++i) {
+    bool first = true;
+    for (const auto& [name, values] : columns) {
+      if (values.empty()) continue;
+      text += fmt::format("{}{:.6f}", first ? "" : ",", values[i]);
+      first = false;
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+inline std::string flight_csv_text(const FlightLog& log) {
+  constexpr double degree = 0.017453292519943295;
+  const auto degrees = [](std::vector<double> angles) {
+    for (double& angle : angles) angle /= degree;
+    return angles;
+  };
+  return csv_text({{"time_s", log.time},
+                   {"roll_deg", degrees(log.roll)},
+                   {"pitch_deg", degrees(log.pitch)},
+                   {"yaw_deg", degrees(log.yaw)},
+                   {"vn_m_s", log.north_velocity},
+                   {"ve_m_s", log.east_velocity},
+                   {"vd_m_s", log.down_velocity}});
+}
+
+inline std::string power_csv_text(const PowerLog& log) {
+  return csv_text({{"time_s", log.time},
+                   {"height_m", log.height},
+                   {"airspeed_m_s", log.airspeed},
+                   {"ambient_temperature_C", log.ambient_temperature_C},
+                   {"supply_voltage_V", log.supply_voltage},
+                   {"supply_current_A", log.supply_current},
+                   {"drone_voltage_V", log.drone_voltage},
+                   {"bus_voltage_V", log.bus_voltage},
+                   {"bus_current_A", log.bus_current}});
+}
+
+}  // namespace tethercalc::test
