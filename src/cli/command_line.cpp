@@ -324,6 +324,8 @@ class CommandLine {
     command.add_option("--output", plot_.output,
                        "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
                        "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
+    command.add_option("--title", plot_.title,
+                       "Words above the figure (default: the design's or the file's name)");
     command.add_option("--width-mm", plot_.width_mm,
                        "Width of the figure, 85 to 400 (default: 85, one column of a journal)");
     command

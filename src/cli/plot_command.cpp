@@ -23,8 +23,15 @@
 namespace tethercalc::cli {
 namespace {
 
+/// The heading asked for, or `otherwise`.
+std::string heading(const PlotOptions& options, std::string otherwise) {
+  return options.title.empty() ? std::move(otherwise) : options.title;
+}
+
 DesignFile read_spec(const PlotOptions& options) {
-  return read_design(options.files.front(), options.overrides);
+  DesignFile file = read_design(options.files.front(), options.overrides);
+  file.name = heading(options, file.name);
+  return file;
 }
 
 Figure optimum(const PlotOptions& options) { return optimum_figure(study(read_spec(options))); }
@@ -47,8 +54,9 @@ Figure log(const PlotOptions& options) {
   FlightOptions flight = options.flight;
   if (!flight.mass_g) flight.mass_g = 1000;  // accelerations do not depend on it
   try {
-    return log_figure(base_name(file), observe_part(read_flight_logs({file}, flight.core).front(),
-                                                    identification_options(flight)));
+    return log_figure(heading(options, base_name(file)),
+                      observe_part(read_flight_logs({file}, flight.core).front(),
+                                   identification_options(flight)));
   } catch (const UnsuitableFlight& error) {
     throw InputError(file, error.what());
   }
@@ -68,7 +76,7 @@ Figure drag(const PlotOptions& options) {
   const std::string name = logs.size() == 1 ? base_name(options.files.front())
                                             : std::to_string(logs.size()) + " flights";
   try {
-    const DragFlights fitted = fit_drag_flights(name, logs, how);
+    const DragFlights fitted = fit_drag_flights(heading(options, name), logs, how);
     return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
   } catch (const UnsuitableFlight& error) {
     throw InputError(logs.size() == 1 ? options.files.front() : "drag", error.what());
@@ -85,20 +93,22 @@ Figure diagnosis(const PlotOptions& options) {
   if (how.flight_log.empty() == how.power_log.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }
+  const std::string& log = how.power_log.empty() ? how.flight_log : how.power_log;
   const ToldDiagnosis told =
       diagnose_logs(how, read_design(options.files.front(), options.overrides));
   try {
-    return told.flight ? diagnosis_figure(base_name(options.flight_log), *told.flight)
-                       : diagnosis_figure(base_name(options.power_log), *told.power);
+    return diagnosis_figure(heading(options, base_name(log)),
+                            told.flight ? *told.flight : *told.power);
   } catch (const std::invalid_argument& error) {
-    throw InputError(told.flight ? options.flight_log : options.power_log, error.what());
+    throw InputError(log, error.what());
   }
 }
 
 Figure sweep(const PlotOptions& options) {
   const std::string& file = options.files.front();
   const MappedFile content(file == "-" ? "/dev/stdin" : file);
-  return sweep_figure(parse_sweep_csv(content.text(), file, options.value), {options.x, options.y});
+  return sweep_figure(parse_sweep_csv(content.text(), file, options.value),
+                      {options.x, options.y, heading(options, base_name(file))});
 }
 
 struct Kind {
@@ -130,6 +140,46 @@ const Kind& find_kind(const std::string& name) {
   }
   throw InputError("plot", "there is no kind of figure \"" + name + "\"; allowed are " + list +
                                did_you_mean(name, names));
+}
+
+/// An option that belongs to other kinds of figures was meant for something.
+void check_options(const PlotOptions& options) {
+  struct Option {
+    std::string_view name;
+    bool given;
+    std::string_view kinds;
+  };
+  constexpr std::string_view designs = "optimum, motors, diagnosis";
+  constexpr std::string_view flights = "log, drag, diagnosis";
+  const FlightOptions& flight = options.flight;
+  const std::array table{
+      Option{"--set", !options.overrides.empty(), designs},
+      Option{"--motors", !options.motors.empty(), "motors"},
+      Option{"--view", !options.view.empty(), "drag"},
+      Option{"--flight", !options.flight_log.empty(), "diagnosis"},
+      Option{"--power", !options.power_log.empty(), "diagnosis"},
+      Option{"--base", !options.base.empty(), "diagnosis"},
+      Option{"--x", !options.x.empty(), "sweep"},
+      Option{"--y", !options.y.empty(), "sweep"},
+      Option{"--value", !options.value.empty(), "sweep"},
+      Option{"--mass-g", flight.mass_g.has_value(), flights},
+      Option{"--from", !flight.from.empty(), flights},
+      Option{"--to", !flight.to.empty(), flights},
+      Option{"--pitch-offset-deg", flight.pitch_offset_deg.has_value(), flights},
+      Option{"--trim-log", !flight.trim_log.empty(), flights},
+      Option{"--air-density", flight.air_density_kg_m3.has_value(), flights},
+      Option{"--pressure-hPa", flight.pressure_hPa.has_value(), flights},
+      Option{"--temperature-C", flight.temperature_C.has_value(), flights},
+  };
+  std::vector<InputProblem> problems;
+  for (const Option& option : table) {
+    if (option.given && option.kinds.find(options.kind) == std::string_view::npos) {
+      problems.push_back({std::string(option.name), "is an option of the figures " +
+                                                        std::string(option.kinds) + ", not of " +
+                                                        options.kind});
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 /// Columns of the terminal: COLUMNS, what the terminal says, or 100 where there is none.
@@ -167,6 +217,7 @@ int run_plot(const PlotOptions& options) {
     throw InputError("plot " + options.kind, "is drawn from one file: plot " + options.kind + " " +
                                                  std::string(kind.input));
   }
+  check_options(options);
   if (!(options.width_mm >= 85 && options.width_mm <= 400)) {
     throw InputError("--width-mm", std::to_string(options.width_mm) +
                                        " is out of range; allowed is 85 to 400 mm");

@@ -15,6 +15,7 @@ struct PlotOptions {
   std::vector<std::string> files;  ///< the spec, logs or CSV that the kind is drawn from
   std::vector<std::string> overrides;
   std::string output;  ///< empty: characters on standard output
+  std::string title;   ///< above the figure; empty: the design's or the file's name
   double width_mm = 85;
   std::vector<std::string> motors;
   FlightOptions flight;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include "tethercalc/model/units.hpp"
@@ -34,7 +35,8 @@ std::vector<double> braking(const FlightRecord& record) {
   std::vector<double> out = product(record.forward_speed, in_degrees(record.tilt));
   for (std::size_t i = 0; i < out.size(); ++i) {
     // Signed like the motion, so that a force against it lies on a line.
-    out[i] = out[i] < 0 ? (record.forward_speed[i] > 0 ? -out[i] : out[i]) : 0.0;
+    const double against = record.forward_speed[i] > 0 ? -out[i] : out[i];
+    out[i] = out[i] < 0 ? against : std::numeric_limits<double>::quiet_NaN();
   }
   return out;
 }

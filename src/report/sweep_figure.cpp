@@ -327,8 +327,7 @@ Figure sweep_figure(const SweepTable& table, const SweepView& view) {
   }
   Figure figure;
   figure.id = "sweep";
-  const std::size_t slash = table.file.find_last_of('/');
-  figure.title = slash == std::string::npos ? table.file : table.file.substr(slash + 1);
+  figure.title = view.title.empty() ? table.file : view.title;
   figure.description = description_of(table, axes, cells);
   const bool curves = axes.y == nullptr || (axes.x->names.empty() && !axes.y->names.empty() &&
                                             axes.y->names.size() <= most_curves);

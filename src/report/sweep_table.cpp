@@ -167,11 +167,18 @@ std::string axis_label(std::string_view name) {
        {"_m", "m"},
        {"_g", "g"}}};
   std::string unit;
+  std::size_t unit_length = 0;
   for (const auto& [ending, words] : units) {
     if (!name.ends_with(ending)) continue;
-    unit = fmt::format(" ({})", words);
-    name.remove_suffix(ending.size());
+    unit = words;
+    unit_length = ending.size();
     break;
+  }
+  // The spec knows better: a discharge_C is no temperature.
+  if (const SpecField* field = find_field(name)) unit = field->unit;
+  if (!unit.empty()) {
+    name.remove_suffix(unit_length);
+    unit = fmt::format(" ({})", unit);
   }
   std::string out(name);
   std::replace_if(

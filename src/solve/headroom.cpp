@@ -120,7 +120,8 @@ CrossingGuess guess_crossing(const SteadyFlight& flight, const Sample& a, const 
   const double share = a.margin() / (a.margin() - b.margin());
   const double radius = a.radius + (x > 0 && x < width ? x : width * share);
   const double needed_slope = per_mass * flight.mass_slope(radius) / (2 * per_square * radius);
-  return {radius, needed_slope < 1 ? needed_slope : 0};  // 1 and more only where there are two edges
+  return {radius,
+          needed_slope < 1 ? needed_slope : 0};  // 1 and more only where there are two edges
 }
 
 /// The radius between two samples of opposite margin, on a smooth piece, at which the margin

@@ -64,17 +64,6 @@ bool is_xml(const std::string& file) {
              .exit_code == 0;
 }
 
-std::size_t widest_line(const std::string& text) {
-  std::size_t widest = 0;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    widest = std::max(widest, std::size_t(std::count_if(line.begin(), line.end(), [](char c) {
-                        return (c & 0xC0) != 0x80;
-                      })));
-  }
-  return widest;
-}
-
 }  // namespace
 
 TEST_CASE("every kind is drawn in every format") {
@@ -186,6 +175,28 @@ TEST_CASE("an unknown kind, suffix or motor is refused with the nearest known") 
   CHECK_THAT(motor.err, Contains("holybro-air2216-920kv-10in"));
   CHECK(run_tethercalc({"plot", "optimum", published, published}).exit_code == 2);
   CHECK(run_tethercalc({"plot", "diagnosis", published}).exit_code == 2);
+}
+
+TEST_CASE("options of other figures are refused, all at once") {
+  const Ran run = run_tethercalc({"plot", "optimum", published, "--x", "supply.voltage_V",
+                                  "--mass-g", "1", "--view", "speed"});
+  CHECK(run.exit_code == 2);
+  for (const char* words : {"--x: is an option of the figures sweep, not of optimum",
+                            "--mass-g: is an option of", "--view: is an option of"}) {
+    CHECK_THAT(run.err, Contains(words));
+  }
+}
+
+TEST_CASE("a heading can be given") {
+  const Ran run =
+      run_tethercalc({"plot", "optimum", published, "--title", "Ours", "--output", "/dev/stdout"});
+  CHECK(run.exit_code == 2);  // no suffix, no format
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "a.gp").string();
+  CHECK(run_tethercalc({"plot", "optimum", published, "--title", "It's ours", "--output", file})
+            .exit_code == 0);
+  CHECK_THAT(file_text(file), Contains("'It'.\"'\".'s ours'"));
+  CHECK(file_text(file).find("Holybro X500") == std::string::npos);
 }
 
 TEST_CASE("a log that is too short to judge has no diagnosis to draw, and says so") {

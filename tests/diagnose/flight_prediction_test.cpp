@@ -28,10 +28,8 @@ FlightRecord swinging_flight() {
   return flight_record(o, 1.6, 1.25, standard_gravity);
 }
 
-constexpr FlightBase base{.front_area = 0.015,
-                          .top_area = 0.012,
-                          .vertical_acceleration_gain = 1,
-                          .turn_gain = 0};
+constexpr FlightBase base{
+    .front_area = 0.015, .top_area = 0.012, .vertical_acceleration_gain = 1, .turn_gain = 0};
 
 std::vector<double> predicted(const FlightRecord& record, const Effect* effect,
                               const std::vector<double>& values) {

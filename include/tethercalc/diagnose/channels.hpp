@@ -12,8 +12,8 @@ namespace tethercalc {
 
 /// The channel of a flight that `id`, as in `Effect::channel`, names, one value a sample:
 /// "forward_speed", "tilt", "tilt_rate", "yaw", "time", "braking" (forward speed times tilt while
-/// they oppose, else 0) or "sinking" (forward speed times down speed). Throws std::invalid_argument
-/// for any other.
+/// they oppose, else NaN) or "sinking" (forward speed times down speed). Throws
+/// std::invalid_argument for any other.
 [[nodiscard]] Channel flight_channel(const std::string& id, const FlightRecord& record);
 
 /// The same of a power log: "supply_current", "current_height" (their product), "bus_power",

@@ -42,8 +42,9 @@ struct SweepTable {
 
 /// Which fields stand along the axes; empty, they are chosen: the first numbers that vary.
 struct SweepView {
-  std::string x;  ///< dot path
-  std::string y;  ///< dot path
+  std::string x;        ///< dot path
+  std::string y;        ///< dot path
+  std::string title{};  ///< of the figure; empty: the file's name
 };
 
 /// The value over two fields as a heat map, over one as a curve, or over one with a curve for each
