@@ -77,8 +77,9 @@ std::string run_gnuplot(const std::string& script) {
   if (error != 0) {
     throw InputError("gnuplot", "draws the figures and cannot be started (" +
                                     std::generic_category().message(error) +
-                                    "); install the Debian package gnuplot-nox, or write the "
-                                    "script for it with --output FILE.gp");
+                                    "); install the Debian package gnuplot-nox, or let "
+                                    "tethercalc plot write the script for it with --output "
+                                    "FILE.gp");
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {

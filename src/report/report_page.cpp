@@ -128,7 +128,9 @@ TitledTable defaults_table(const DesignFile& file) {
     const bool has_default = !field.required() && field.default_json != "null";
     if (!has_default || field.kind == FieldKind::text) continue;
     if (file.document.contains(ordered_json::json_pointer(std::string(field.pointer)))) continue;
-    table.add({dot_path(field.pointer), fmt::format("{} {}", field.default_json, field.unit),
+    const char* space = field.unit.empty() ? "" : " ";
+    table.add({dot_path(field.pointer),
+               fmt::format("{}{}{}", field.default_json, space, field.unit),
                std::string(field.help)});
   }
   return {"Fields that the spec leaves to their defaults", std::move(table)};

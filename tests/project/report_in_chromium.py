@@ -177,6 +177,10 @@ def check_page(browser, page, sections):
         expect(f"{where}: console", complaints, [])
         expect(f"{where}: low contrast", browser.value(LOW_CONTRAST), [])
         expect(f"{where}: overflow", browser.value(OVERFLOWING), [])
+        if width == DESKTOP:
+            expect(f"{where}: tables that need scrolling", browser.value(
+                "[...document.querySelectorAll('div.scroll')].filter(e => e.scrollWidth >"
+                " e.clientWidth).map(e => e.textContent.slice(0, 30))"), [])
         if width != SMALLEST:
             picture = page.with_name(f"{page.stem}-{width}-{scheme}.png")
             browser.screenshot(picture)
