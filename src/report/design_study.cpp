@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/closest_name.hpp"
+#include "solve/cable_limits.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/csv_cell.hpp"
@@ -231,7 +232,8 @@ class ProblemReader {
 
   /// A candidate without a cross-section flies the one of least power that meets the requirements.
   /// That is the best one only where this power is what is minimised, and where no demand of the
-  /// user depends on the cross-section; elsewhere it has to be searched like the free fields.
+  /// user depends on the cross-section; elsewhere it has to be searched like the free fields. Where
+  /// heat and the like are demands it would do, but finding it takes a thousand evaluations.
   void free_cross_section_where_needed() {
     const SpecField& area = *find_field("tether.cross_section_mm2");
     const auto is_area = [&](const FreeField& f) { return f.field == &area; };
@@ -248,7 +250,11 @@ class ProblemReader {
         request_.subject_to.begin(), request_.subject_to.end(), [](const std::string& limit) {
           return find_field(limit.substr(0, limit.find_first_of("<>"))) != nullptr;
         });
-    if (least_power && only_fields && request_.pareto.empty()) return;
+    Design some = file_.design;
+    for (const FreeRange& free : problem.ranges) free.set(some, free.range.lo);
+    for (const FreeChoice& choice : problem.choices) choice.alternatives.front().apply(some);
+    const bool quickly_found = !has_cable_limits(some);
+    if (least_power && only_fields && request_.pareto.empty() && quickly_found) return;
     // From below AWG 36 to what no drone lifts.
     problem.ranges.push_back({dot_path(area.pointer), {0.01, 100}, [&area](Design& d, double x) {
                                 set_field(d, area, x);
@@ -495,12 +501,14 @@ class Prices {
            const std::string& subject, Change change) {
     const double least = answer_.minimum.value;
     const double change_of_least = least_after(change) - least;
-    if (!std::isfinite(change_of_least)) return;
     const bool active = !binding_words.empty();
     ShadowPrice price{name, active, change_of_least, step, {}};
     // What two searches may differ by.
     constexpr double noise = 1e-9;
-    if (std::abs(change_of_least) <= noise * std::abs(least)) {
+    if (!std::isfinite(change_of_least)) {
+      price.sentence = fmt::format("{}{}{} would leave no design that meets every demand.",
+                                   binding_words, active ? ": " : "", subject);
+    } else if (std::abs(change_of_least) <= noise * std::abs(least)) {
       if (!active) return;
       price.price = 0;
       price.sentence =
@@ -603,9 +611,8 @@ std::string confidence_text(const DesignStudy& study) {
   if (!study.answer.feasible) {
     return text + " None of them meets every demand; the search then went for the least violation.";
   }
-  return text + fmt::format(" {} of {} local searches{} end at the same optimum{}.",
-                            minimum.agreeing, minimum.starts,
-                            all > 1 ? " in the best combination" : "",
+  return text + fmt::format(" {} of {} searches{} lead to the same optimum{}.", minimum.agreeing,
+                            minimum.starts, all > 1 ? " in the best combination" : "",
                             minimum.agreeing >= 2 ? "" : ": there may be a better one elsewhere");
 }
 
@@ -734,7 +741,7 @@ ordered_json design_json(const DesignStudy& study) {
     prices.push_back({{"name", price.name},
                       {"active", price.active},
                       {"step", price.step},
-                      {"change", price.price},
+                      {"change", number_or_null(price.price)},
                       {"sentence", price.sentence}});
   }
   ordered_json front = ordered_json::array();

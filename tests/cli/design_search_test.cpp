@@ -203,6 +203,50 @@ TEST_CASE("behind a fixed ratio the motors' voltage is told, and what cannot be 
   CHECK_THAT(massless.err, Contains("give rated_output_W"));
 }
 
+TEST_CASE("systems that exist are feasible, and take about the power that their makers state") {
+  // docs/design.md tells what is published, and what had to be supposed: eight motors, ETFE walls,
+  // an aramid member, heat and sun.
+  const auto with = [](const std::string& command, const std::vector<std::string>& fields) {
+    std::vector<std::string> arguments{command, published, "--format", "json"};
+    for (const std::string& field : fields) arguments.insert(arguments.end(), {"--set", field});
+    return json::parse(run_tethercalc(arguments).out);
+  };
+  const auto large = [&](const std::string& command, std::vector<std::string> fields) {
+    for (const char* supposed :
+         {"drone.motor_count=8", "drone.motor=iflight-4214-400kv-14in", "tether.conductor=copper",
+          "tether.insulation.material=etfe", "tether.insulation.thickness_mm=0.3",
+          "tether.strength_member.material=aramid", "tether.strength_member.cross_section_mm2=0.4",
+          "tether.ambient_temperature_C=40", "tether.sun_W_m2=1000"}) {
+      fields.emplace_back(supposed);
+    }
+    return with(command, fields);
+  };
+  // XM2 EON800: 800 V, 80 m, 2979 W at the airborne unit's output.
+  const json eon = large("optimize", {"drone.mass_g=16500", "supply.voltage_V=800",
+                                      "tether.length_m=80", "requirements.thrust_headroom=1"});
+  CHECK(eon["status"] == "optimal");
+  CHECK(eon["optimum"]["hover"]["total_power_W"].get<double>() == Approx(2979).epsilon(0.1));
+  // Elistair Safe-T 2: below 400 V, 100 m, 2200 W.
+  const json safe_t = large("optimize", {"drone.mass_g=11500", "supply.voltage_V=400",
+                                         "tether.length_m=100", "requirements.thrust_headroom=1"});
+  CHECK(safe_t["status"] == "optimal");
+  CHECK(safe_t["optimum"]["hover"]["total_power_W"].get<double>() == Approx(2200).epsilon(0.1));
+  // Elistair Orion 2.2 TE: 4 kg at 70 m, 5 kg at 50 m.
+  for (const auto& [height, payload] : {std::pair{"70", 4000.0}, std::pair{"50", 5000.0}}) {
+    const json orion =
+        large("envelope", {"drone.mass_g=9000", "supply.voltage_V=400",
+                           std::string("tether.length_m=") + height,
+                           "tether.cross_section_mm2=0.326", "requirements.thrust_headroom=1.2"});
+    CHECK(orion["greatest"]["payload_g"]["value"].get<double>() > payload);
+  }
+  // ArduPilot's tether of 2017: 24 V, 12.2 m of AWG 14, a buffer battery.
+  const json maker = with(
+      "envelope", {"supply.voltage_V=24", "tether.conductor=copper",
+                   "tether.cross_section_mm2=2.08", "tether.length_m=12.2",
+                   "supply.converter.min_input_voltage_V=12", "requirements.buffer_battery=true"});
+  CHECK(maker["greatest"]["height_m"]["value"].get<double>() > 12.2);
+}
+
 TEST_CASE("a mistyped study is refused with everything that is wrong") {
   const Ran run = design({"--free", "supply.volt=20..25", "--minimize", "total_powr_W",
                           "--subject-to", "x<3", "--standard", "bwg"});

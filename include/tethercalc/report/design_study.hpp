@@ -26,7 +26,7 @@ struct DesignRequest {
 struct ShadowPrice {
   std::string name;      ///< "supply.voltage_V <= 60", "tether.length_m"
   bool active = false;   ///< a demand or range that binds; otherwise a field of the spec
-  double price = 0;      ///< change of the objective
+  double price = 0;      ///< change of the objective; NaN where no design is left
   double step = 1;       ///< for this change of it, in its unit
   std::string sentence;  ///< the same in words
 };
