@@ -161,7 +161,7 @@ class Search {
   std::vector<std::size_t> unnamed_;
   std::set<std::size_t> aliased_;
   std::vector<std::size_t> too_small_;  ///< certain beside the selected, but not worth a name
-  std::set<std::size_t> rejected_;  ///< taken back once; never tried again, so the search ends
+  std::set<std::size_t> rejected_;      ///< taken back once; never tried again, so the search ends
   BlockFit current_;
 };
 
@@ -306,8 +306,8 @@ std::optional<Search::Trial> Search::best_step() const {
     const std::size_t count = group(trial.group).parameters.size();
     const std::size_t chosen_count = group(chosen->group).parameters.size();
     const bool simpler =
-        count < chosen_count || (count == chosen_count && trial.fit.squared_error() <
-                                                              chosen->fit.squared_error());
+        count < chosen_count ||
+        (count == chosen_count && trial.fit.squared_error() < chosen->fit.squared_error());
     if (simpler && excess.sum <= excess.se) chosen = &trial;
   }
   return *chosen;
@@ -552,11 +552,13 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
   }
   result.extended = model_fit(before);
   for (const std::size_t g : too_small_) {
-    const BlockFit with = named.fit([&] {
-      std::vector<std::size_t> more = selected_;
-      more.push_back(g);
-      return more;
-    }(), &before);
+    const BlockFit with = named.fit(
+        [&] {
+          std::vector<std::size_t> more = selected_;
+          more.push_back(g);
+          return more;
+        }(),
+        &before);
     result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
   }
   const double share = 1 - current_.squared_error() / before.squared_error();
