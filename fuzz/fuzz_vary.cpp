@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <exception>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
