@@ -1,6 +1,6 @@
 // Flies simulated drones with every effect of a flight hidden in turn and prints what the diagnosis
 // says: a confusion matrix in Markdown, with the coverage of the intervals and the false alarms.
-// Usage: confusion_matrix_flight [flights a row, 20] [real|quiet]
+// Usage: confusion_matrix_flight [flights a row, 20] [condition, real]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -45,7 +45,50 @@ std::vector<Row> rows() {
           {"drag with height", &HiddenFlight::height_drag, 0.02, 0.06, true, "height_m"}};
 }
 
-HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, bool quiet) {
+/// What makes a flight other than the default.
+struct FlightCondition {
+  const char* name;
+  void (*set)(HiddenFlight&);
+};
+
+std::vector<FlightCondition> conditions() {
+  using truth::Pattern;
+  return {{"real", [](HiddenFlight&) {}},
+          {"quiet",
+           [](HiddenFlight& h) {
+             h.gust_std = 0.05;
+             h.gust_time = 2;
+             h.speed_noise = 0.008;
+             h.angle_noise = 0.23;
+           }},
+          {"5Hz", [](HiddenFlight& h) { h.steps_per_sample = 20; }},
+          {"25Hz", [](HiddenFlight& h) { h.steps_per_sample = 4, h.duration = 300; }},
+          {"50Hz", [](HiddenFlight& h) { h.steps_per_sample = 2, h.duration = 200; }},
+          {"half_noise",
+           [](HiddenFlight& h) { h.gust_std /= 2, h.speed_noise /= 2, h.angle_noise /= 2; }},
+          {"double_noise",
+           [](HiddenFlight& h) { h.gust_std *= 2, h.speed_noise *= 2, h.angle_noise *= 2; }},
+          {"lag_0.7", [](HiddenFlight& h) { h.gust_time = 0.28; }},
+          {"lag_0.95", [](HiddenFlight& h) { h.gust_time = 2; }},
+          {"120s", [](HiddenFlight& h) { h.duration = 120; }},
+          {"200s", [](HiddenFlight& h) { h.duration = 200; }},
+          {"900s", [](HiddenFlight& h) { h.duration = 900; }},
+          {"hover_first", [](HiddenFlight& h) { h.pattern = Pattern::hover_first; }},
+          {"long_forward", [](HiddenFlight& h) { h.pattern = Pattern::long_forward; }},
+          {"circles", [](HiddenFlight& h) { h.pattern = Pattern::circles; }},
+          {"slipping_circles",
+           [](HiddenFlight& h) { h.pattern = Pattern::circles, h.lateral_std = 1.5; }},
+          {"turns", [](HiddenFlight& h) { h.yaw_turns = true; }},
+          {"gusts_with_speed", [](HiddenFlight& h) { h.gust_std = 0.1, h.gust_with_speed = 0.15; }},
+          {"pitch_drift", [](HiddenFlight& h) { h.pitch_drift = 0.3; }},
+          {"speed_0.01", [](HiddenFlight& h) { h.speed_digit = 0.01; }},
+          {"speed_0.1", [](HiddenFlight& h) { h.speed_digit = 0.1; }},
+          {"gentle", [](HiddenFlight& h) { h.steepest_pitch = 15; }},
+          {"climbs", [](HiddenFlight& h) { h.climb = 20; }},
+          {"rolling", [](HiddenFlight& h) { h.roll_std = 5; }}};
+}
+
+HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, const FlightCondition& condition) {
   std::mt19937_64 random(seed);
   const auto uniform = [&random](double from, double to) {
     return std::uniform_real_distribution<double>(from, to)(random);
@@ -57,18 +100,13 @@ HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, bool quiet) {
   hidden.top_area = uniform(0.012, 0.022);
   hidden.linear = uniform(12, 20);
   hidden.wind = uniform(-1.8, 1.8);
-  if (quiet) {
-    hidden.gust_std = 0.05;
-    hidden.gust_time = 2;
-    hidden.speed_noise = 0.008;
-    hidden.angle_noise = 0.23;
-  }
+  condition.set(hidden);
   if (row.field == nullptr) return hidden;
   const double sign = row.either_sign && uniform(0, 1) < 0.5 ? -1 : 1;
   hidden.*(row.field) = sign * uniform(row.weakest, row.strongest);
-  if (row.channel == "roll_deg") hidden.roll_std = 3.5;
+  if (row.channel == "roll_deg") hidden.roll_std = std::max(hidden.roll_std, 3.5);
   if (row.hidden == "turning_wind") {
-    hidden.yaw_turns = true;
+    hidden.yaw_turns = hidden.pattern != truth::Pattern::circles;
     hidden.wind = 0;
     hidden.wind_east = uniform(-2, 2);
   }
@@ -135,7 +173,16 @@ void count(Tally& tally, const Row& row, const HiddenFlight& hidden, const Fligh
 
 int main(int argc, char** argv) {
   const int flights = argc > 1 ? std::atoi(argv[1]) : 20;
-  const bool quiet = argc > 2 && std::string(argv[2]) == "quiet";
+  const std::vector<FlightCondition> known = conditions();
+  const std::string wanted = argc > 2 ? argv[2] : known.front().name;
+  const auto condition = std::find_if(
+      known.begin(), known.end(), [&wanted](const FlightCondition& c) { return wanted == c.name; });
+  if (flights < 1 || condition == known.end()) {
+    fmt::print(stderr, "usage: confusion_matrix_flight [FLIGHTS] [CONDITION], one of");
+    for (const FlightCondition& c : known) fmt::print(stderr, " {}", c.name);
+    fmt::print(stderr, "\n");
+    return 2;
+  }
   std::vector<std::string> columns{"none"};
   for (const Effect& effect : effect_catalogue()) {
     if (effect.log == LogKind::flight && effect.id != "linear_drag" && effect.id != "wind") {
@@ -153,7 +200,7 @@ int main(int argc, char** argv) {
   for (const Row& row : rows()) {
     Tally tally;
     for (int k = 0; k < flights; ++k) {
-      const HiddenFlight hidden = drawn_flight(row, ++seed, quiet);
+      const HiddenFlight hidden = drawn_flight(row, ++seed, *condition);
       count(tally, row, hidden, truth::fly(hidden));
     }
     std::string line = "| " + row.hidden;
