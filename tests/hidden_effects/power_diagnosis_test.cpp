@@ -205,18 +205,27 @@ TEST_CASE("what no power effect describes is seen, with its channel, and not giv
 }
 
 TEST_CASE("at one height contacts, drum and resistivity are declared indistinguishable") {
-  Scenario scenario;
-  scenario.profile = Profile::one_height;
-  scenario.hidden.contact_resistance = 0.3;
-  scenario.seed = seed(400'000);
-  const Diagnosis d = diagnosis_of(scenario);
-  INFO(summary(d));
-  REQUIRE(d.findings.size() == 1);
-  for (const char* id : {"contact_resistance", "conductor_resistivity"}) {
-    CHECK(names(d.findings.front(), id));
+  // A rival is left out where the log speaks against it with less than 5 % of the likelihood, so
+  // about one log in ten names but two of the three: of 20, 14 is 2.5 standard deviations below.
+  int declared = 0;
+  std::string failures;
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    Scenario scenario;
+    scenario.profile = Profile::one_height;
+    scenario.hidden.contact_resistance = 0.3;
+    scenario.seed = seed(400'000 + i);
+    const Diagnosis d = diagnosis_of(scenario);
+    INFO(summary(d));
+    REQUIRE(d.findings.size() == 1);
+    const Finding& first = d.findings.front();
+    CHECK(first.indistinguishable_from.size() <= 2);
+    CHECK_THAT(first.to_separate, Catch::Contains("height"));
+    const bool all = names(first, "contact_resistance") && names(first, "conductor_resistivity");
+    declared += all;
+    if (!all) failures += summary(d) + "\n";
   }
-  CHECK(d.findings.front().indistinguishable_from.size() <= 2);
-  CHECK_THAT(d.findings.front().to_separate, Catch::Contains("height"));
+  INFO(failures);
+  CHECK(declared >= 14);
 }
 
 TEST_CASE("without the drone's voltage what needs it is not testable, the motors still are") {
