@@ -109,7 +109,7 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
   for (const auto& [name, values] :
        {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
     if (std::all_of(values->begin(), values->end(),
-                    [values](double x) { return x == values->front(); })) {
+                    [first = values->front()](double x) { return x == first; })) {
       notes.push_back(fmt::format("{} never changes in this log: taken as it is", name));
     }
   }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "hidden_effects/simulated_flight.hpp"
+#include "support/random.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;
@@ -102,9 +103,9 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
 TEST_CASE("nothing hidden, nothing found") {
   int alarms = 0;
   int structure = 0;
-  constexpr int flights = 200;
-  for (std::uint64_t seed = 0; seed < flights; ++seed) {
-    const Diagnosis d = diagnosed(drawn_flight(2000 + seed));
+  constexpr int flights = test::draws(200);
+  for (int i = 0; i < flights; ++i) {
+    const Diagnosis d = diagnosed(drawn_flight(2000 + static_cast<std::uint64_t>(i)));
     alarms += d.findings.empty() ? 0 : 1;
     structure += d.unexplained.detected ? 1 : 0;
   }
