@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "support/random.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
@@ -126,7 +127,7 @@ bool reader_accepts(const Json& spec) {
 }  // namespace
 
 TEST_CASE("schema and reader agree on mutated specs") {
-  std::mt19937 random(std::random_device{}());
+  std::mt19937 random(test::run_seed());
   Json specs = Json::array({full_spec(), Json::parse(starting_spec())});
   std::string reader_verdicts = "11";
   CHECK(reader_accepts(specs[0]));

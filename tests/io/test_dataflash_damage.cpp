@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/dataflash_writer.hpp"
+#include "support/random.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -111,7 +112,7 @@ std::size_t lost_though_defined(const std::vector<Message>& before,
          after.size();
 }
 
-std::uint64_t new_seed() { return std::random_device{}(); }
+std::uint64_t new_seed() { return test::run_seed(); }
 
 void check_accounted_for(const Bytes& log) {
   const DataFlashContents contents = scan_dataflash(log);

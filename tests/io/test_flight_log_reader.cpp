@@ -7,6 +7,7 @@
 
 #include "io/longest_increasing.hpp"
 #include "support/dataflash_writer.hpp"
+#include "support/random.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"
@@ -83,7 +84,7 @@ TEST_CASE("a log without an estimator, and bytes that are no log, are refused") 
 }
 
 TEST_CASE("yaw turns on through north, both ways, and stays the same direction") {
-  std::mt19937_64 random(std::random_device{}());
+  std::mt19937_64 random(test::run_seed());
   std::uniform_real_distribution<double> step(-170, 170);
   DataFlashWriter log;
   test::define_xkf1(log);
@@ -130,7 +131,7 @@ TEST_CASE("samples with values that no flight can have are left out, and counted
 }
 
 TEST_CASE("the longest increasing choice is as long as the best of all choices") {
-  std::mt19937_64 random(std::random_device{}());
+  std::mt19937_64 random(test::run_seed());
   for (int round = 0; round < 500; ++round) {
     std::vector<double> values(std::uniform_int_distribution<std::size_t>(0, 10)(random));
     for (double& value : values) value = std::uniform_int_distribution<int>(0, 12)(random);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "support/random.hpp"
 #include "tethercalc/model/motor_bench.hpp"
 
 using namespace tethercalc;
@@ -60,7 +61,7 @@ TEST_CASE("a falling pair becomes one point at its mean, and so does a pair of e
 }
 
 TEST_CASE("pooling is the isotonic regression, checked by the min-max formula") {
-  std::mt19937 random(std::random_device{}());
+  std::mt19937 random(test::run_seed());
   std::uniform_real_distribution<double> noise(-30, 30);
   for (int run = 0; run < 50; ++run) {
     std::vector<MotorPoint> points;
