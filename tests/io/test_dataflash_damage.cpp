@@ -129,20 +129,31 @@ void check_accounted_for(const Bytes& log) {
 /// Inserts or removes stretches of at most 10 bytes, `times` of them, far from each other behind
 /// `from`. They are shorter than any message: where as many bytes are lost as a message has, one's
 /// beginning can be joined to another's end, and no framing tells. Nor are they right at a type
-/// number: where a payload byte takes its place, about one time in ten thousand it fits.
+/// number: where a payload byte takes its place, about one time in ten thousand it fits. Nor in a
+/// message that real logs follow by a few stray bytes: these can stand in for those removed.
 Bytes with_shifts(const Bytes& intact, const std::vector<Message>& messages, std::size_t from,
                   std::size_t times, bool insert, Random& random) {
   std::size_t longest = 10;
   std::set<std::size_t> type_numbers;
-  for (const Message& message : messages) {
+  std::map<std::size_t, std::size_t> next_of_followed_by_stray;
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    const Message& message = messages[i];
     longest = std::min(longest, message.bytes.size() - 1);
     type_numbers.insert(message.offset + 2);
+    const std::size_t next = i + 1 < messages.size() ? messages[i + 1].offset : intact.size();
+    if (message.offset + message.bytes.size() != next) {
+      next_of_followed_by_stray[message.offset] = next;
+    }
   }
   Bytes damaged = intact;
   const std::size_t part = (intact.size() - from) / times;
   REQUIRE(part > 1000);
   for (std::size_t i = times; i-- > 0;) {  // from the end, so that the positions before it stay
     std::size_t place = from + i * part + below(random, part - 600);
+    const auto stray = next_of_followed_by_stray.upper_bound(place);
+    if (stray != next_of_followed_by_stray.begin()) {
+      place = std::max(place, std::prev(stray)->second);
+    }
     if (type_numbers.count(place) != 0) ++place;
     const auto at = static_cast<std::ptrdiff_t>(place);
     const std::size_t size = 1 + below(random, longest);
