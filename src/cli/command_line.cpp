@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "cli/check_command.hpp"
 #include "cli/design_commands.hpp"
@@ -72,11 +73,12 @@ void add_flight(CLI::App& command, FlightOptions& flight) {
       ->check(CLI::Range(0, 255));
 }
 
-void add_base(CLI::App& command, std::vector<std::string>& base) {
-  command.add_option("--base", base, "Effects taken as part of the base model, EFFECT[,EFFECT...]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+void add_comma_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                    const std::string& help) {
+  command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
 }
+
+constexpr const char* base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]";
 
 std::vector<double> parse_areas(const std::vector<std::string>& texts) {
   std::vector<double> areas;
@@ -122,7 +124,7 @@ class CommandLine {
 
   int run(int argc, const char* const* argv) {
     check_command(argc, argv);
-    command_ = shell_command(argc, argv);
+    arguments_ = {argv, argv + argc};
     try {
       app_.parse(argc, argv);
     } catch (const CLI::Success& help) {
@@ -159,9 +161,7 @@ class CommandLine {
           return run_evaluate({spec_, parse_areas(areas_)}, output_);
         });
     add_spec(command, spec_);
-    command.add_option("--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_comma_list(command, "--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]");
     add_output(command, output_);
   }
 
@@ -170,11 +170,8 @@ class CommandLine {
       return run_compare({spec_, motors_}, output_);
     });
     add_spec(command, spec_);
-    command
-        .add_option("--motors", motors_,
-                    "all, or names of the library and files, separated by commas (default: all)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_comma_list(command, "--motors", motors_,
+                   "all, or names of the library and files, separated by commas (default: all)");
     add_output(command, output_);
   }
 
@@ -225,9 +222,7 @@ class CommandLine {
         ->allow_extra_args(false);
     command.add_option("--standard", request_.standard,
                        "awg or iec: the cross-section is one of these sizes");
-    command.add_option("--pareto", request_.pareto, "KEY,KEY: the front of two quantities")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_comma_list(command, "--pareto", request_.pareto, "KEY,KEY: the front of two quantities");
     command.add_option("--seed", request_.seed, "Of the points from which the search starts");
     add_output(command, output_);
   }
@@ -295,7 +290,7 @@ class CommandLine {
     add_spec(command, spec_);
     command.add_option("--flight", diagnose_.flight_log, "Flight log: DataFlash (.bin) or CSV");
     command.add_option("--power", diagnose_.power_log, "Power log (CSV)");
-    add_base(command, diagnose_.base);
+    add_comma_list(command, "--base", diagnose_.base, base_help);
     add_flight(command, diagnose_.flight);
     diagnose_into_ = command
                          .add_option("--into", diagnose_.into_file,
@@ -328,11 +323,8 @@ class CommandLine {
                        "Words above the figure (default: the design's or the file's name)");
     command.add_option("--width-mm", plot_.width_mm,
                        "Width of the figure, 85 to 400 (default: 85, one column of a journal)");
-    command
-        .add_option("--motors", plot_.motors,
-                    "motors: all, or names of the library and files, separated by commas")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_comma_list(command, "--motors", plot_.motors,
+                   "motors: all, or names of the library and files, separated by commas");
     command.add_option("--view", plot_.view,
                        "drag: speed (default), or surface over airspeed and tilt");
     command.add_option("--x", plot_.x, "sweep: the varied field along the horizontal axis");
@@ -341,9 +333,8 @@ class CommandLine {
                        "sweep: the column shown (default: forward.total_power_W)");
     command.add_option("--flight", plot_.flight_log, "diagnosis: the flight log");
     command.add_option("--power", plot_.power_log, "diagnosis: the power log");
-    command.add_option("--base", plot_.base, "diagnosis: effects taken as part of the base model")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_comma_list(command, "--base", plot_.base,
+                   "diagnosis: effects taken as part of the base model");
     add_flight(command, plot_.flight);
   }
 
@@ -351,13 +342,13 @@ class CommandLine {
     CLI::App& command =
         add("report", "One page with everything about a design, to be mailed or printed", [this] {
           diagnose_.spec = spec_;
-          return run_report(diagnose_, command_, output_);
+          return run_report(diagnose_, shell_command(arguments_), output_);
         });
     add_spec(command, spec_);
     command.add_option("--flight", diagnose_.flight_log,
                        "With what this flight log says: DataFlash (.bin) or CSV");
     command.add_option("--power", diagnose_.power_log, "With what this power log says (CSV)");
-    add_base(command, diagnose_.base);
+    add_comma_list(command, "--base", diagnose_.base, base_help);
     add_flight(command, diagnose_.flight);
     command.add_option("--output", output_.file, "Write to this file, whole or not at all");
   }
@@ -411,7 +402,7 @@ class CommandLine {
   DragOptions drag_;
   DiagnoseOptions diagnose_;
   CLI::Option* diagnose_into_ = nullptr;
-  std::string command_;  ///< what was typed
+  std::span<const char* const> arguments_;  ///< what was typed, the program's name first
   std::string message_;
   PlotOptions plot_;
 };

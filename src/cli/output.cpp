@@ -1,6 +1,7 @@
 #include "cli/output.hpp"
 
 #include <unistd.h>
+#include <filesystem>
 
 #include <cerrno>
 #include <cstdio>
@@ -20,6 +21,10 @@ TextStyle style_for(const Output& output) {
   const bool wanted = no_color == nullptr || *no_color == '\0';
   const bool able = terminal != nullptr && std::string_view(terminal) != "dumb";
   return {output.file.empty() && wanted && able && ::isatty(STDOUT_FILENO) == 1};
+}
+
+std::string base_name(const std::string& file) {
+  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
 void emit(const Output& output, const std::string& text) {

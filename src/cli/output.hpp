@@ -22,6 +22,10 @@ enum ExitCode : int { done = 0, answer_is_no = 1, bad_input = 2, internal_error 
 /// not set (no-color.org).
 [[nodiscard]] TextStyle style_for(const Output& output);
 
+/// How figures and pages name a file that they are made of: without folders, which say nothing to
+/// others.
+[[nodiscard]] std::string base_name(const std::string& file);
+
 /// Writes the answer, to the file whole or not at all. Throws InputError where it cannot.
 void emit(const Output& output, const std::string& text);
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <filesystem>
 #include <string_view>
 
 #include "cli/diagnose_command.hpp"
@@ -42,11 +41,6 @@ Figure motors(const PlotOptions& options) {
   return motors_figure(
       file,
       compare_motors(file.design, chosen_motors(options.motors.empty() ? all : options.motors)));
-}
-
-/// A log is told by its name, a spec by its own; folders say nothing in a picture.
-std::string base_name(const std::string& file) {
-  return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
 Figure log(const PlotOptions& options) {

@@ -1,6 +1,5 @@
 #include "cli/report_command.hpp"
 
-#include <filesystem>
 #include <string_view>
 #include <utility>
 
@@ -12,20 +11,15 @@
 namespace tethercalc::cli {
 namespace {
 
-/// A log is told by its name; folders say nothing on a page for others.
-std::string base_name(const std::string& file) {
-  return std::filesystem::path(file).filename().string();
-}
-
 /// The drag that the flight shows, mass and air as the spec has them where the options do not say.
-LearnedDrag learn_drag(const DiagnoseOptions& options, const Design& design) {
+DragFlights learn_drag(const DiagnoseOptions& options, const Design& design) {
   FlightOptions flight = options.flight;
   if (!flight.mass_g) flight.mass_g = design.drone.mass / unit::gram;
   if (!air_density(flight)) flight.air_density_kg_m3 = design.flight.air_density;
   const DragIdentificationOptions how = identification_options(flight);
   const std::vector<FlightLog> logs = read_flight_logs({options.flight_log}, flight.core);
   try {
-    return {identify_drag(logs, how), fit_drag_flights(base_name(options.flight_log), logs, how)};
+    return fit_drag_flights(base_name(options.flight_log), logs, how);
   } catch (const UnsuitableFlight& error) {
     throw InputError(options.flight_log, error.what());
   }
@@ -60,9 +54,9 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   return content.study.result.feasible ? done : answer_is_no;
 }
 
-std::string shell_command(int argc, const char* const* argv) {
+std::string shell_command(std::span<const char* const> arguments) {
   std::string out = "tethercalc";
-  for (int i = 1; i < argc; ++i) out += " " + shell_word(argv[i]);
+  for (const char* word : arguments.subspan(1)) out += " " + shell_word(word);
   return out;
 }
 

@@ -1,6 +1,7 @@
 // The command that makes one page of everything about a design.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "cli/diagnose_command.hpp"
@@ -13,7 +14,7 @@ namespace tethercalc::cli {
 /// for bad input.
 int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output);
 
-/// The command line as one may type it into a shell again.
-[[nodiscard]] std::string shell_command(int argc, const char* const* argv);
+/// The command line, given with the program's name, as one may type it into a shell again.
+[[nodiscard]] std::string shell_command(std::span<const char* const> arguments);
 
 }  // namespace tethercalc::cli

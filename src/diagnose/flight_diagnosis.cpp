@@ -11,6 +11,7 @@
 
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_structure.hpp"
+#include "diagnose/told_selection.hpp"
 #include "diagnose/unit_checks.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/channels.hpp"
@@ -282,7 +283,6 @@ class Report {
   [[nodiscard]] std::vector<NotIdentifiable> not_identifiable() const;
   [[nodiscard]] Unexplained unexplained() const;
   [[nodiscard]] std::vector<SpecChange> spec_changes() const;
-  [[nodiscard]] ErrorBudget budget() const;
   [[nodiscard]] double speed_rmse(const ModelFit& fit, double window) const;
   [[nodiscard]] double effective_samples() const;
   [[nodiscard]] std::vector<double> left_by(std::span<const double> values) const;
@@ -341,16 +341,8 @@ std::vector<ParameterEstimate> Report::parameters(const ModelFit& fit) const {
 
 Finding Report::finding(const SelectedGroup& selected) const {
   const Effect& effect = *groups_.effects[selected.group];
-  Finding f;
-  f.effect = effect.id;
-  f.title = effect.title;
-  f.mechanism = effect.mechanism;
-  f.stage = to_string(effect.stage);
+  Finding f = finding_of(effect, selected);
   append_group(selection_.complete, selected.group, f.parameters);
-  f.holdout_rmse_before = selected.rmse_before;
-  f.holdout_rmse_after = selected.rmse_after;
-  f.gain_percent = selected.gain_percent;
-  f.gain_se_percent = selected.gain_se_percent;
   for (const std::size_t g : selected.indistinguishable) {
     const Effect& rival = *groups_.effects[g];
     f.indistinguishable_from.push_back(rival.id);
@@ -410,20 +402,6 @@ std::vector<SpecChange> Report::spec_changes() const {
       if (!p.spec_field.empty()) out.push_back({p.spec_field, fit.values[first + k] / p.unit_SI});
     }
   }
-  return out;
-}
-
-ErrorBudget Report::budget() const {
-  ErrorBudget out;
-  const double all = selection_.base.holdout_rmse * selection_.base.holdout_rmse;
-  double left = 100;
-  for (const SelectedGroup& s : selection_.selected) {
-    const double share = 100 * (s.rmse_before * s.rmse_before - s.rmse_after * s.rmse_after) / all;
-    out.findings.push_back(share);
-    left -= share;
-  }
-  out.unexplained = left * selection_.unnamed.share_percent / 100;
-  out.noise = left - out.unexplained;
   return out;
 }
 
@@ -509,7 +487,7 @@ Diagnosis Report::write(const FlightDiagnosisOptions& options) const {
   d.unexplained = unexplained();
   d.extended = {selection_.extended.holdout_rmse, parameters(selection_.complete)};
   d.spec_changes = spec_changes();
-  d.budget = budget();
+  d.budget = error_budget(selection_);
   for (const Selection::TooSmall& small : selection_.too_small) {
     d.notes.push_back(fmt::format(
         "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "tethercalc/model/steady_flight.hpp"
+
 namespace tethercalc {
 namespace {
 
 /// Ω per metre of loop at the spec's conductor temperature with the conductor at `temperature_C`.
 double loop_ohm_per_metre(const Tether& tether, double temperature_C) {
-  Tether at_temperature = tether;
-  at_temperature.conductor_temperature_C = temperature_C;
-  return 2 * resistivity(at_temperature) / *tether.cross_section;
+  return 2 * resistivity(tether.conductor, temperature_C) / *tether.cross_section;
 }
 
 double settled_rise(const ConductorHeating& heating, double watts_per_metre, double airspeed) {
@@ -95,12 +95,7 @@ ConverterInput converter_input(const PowerModel& model, double output_power) {
 
 std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   const Drone& drone = model.design.drone;
-  const Flight& flight = model.design.flight;
-  Tether deployed = model.design.tether;
-  const double area = *deployed.cross_section;
-  deployed.length = 1;
-  const double tether_mass_per_metre = airborne_mass(deployed, area);
-  const double drag_area_per_metre = tether_drag_area(deployed, area);
+  const double radius = conductor_radius(*model.design.tether.cross_section);
   // What was flown was flown: the design's limit of the tilt is no physics. At 80° the thrust is
   // six times the weight, which no drone has that also lifts a tether.
   constexpr double tan_limit = 6;
@@ -108,23 +103,16 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   std::vector<double> power(log.time.size());
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
-    const double speed = log.airspeed[i];
-    const double weight = (drone.mass + tether_mass_per_metre * log.height[i]) * flight.gravity;
-    const double tether_drag =
-        0.5 * flight.air_density * drag_area_per_metre * log.height[i] * speed * speed;
-    tan_pitch =
-        equilibrium_tan_pitch({weight, area_force_factor(drone.drag, flight.air_density, speed),
-                               tether_drag, drone.drag.front_area, drone.drag.top_area},
-                              tan_limit, tan_pitch);
+    const SteadyFlight steady(model.design,
+                              flight_state_at(model.design, log.height[i], log.airspeed[i]));
+    tan_pitch = steady.tan_pitch(radius, tan_limit, tan_pitch);
     if (!std::isfinite(tan_pitch)) {
       power[i] = std::numeric_limits<double>::quiet_NaN();
       tan_pitch = 0;
       continue;
     }
-    const double thrust = weight * std::sqrt(1 + tan_pitch * tan_pitch) / drone.motor_count;
-    power[i] = drone.motor_count * drone.motor_power_factor *
-               translational_lift_factor(drone.translational_lift, speed) *
-               motor_curve_power(drone.motor, thrust);
+    power[i] = steady.output_power(
+        motor_curve_power(drone.motor, steady.necessary_thrust(radius, tan_pitch)));
   }
   return power;
 }

@@ -13,6 +13,7 @@
 #include "diagnose/power_effects.hpp"
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
+#include "diagnose/told_selection.hpp"
 #include "diagnose/unit_checks.hpp"
 #include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/diagnose/power_residuals.hpp"
@@ -405,20 +406,6 @@ std::vector<double> left_by(const PowerResiduals& residuals, std::size_t k,
   return left;
 }
 
-/// Parts of the base model's held-out squared error.
-ErrorBudget error_budget(const Selection& selection) {
-  const auto square = [](double x) { return x * x; };
-  const double whole = square(selection.base.holdout_rmse);
-  ErrorBudget budget;
-  for (const SelectedGroup& found : selection.selected) {
-    budget.findings.push_back(100 * (square(found.rmse_before) - square(found.rmse_after)) / whole);
-  }
-  const double complete = square(selection.complete.holdout_rmse);
-  budget.unexplained = 100 * (square(selection.extended.holdout_rmse) - complete) / whole;
-  budget.noise = 100 * complete / whole;
-  return budget;
-}
-
 FlownRange flown_range(const PowerLog& log, const Design& design) {
   FlownRange range;
   range.airspeed = airspeed(design, design.requirements.power_at);
@@ -513,17 +500,9 @@ void tell_base(const Searched& searched, Diagnosis& diagnosis) {
 
 Finding finding_of(const SelectedGroup& found, const Searched& searched) {
   const Effect& effect = *searched.effects[found.group];
-  Finding finding;
-  finding.effect = effect.id;
-  finding.title = effect.title;
-  finding.mechanism = effect.mechanism;
-  finding.stage = to_string(effect.stage);
+  Finding finding = finding_of(effect, found);
   finding.parameters = estimates(effect, searched.view.first_parameter(found.group),
                                  searched.selection.complete, searched.selection.student_factor);
-  finding.holdout_rmse_before = found.rmse_before;
-  finding.holdout_rmse_after = found.rmse_after;
-  finding.gain_percent = found.gain_percent;
-  finding.gain_se_percent = found.gain_se_percent;
   for (const std::size_t g : found.indistinguishable) {
     finding.indistinguishable_from.push_back(searched.effects[g]->id);
   }

@@ -10,15 +10,12 @@
 #include <limits>
 #include <numbers>
 
-#include "tethercalc/model/power_line.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// W/(m²·K⁴), CODATA 2018 (exact since the SI of 2019).
 constexpr double stefan_boltzmann = 5.670374419e-8;
@@ -27,8 +24,6 @@ constexpr double emissivity = 0.9;    // CIGRE TB 601: 0.8 to 0.9 for weathered 
 constexpr double absorptivity = 0.9;  // likewise
 constexpr double least_conductivity = 0.17;
 constexpr double pair_surface_share = (pi + 2) / (2 * pi);
-/// Relative. Temperatures are exact to 1e-11 K, and a kelvin is 0.4 % of the resistance.
-constexpr double same_current = 1e-12;
 constexpr double steepest_known_inclination = pi / 3;
 
 double kelvin(double celsius) { return celsius + zero_celsius_K; }
@@ -173,64 +168,6 @@ double ConductorHeat::current_at(double temperature_C) const {
   if (!surface) return 0;
   const double heat = given_off(*surface);
   return heat > 0 ? ampacity(heat, resistance(temperature_C)) : 0;
-}
-
-TetherHeatState steady_tether(const Tether& tether, double radius, double wall,
-                              double supply_voltage, double load_power,
-                              const Surroundings& in_the_air) {
-  const double area = pi * radius * radius;
-  const ConductorHeat airborne(tether, radius, wall, in_the_air);
-  const std::optional<double> derating = drum_derating(tether.drum);
-  const bool wound = tether.spooled_length > 0 && derating.has_value();
-  Surroundings on_drum = in_the_air;
-  on_drum.wind = 0;
-  on_drum.sun = 0;
-  on_drum.cooling = wound ? *derating * *derating : 1;
-  const ConductorHeat spooled(tether, radius, wall, on_drum);
-
-  TetherHeatState state;
-  double airborne_surface = in_the_air.temperature_C;
-  double spooled_surface = in_the_air.temperature_C;
-  const auto loop = [&](double airborne_C, double spooled_C) {
-    return tether.contact_resistance +
-           2 *
-               (tether.length * resistivity(tether.conductor, airborne_C) +
-                tether.spooled_length * resistivity(tether.conductor, spooled_C)) /
-               area;
-  };
-  const auto demanded_current = [&](double resistance) {
-    const double power = supplied_power(supply_voltage, resistance, load_power);
-    return power >= 0 ? power / supply_voltage : infinity;
-  };
-  /// Current that the power asks for over the cable as warm as `current` makes it.
-  const auto next = [&](double current) {
-    const auto in_air = airborne.temperature(current, airborne_surface);
-    if (!in_air) return infinity;
-    state.conductor_temperature_C = *in_air;
-    state.drum_temperature_C = wound ? spooled.temperature(current, spooled_surface) : std::nullopt;
-    if (wound && !state.drum_temperature_C) return infinity;
-    state.resistance = loop(*in_air, state.drum_temperature_C.value_or(*in_air));
-    return demanded_current(state.resistance);
-  };
-
-  const double ambient = in_the_air.temperature_C;
-  double current = demanded_current(loop(ambient, ambient));
-  for (int step = 0; step < 100 && current < infinity; ++step) {
-    const double after = next(current);
-    state.current = after;
-    if (std::abs(after - current) <= same_current * current) {
-      state.steady = true;
-      return state;
-    }
-    if (!(after < infinity)) break;
-    const double beyond = next(after);
-    const double slope = (beyond - after) / (after - current);
-    if (!(slope < 1)) break;
-    current = after + (beyond - after) / (1 - slope);
-    // A secant is blind where rounding is all that is left of the differences.
-    if (std::abs(beyond - after) <= same_current * after) current = beyond;
-  }
-  return {};
 }
 
 }  // namespace tethercalc

@@ -1,7 +1,7 @@
 #include "tethercalc/model/reserve_battery.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "tethercalc/model/design.hpp"
@@ -25,20 +25,62 @@ double landing_power(const Drone& drone, double mass, double gravity) {
          drone.auxiliary_power;
 }
 
+namespace {
+
+/// W of the battery for one more kilogram, on one piece of the motor curve.
+double power_per_kilogram(const Drone& drone, std::size_t piece, double gravity) {
+  return drone.motor_power_factor * drone.motor.slope(piece) * gravity;
+}
+
+/// Take-off mass less what its battery weighs.
+double carried_mass(const Drone& drone, double takeoff_mass, double per_watt, double gravity) {
+  return takeoff_mass - per_watt * landing_power(drone, takeoff_mass, gravity);
+}
+
+}  // namespace
+
 double reserve_battery_mass(const Drone& drone, double mass, double height, double gravity) {
   const double per_watt = battery_mass_per_watt(drone.reserve_battery, height);
   if (per_watt == 0) return 0;
-  // From no battery upwards: power rises with mass, so that no step passes the least solution. Each
-  // kilogram of battery asks for a small part of another one, and a dozen steps do; where it asks
-  // for nearly another one, no drone would fly.
-  double battery = 0;
-  for (int step = 0; step < 200; ++step) {
-    const double next = per_watt * landing_power(drone, mass + battery, gravity);
-    if (!std::isfinite(next)) break;
-    if (next - battery <= 1e-15 * next) return next;
-    battery = next;
+  const auto vertices = drone.motor.vertices();
+  // The mass carried is a line over the take-off mass on each piece of the motor curve. From the
+  // drone without a battery upwards, the first piece that reaches `mass` holds the least solution.
+  double lower = mass;
+  for (std::size_t i = drone.motor.piece(mass * gravity / drone.motor_count);
+       i + 1 < vertices.size(); ++i) {
+    const double missing = mass - carried_mass(drone, lower, per_watt, gravity);
+    if (missing <= 0) return lower - mass;
+    const double rate = 1 - per_watt * power_per_kilogram(drone, i, gravity);
+    const double upper = vertices[i + 1].thrust * drone.motor_count / gravity;
+    if (rate > 0 && missing <= rate * (upper - lower)) return lower + missing / rate - mass;
+    lower = upper;
   }
   return std::numeric_limits<double>::infinity();
+}
+
+double reserve_battery_growth(const Drone& drone, double takeoff_mass, double height,
+                              double gravity) {
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, height);
+  if (per_watt == 0) return 0;
+  const std::size_t piece = drone.motor.piece(takeoff_mass * gravity / drone.motor_count);
+  const double more = per_watt * power_per_kilogram(drone, piece, gravity);
+  return more < 1 ? more / (1 - more) : std::numeric_limits<double>::infinity();
+}
+
+double mass_without_battery(const Drone& drone, double takeoff_mass, double height,
+                            double gravity) {
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, height);
+  if (per_watt == 0) return takeoff_mass;
+  // Where a piece is so steep that a heavier drone carries less, the most is at a vertex below.
+  const double reachable =
+      std::min(takeoff_mass, drone.motor.max_thrust() * drone.motor_count / gravity);
+  double most = carried_mass(drone, reachable, per_watt, gravity);
+  for (const MotorPoint& vertex : drone.motor.vertices()) {
+    const double at_vertex = vertex.thrust * drone.motor_count / gravity;
+    if (at_vertex > reachable) break;
+    most = std::max(most, carried_mass(drone, at_vertex, per_watt, gravity));
+  }
+  return most;
 }
 
 }  // namespace tethercalc

@@ -12,8 +12,12 @@ double resistivity(const Conductor& conductor, double temperature_C) {
   return conductor.resistivity_20C * (1 + conductor.temperature_coefficient * (temperature_C - 20));
 }
 
-double resistivity(const Tether& tether) {
-  return resistivity(tether.conductor, tether.conductor_temperature_C);
+bool is_heated(const Tether& tether) {
+  return tether.ambient_temperature_C.has_value() || tether.heating.rise_per_loss > 0;
+}
+
+double settled_rise(const MeasuredHeating& heating, double loss, double airspeed) {
+  return heating.rise_per_loss * loss / (1 + heating.wind_cooling * std::sqrt(std::abs(airspeed)));
 }
 
 double insulation_wall(const Insulation& insulation, double voltage) {
@@ -40,26 +44,6 @@ StrengthMemberData strength_member_data(const StrengthMember& member) {
 }
 
 double conductor_radius(double area) { return std::sqrt(area / std::numbers::pi); }
-
-double loop_resistance(const Tether& tether, double area) {
-  return 2 * (tether.length + tether.spooled_length) * resistivity(tether) / area +
-         tether.contact_resistance;
-}
-
-double airborne_mass(const Tether& tether, double area) {
-  const double wall = tether.insulation.thickness;
-  const double insulation_area =
-      std::numbers::pi * wall * (2 * conductor_radius(area) + wall);  // π((r+s)² − r²)
-  return 2 * tether.length *
-             (tether.conductor.density * area + tether.insulation.density * insulation_area) +
-         tether.length * strength_member_data(tether.strength_member).mass_per_metre;
-}
-
-double tether_drag_area(const Tether& tether, double area) {
-  const double member = strength_member_data(tether.strength_member).diameter;
-  return tether.drag_coefficient * tether.projection_factor * tether.length *
-         (4 * (conductor_radius(area) + tether.insulation.thickness) + member);
-}
 
 double breaking_load(const Tether& tether, double area) {
   const double member = strength_member_data(tether.strength_member).strength;

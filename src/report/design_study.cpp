@@ -433,7 +433,7 @@ class Prices {
           fmt::format("The largest tilt of {}°", significant(need.max_pitch / unit::degree, 3)), 1,
           "°", [](Design& d) { d.requirements.max_pitch += unit::degree; });
     }
-    if (binds("conductor_temperature")) {
+    if (binds("conductor_temperature") || binds("drum_temperature")) {
       add_requirement("tether.insulation.material.rated_temperature_C",
                       fmt::format("The insulation's rated {} °C",
                                   significant(*best.tether.insulation.rated_temperature_C, 3)),
@@ -454,7 +454,7 @@ class Prices {
                       step, "W",
                       [=](Design& d) { *d.supply.converter.rated_output_power += step; });
     }
-    if (binds("converter input voltage") && best.supply.converter.max_input_voltage) {
+    if (binds("input_voltage") && best.supply.converter.max_input_voltage) {
       const double step = 0.01 * *best.supply.converter.max_input_voltage;
       add_requirement("supply.converter.max_input_voltage_V",
                       fmt::format("The converter's highest input of {} V",

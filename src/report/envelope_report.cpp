@@ -61,6 +61,8 @@ std::string beyond_words(const Design& design, const ReachEnd& end) {
       return "the tether no longer holds its tension with the factor asked for" + where;
     case Limit::converter_rating:
       return "the converter's rating is passed" + where;
+    case Limit::input_voltage:
+      return "the supply is outside the converter's range";
     default:
       return headroom_ends(design, end.condition);
   }

@@ -43,11 +43,11 @@ struct DragSamples {
 
 DragSamples samples_of(const DragFlights& drag) {
   DragSamples out;
-  const DragFitConditions& known = drag.fit.conditions;
-  const AirframeDrag parameters = drag.fit.drag();
+  const DragFitConditions& known = drag.identified.fit.conditions;
+  const AirframeDrag parameters = drag.identified.fit.drag();
   for (std::size_t f = 0; f < drag.flights.size(); ++f) {
     const Observations& flight = drag.flights[f];
-    const double wind = drag.fit.wind()[f].estimate.value;
+    const double wind = drag.identified.fit.wind()[f].estimate.value;
     for (std::size_t i = 0; i < flight.size(); ++i) {
       const double airspeed = flight.forward_speed[i] - wind;
       out.airspeed.push_back(airspeed);
@@ -184,7 +184,7 @@ DragFlights fit_drag_flights(std::string name, std::span<const FlightLog> logs,
                              const DragIdentificationOptions& options) {
   DragFlights out;
   out.name = std::move(name);
-  out.fit = identify_drag(logs, options).fit;
+  out.identified = identify_drag(logs, options);
   for (const FlightLog& log : logs) out.flights.push_back(observe_part(log, options));
   DragFitOptions quadratic;
   quadratic.bounds.max_linear_speed = 1e-6;  // m/s, a millionth of the linear term that matters
@@ -203,7 +203,7 @@ Figure drag_figure(const DragFlights& drag) {
   const std::vector<double> residual = difference(shown.measured, shown.fitted);
   const auto [slowest, fastest] = gp::extent(all.airspeed);
   const gp::Range speeds = gp::with_margin(slowest, fastest, 0.03);
-  const SteadyLine steady = steady_line(drag.fit, {slowest, fastest});
+  const SteadyLine steady = steady_line(drag.identified.fit, {slowest, fastest});
 
   Figure figure;
   figure.id = "drag";
@@ -212,7 +212,7 @@ Figure drag_figure(const DragFlights& drag) {
       "Drag in newtons over airspeed from {} to {} m/s, measured at {} samples{} and fitted: {}. "
       "The line is steady flight. Below, measured less fitted: {} m/s² root mean square.",
       fixed(slowest, 1), fixed(fastest, 1), all.airspeed.size(), samples_words(step),
-      parameter_words(drag.fit), fixed(drag.fit.quality.rmse, 3));
+      parameter_words(drag.identified.fit), fixed(drag.identified.fit.quality.rmse, 3));
   figure.lines = 40;
   const gp::Layout layout(figure.lines, 0.105);
   figure.script =
@@ -268,7 +268,8 @@ Figure drag_surface_figure(const DragFlights& drag) {
       "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady "
       "flight{}.",
       fixed(slowest, 1), fixed(fastest, 1), fixed(least_tilt, 0), fixed(most_tilt, 0),
-      parameter_words(drag.fit), samples_words(step), outside.empty() ? "" : "; " + outside);
+      parameter_words(drag.identified.fit), samples_words(step),
+      outside.empty() ? "" : "; " + outside);
   figure.lines = 32;
   constexpr int grid = 16;
   figure.script = gp::prelude() + "$surface << EOD\n";
@@ -276,15 +277,16 @@ Figure drag_surface_figure(const DragFlights& drag) {
     const double airspeed = slowest + (fastest - slowest) * i / grid;
     for (int k = 0; k <= grid; ++k) {
       const double tilt = least_tilt + (most_tilt - least_tilt) * k / grid;
-      const double force = airframe_drag_force(drag.fit.drag(), drag.fit.conditions.air_density,
-                                               airspeed, std::tan(tilt * unit::degree));
+      const double force = airframe_drag_force(drag.identified.fit.drag(),
+                                               drag.identified.fit.conditions.air_density, airspeed,
+                                               std::tan(tilt * unit::degree));
       figure.script +=
           fmt::format("{} {} {}\n", gp::number(airspeed), gp::number(tilt), gp::number(force));
     }
     figure.script += "\n";
   }
   figure.script += "EOD\n";
-  const SteadyLine steady = steady_line(drag.fit, {slowest, fastest});
+  const SteadyLine steady = steady_line(drag.identified.fit, {slowest, fastest});
   figure.script +=
       gp::data_block("samples", {shown.airspeed, shown.tilt, shown.measured, shown.fitted}) +
       gp::data_block("steady", {steady.airspeed, steady.tilt, steady.force});

@@ -42,6 +42,8 @@ std::string_view limit_name(Limit limit) {
       return "tether_strength";
     case Limit::converter_rating:
       return "converter_rating";
+    case Limit::input_voltage:
+      return "input_voltage";
   }
   return "";
 }

@@ -10,12 +10,6 @@ namespace {
 
 double square_millimetres(double area) { return area / unit::square_millimetre; }
 
-/// The headroom demanded in the limiting condition.
-double demanded_headroom(const Design& design, Condition condition) {
-  const Requirements& need = design.requirements;
-  return condition == need.headroom_at && !need.buffer_battery ? need.thrust_headroom : 1;
-}
-
 std::string headroom_words(double headroom) {
   return headroom > 1 ? fmt::format("a thrust headroom of {}", significant(headroom, 3))
                       : std::string("level flight");
@@ -30,7 +24,8 @@ std::string condition_words(Condition condition) {
 std::string limit_sentence(const Design& design, const Optimization& result) {
   const std::string where = condition_words(result.limiting_condition);
   const std::string demand =
-      headroom_words(demanded_headroom(design, result.limiting_condition)) + " in " + where;
+      headroom_words(demanded_headroom(design.requirements, result.limiting_condition)) + " in " +
+      where;
   std::string sentence;
   switch (result.limited_by) {
     case Limit::minimum_power:
@@ -65,6 +60,8 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
           fmt::format("Limited by strength: the tether would not hold {} times its tension in {}.",
                       significant(design.requirements.strength_safety_factor, 3), where);
       break;
+    case Limit::input_voltage:
+      break;  // the same at every cross-section: nothing that an optimum lies on
     case Limit::converter_rating:
       sentence = fmt::format(
           "Limited by the converter: any thicker, and lifting the tether in {} takes more than its "
@@ -113,18 +110,56 @@ std::string broken_limit_sentence(const Design& design, const Optimization& resu
           "No cross-section that meets the other demands leaves the converter within its rated {} "
           "W in {}.",
           significant(design.supply.converter.rated_output_power.value_or(0), 4), where);
+    case Limit::input_voltage:
+      return fmt::format(
+          "No cross-section works: a supply of {} V is outside the converter's range.",
+          significant(design.supply.voltage, 4));
     default:
       return "";
   }
+}
+
+std::string missed_words(const Design& design, const OperatingPoint& point,
+                         const DemandMargin& missed) {
+  const std::string where = condition_words(missed.condition);
+  switch (missed.demand) {
+    case Demand::takeoff_mass:
+      return "no battery lands it";
+    case Demand::max_pitch:
+      return "tilts too far in " + where;
+    case Demand::input_voltage:
+      return "supply voltage outside the converter's range";
+    case Demand::thrust_headroom: {
+      if (point.thermal_runaway) return "overheats without end in " + where;
+      const double demanded = demanded_headroom(design.requirements, missed.condition);
+      if (demanded == 1) return "cannot hold " + where;
+      return fmt::format("headroom {} < {}", fixed(point.headroom, 2), fixed(demanded, 2));
+    }
+    case Demand::conductor_temperature:
+    case Demand::drum_temperature: {
+      if (point.thermal_runaway) return "overheats without end in " + where;
+      const bool on_drum = missed.demand == Demand::drum_temperature;
+      return fmt::format("{} °C{} in {}, rated for {}",
+                         fixed(on_drum ? point.drum_temperature : point.conductor_temperature, 0),
+                         on_drum ? " on the drum" : "", where,
+                         fixed(design.tether.insulation.rated_temperature_C.value_or(0), 0));
+    }
+    case Demand::tether_strength:
+      return "too weak for its tension";
+    case Demand::converter_rating:
+      break;
+  }
+  return "more than the converter's rating in " + where;
 }
 
 std::string infeasible_words(const Design& design, const Optimization& result) {
   if (result.limited_by == Limit::conductor_temperature) return "conductor too hot";
   if (result.limited_by == Limit::tether_strength) return "tether too weak";
   if (result.limited_by == Limit::converter_rating) return "converter too small";
+  if (result.limited_by == Limit::input_voltage) return "supply outside the converter's range";
   const Condition where = result.limiting_condition;
   const BestHeadroom best = best_headroom(design, where);
-  const double demanded = demanded_headroom(design, where);
+  const double demanded = demanded_headroom(design.requirements, where);
   switch (result.limited_by) {
     case Limit::max_pitch:
       return fmt::format("tilt above {}° in {}",
@@ -147,7 +182,7 @@ std::string infeasible_sentence(const Design& design, const Optimization& result
   }
   const Condition where = result.limiting_condition;
   const BestHeadroom best = best_headroom(design, where);
-  const double demanded = demanded_headroom(design, where);
+  const double demanded = demanded_headroom(design.requirements, where);
   const std::string demand = headroom_words(demanded) + " in " + condition_words(where);
   if (result.limited_by == Limit::max_pitch && !(best.value > 0)) {
     return fmt::format(

@@ -260,35 +260,11 @@ std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const dou
 }
 
 std::string shortcoming(const Design& design, const AreaPoints& points) {
-  const Requirements& need = design.requirements;
-  const double demanded = need.buffer_battery ? 1 : need.thrust_headroom;
-  const OperatingPoint& judged =
-      need.headroom_at == Condition::hover ? points.hover : points.forward;
-  for (const auto& [point, name] :
-       {std::pair{&points.hover, "hover"}, {&points.forward, "forward flight"}}) {
-    if (std::isnan(point->pitch)) return fmt::format("tilts too far in {}", name);
-    if (point == &judged && point->headroom < demanded * (1 - 1e-9)) {
-      return fmt::format("headroom {} < {}", fixed(point->headroom, 2), fixed(demanded, 2));
-    }
-    if (point->headroom < 1 - 1e-9) return fmt::format("cannot hold {}", name);
-    if (point->thermal_runaway) return fmt::format("overheats without end in {}", name);
-    const double hottest = std::fmax(point->conductor_temperature, point->drum_temperature);
-    const auto rated = design.tether.insulation.rated_temperature_C;
-    if (rated && hottest > *rated + 1e-6) {
-      return fmt::format("{} °C in {}, rated for {}", fixed(hottest, 0), name, fixed(*rated, 0));
-    }
-    if (breaking_load(design.tether, points.area) <
-        need.strength_safety_factor * point->tether_tension * (1 - 1e-9)) {
-      return "too weak for its tension";
-    }
-    const Converter& converter = design.supply.converter;
-    if (converter.rated_output_power &&
-        converter_output_power(converter, point->drone_power - design.drone.auxiliary_power) >
-            *converter.rated_output_power * (1 + 1e-9)) {
-      return fmt::format("more than the converter's rating in {}", name);
-    }
-  }
-  return "";
+  const Margins margins = demand_margins(design, points.hover, points.forward);
+  const DemandMargin& worst = margins.worst();
+  if (worst.met()) return "";
+  return missed_words(design, worst.condition == Condition::hover ? points.hover : points.forward,
+                      worst);
 }
 
 OptimizeStudy study(DesignFile file) {

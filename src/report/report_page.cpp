@@ -72,16 +72,16 @@ Section other_motors(const PageContent& content) {
   return {"motors", "The same drone with motors of the library", std::move(body)};
 }
 
-Section drag_section(const LearnedDrag& drag) {
-  const DragFit& fit = drag.result.fit;
-  const DragSentences told = drag_sentences(drag.result);
+Section drag_section(const DragFlights& drag) {
+  const DragFit& fit = drag.identified.fit;
+  const DragSentences told = drag_sentences(drag.identified);
   std::string body = html::paragraphs(told.made_of);
   body += html::table(drag_parameter_table(fit), "table-drag");
   body += html::paragraphs(told.quality);
-  body += html::picture(drag_figure(drag.flights));
+  body += html::picture(drag_figure(drag));
   const TitledTable steady = steady_flight_table(fit);
   if (!steady.table.rows().empty()) body += html::table(steady, "table-steady-drag");
-  return {"drag", "Drag learned from " + drag.flights.name, std::move(body)};
+  return {"drag", "Drag learned from " + drag.name, std::move(body)};
 }
 
 /// The story with its figure after the opening paragraphs, which say what it shows.

@@ -19,24 +19,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-bool satisfies(const Design& design, const OperatingPoint& point, Condition condition) {
-  const Requirements& need = design.requirements;
-  const bool demanded = condition == need.headroom_at && !need.buffer_battery;
-  return point.flyable && (!demanded || point.headroom >= need.thrust_headroom);
-}
-
-Limit limit_of(const Design& design, const OperatingPoint& point) {
-  if (std::isnan(point.pitch)) return Limit::max_pitch;
-  const bool saturated = point.available_thrust >= design.drone.motor.max_thrust();
-  return saturated ? Limit::motor_thrust : Limit::available_power;
-}
-
-std::string shortfall(const OperatingPoint& point, Condition condition) {
-  const std::string where = " in " + condition_words(condition);
-  if (std::isnan(point.pitch)) return "tilt beyond its limit" + where;
-  return "headroom " + fixed(point.headroom, 2) + where;
-}
-
 SweepOutcome given_cable(const Design& design) {
   SweepOutcome outcome;
   outcome.given_area = true;
@@ -44,14 +26,15 @@ SweepOutcome given_cable(const Design& design) {
   outcome.area = design.tether.cross_section.value_or(nan);
   outcome.hover = evaluate(design, outcome.area, Condition::hover);
   outcome.forward = evaluate(design, outcome.area, Condition::forward);
-  for (const Condition condition : {Condition::hover, Condition::forward}) {
-    const OperatingPoint& point = condition == Condition::hover ? outcome.hover : outcome.forward;
-    if (!outcome.feasible || satisfies(design, point, condition)) continue;
-    outcome.feasible = false;
-    outcome.limited_by = limit_of(design, point);
-    outcome.limiting_condition = condition;
-    outcome.reason = shortfall(point, condition);
-  }
+  const Margins margins = demand_margins(design, outcome.hover, outcome.forward);
+  const DemandMargin& worst = margins.worst();
+  outcome.feasible = worst.met();
+  if (outcome.feasible) return outcome;
+  const OperatingPoint& point =
+      worst.condition == Condition::hover ? outcome.hover : outcome.forward;
+  outcome.limited_by = missed_limit(design, point, worst.demand);
+  outcome.limiting_condition = worst.condition;
+  outcome.reason = missed_words(design, point, worst);
   return outcome;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "tethercalc/solve/headroom.hpp"
 
@@ -37,19 +38,17 @@ class BothFlights {
     return {evaluate(hover_, area), evaluate(forward_, area)};
   }
 
-  /// The least met of the demands; where `only_headroom`, of the demand for headroom.
-  [[nodiscard]] Margin worst(double log_area, bool only_headroom = false) const {
+  [[nodiscard]] DemandMargin worst(double log_area) const {
     const Points points = at(log_area);
-    if (only_headroom) {
-      const Requirements& need = design_.requirements;
-      const OperatingPoint& p =
-          need.headroom_at == Condition::hover ? points.hover : points.forward;
-      const double ratio = p.headroom / need.thrust_headroom;
-      return {Limit::available_power, need.headroom_at, ratio >= 0 ? ratio - 1 : -1};
-    }
-    const std::vector<Margin> all = requirement_margins(design_, points.hover, points.forward);
-    return *std::min_element(all.begin(), all.end(),
-                             [](const Margin& a, const Margin& b) { return a.value < b.value; });
+    return demand_margins(design_, points.hover, points.forward).worst();
+  }
+
+  /// Of the demand for headroom.
+  [[nodiscard]] bool headroom_met(double log_area) const {
+    const Points points = at(log_area);
+    const Requirements& need = design_.requirements;
+    const OperatingPoint& p = need.headroom_at == Condition::hover ? points.hover : points.forward;
+    return p.headroom >= need.thrust_headroom;
   }
 
   /// Power where it is priced; infinite where it does not exist.
@@ -153,47 +152,6 @@ IntervalSet areas_without_limits(const Design& design, const Design& cold) {
   return possible;
 }
 
-double margin_of(double have, double need) {
-  const double ratio = have / need;
-  return std::isfinite(ratio) ? ratio - 1 : -1;
-}
-
-void add_flight_margins(const Design& design, const OperatingPoint& point, Condition condition,
-                        std::vector<Margin>& margins) {
-  const Requirements& need = design.requirements;
-  const bool asked = condition == need.headroom_at && !need.buffer_battery;
-  margins.push_back({Limit::available_power, condition,
-                     margin_of(point.headroom, asked ? need.thrust_headroom : 1)});
-  const bool tilts_too_far = std::isnan(point.pitch) && std::isfinite(point.battery_mass);
-  margins.push_back({Limit::max_pitch, condition, tilts_too_far ? -1.0 : 0.0});
-  const Tether& tether = design.tether;
-  if (tether.ambient_temperature_C) {
-    const std::optional<double> rated = tether.insulation.rated_temperature_C;
-    const bool steady = std::isfinite(point.conductor_temperature);
-    double value = steady ? 1.0 : -1.0;
-    if (rated && steady) {
-      const double hottest = std::fmax(point.conductor_temperature, point.drum_temperature);
-      value = (*rated - hottest) / 100;  // on a scale like that of the other margins
-    }
-    // Where the power cannot be delivered at all, heat is not to blame.
-    if (steady || point.thermal_runaway) {
-      margins.push_back({Limit::conductor_temperature, condition, value});
-    }
-  }
-  if (need.strength_safety_factor > 0) {
-    margins.push_back({Limit::tether_strength, condition,
-                       margin_of(breaking_load(tether, point.cross_section),
-                                 need.strength_safety_factor * point.tether_tension)});
-  }
-  const Converter& converter = design.supply.converter;
-  if (converter.rated_output_power) {
-    const double output =
-        converter_output_power(converter, point.drone_power - design.drone.auxiliary_power);
-    margins.push_back(
-        {Limit::converter_rating, condition, margin_of(*converter.rated_output_power, output)});
-  }
-}
-
 }  // namespace
 
 bool has_cable_limits(const Design& design) {
@@ -201,14 +159,6 @@ bool has_cable_limits(const Design& design) {
          design.requirements.strength_safety_factor > 0 ||
          design.drone.reserve_battery.specific_energy > 0 ||
          design.supply.converter.rated_output_power.has_value();
-}
-
-std::vector<Margin> requirement_margins(const Design& design, const OperatingPoint& hover,
-                                        const OperatingPoint& forward) {
-  std::vector<Margin> margins;
-  add_flight_margins(design, hover, Condition::hover, margins);
-  add_flight_margins(design, forward, Condition::forward, margins);
-  return margins;
 }
 
 BestHeadroom best_headroom(const Design& design, Condition condition) {
@@ -233,8 +183,9 @@ bool feasible_within_cable_limits(const Design& design) {
   const auto worst_margin = [&](double x) { return flights.worst(x).value; };
   for (const Interval& range : areas_without_limits(design, cold)) {
     const std::vector<double> points = grid(std::log(range.lo), std::log(range.hi));
-    if (std::any_of(points.begin(), points.end(), [&](double x) { return worst_margin(x) >= 0; }) ||
-        worst_margin(argmax(worst_margin, points)) >= 0) {
+    if (std::any_of(points.begin(), points.end(),
+                    [&](double x) { return worst_margin(x) >= -margin_rounding; }) ||
+        worst_margin(argmax(worst_margin, points)) >= -margin_rounding) {
       return true;
     }
   }
@@ -247,8 +198,8 @@ Optimization optimize_within_cable_limits(const Design& design) {
   const IntervalSet possible = areas_without_limits(design, cold);
   const bool possible_at_all = result.feasible;
   const BothFlights flights(design);
-  const auto met = [&](double x) { return flights.worst(x).value >= 0; };
-  const auto headroom_met = [&](double x) { return flights.worst(x, true).value >= 0; };
+  const auto met = [&](double x) { return flights.worst(x).met(); };
+  const auto headroom_met = [&](double x) { return flights.headroom_met(x); };
   const auto worst_margin = [&](double x) { return flights.worst(x).value; };
   const auto minus_power = [&](double x) { return -flights.power(x); };
 
@@ -258,13 +209,13 @@ Optimization optimize_within_cable_limits(const Design& design) {
   result.feasible_areas.clear();
   double best_power = infinity;
   double best_x = nan;
-  Margin least_violated{result.limited_by, result.limiting_condition, -infinity};
+  std::optional<DemandMargin> least_violated;
   for (const Interval& range : possible) {
     const double lo = std::log(range.lo);
     const double hi = std::log(range.hi);
     const double most_met = argmax(worst_margin, grid(lo, hi));
-    const Margin margin = flights.worst(most_met);
-    if (margin.value > least_violated.value) least_violated = margin;
+    const DemandMargin margin = flights.worst(most_met);
+    if (!least_violated || margin.value > least_violated->value) least_violated = margin;
     for (const Interval& part : ranges_of(headroom_met, lo, hi, most_met)) {
       append(result.headroom_areas, in_square_metres({part}).front());
     }
@@ -287,9 +238,9 @@ Optimization optimize_within_cable_limits(const Design& design) {
     if (power <= best_power * (1 + 1e-9) && std::isfinite(best_x) && met(x)) best_x = x;
   }
   if (!std::isfinite(best_x)) {
-    if (possible_at_all && std::isfinite(least_violated.value)) {
-      result.limited_by = least_violated.limit;
-      result.limiting_condition = least_violated.condition;
+    if (possible_at_all && least_violated) {
+      result.limited_by = limit_of(least_violated->demand);
+      result.limiting_condition = least_violated->condition;
     }
     return result;
   }
@@ -300,27 +251,16 @@ Optimization optimize_within_cable_limits(const Design& design) {
   result.forward = points.forward;
   result.limited_by = Limit::minimum_power;
   result.limiting_condition = design.requirements.power_at;
-  const Margin binding = flights.worst(best_x);
   const bool on_edge = std::any_of(result.feasible_areas.begin(), result.feasible_areas.end(),
                                    [&](const Interval& range) {
                                      return std::abs(result.area / range.lo - 1) < 1e-6 ||
                                             std::abs(result.area / range.hi - 1) < 1e-6;
                                    });
   if (on_edge) {
-    const std::vector<Margin> all = requirement_margins(design, points.hover, points.forward);
-    Margin tightest = binding;
-    tightest.value = infinity;
-    for (const Margin& margin : all) {
-      // A tilt within its limit has no distance from it.
-      if (margin.limit != Limit::max_pitch && margin.value < tightest.value) tightest = margin;
-    }
-    result.limited_by = tightest.limit;
+    const Margins all = demand_margins(design, points.hover, points.forward);
+    const DemandMargin& tightest = all.worst();
+    result.limited_by = limit_of(tightest.demand);
     result.limiting_condition = tightest.condition;
-    for (const OperatingPoint* point : {&result.hover, &result.forward}) {
-      if (std::abs(point->pitch) < design.requirements.max_pitch * (1 - 1e-6)) continue;
-      result.limited_by = Limit::max_pitch;
-      result.limiting_condition = point == &result.hover ? Condition::hover : Condition::forward;
-    }
     if (result.limited_by == Limit::available_power && !(result.area > result.minimum_power.area)) {
       result.limited_by = Limit::takeoff_mass;
     }

@@ -18,31 +18,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const char* demand_name(Limit limit) {
-  switch (limit) {
-    case Limit::max_pitch:
-      return "max_pitch";
-    case Limit::conductor_temperature:
-      return "conductor_temperature";
-    case Limit::tether_strength:
-      return "tether_strength";
-    case Limit::converter_rating:
-      return "converter_rating";
-    default:
-      return "thrust_headroom";
-  }
-}
+/// The demands of the design in both conditions.
+constexpr std::size_t fixed_demands = 2 * demand_count;
 
-constexpr std::array requirement_order{Limit::available_power, Limit::max_pitch,
-                                       Limit::conductor_temperature, Limit::tether_strength,
-                                       Limit::converter_rating};
-/// The requirements in both conditions, and the range of the converter's input.
-constexpr std::size_t fixed_demands = 2 * requirement_order.size() + 1;
-
-std::size_t demand_index(const Margin& margin) {
-  const auto found = std::find(requirement_order.begin(), requirement_order.end(), margin.limit);
-  const auto first = margin.condition == Condition::hover ? 0 : requirement_order.size();
-  return first + static_cast<std::size_t>(found - requirement_order.begin());
+std::size_t index_of(Demand demand, Condition condition) {
+  return static_cast<std::size_t>(demand) + (condition == Condition::hover ? 0 : demand_count);
 }
 
 /// How far every demand is violated: fixed_demands of them, then the user's.
@@ -51,16 +31,11 @@ void fill_violations(const Candidate& candidate, const std::vector<UserLimit>& l
   const bool exists = std::isfinite(candidate.area);
   std::fill(violations.begin(), violations.end(), exists ? -1.0 : 1.0);
   if (exists) {
-    for (const Margin& margin :
-         requirement_margins(candidate.design, candidate.hover, candidate.forward)) {
-      violations[demand_index(margin)] = -margin.value;
+    for (const DemandMargin& margin :
+         demand_margins(candidate.design, candidate.hover, candidate.forward)) {
+      violations[index_of(margin.demand, margin.condition)] = -margin.value;
     }
   }
-  const Converter& converter = candidate.design.supply.converter;
-  const double voltage = candidate.design.supply.voltage;
-  violations[fixed_demands - 1] =
-      std::max(converter.max_input_voltage ? voltage / *converter.max_input_voltage - 1 : -1,
-               lowest_input_voltage(converter) / voltage - 1);
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const UserLimit& limit = limits[i];
     const double value = exists ? limit.quantity(candidate) : nan;
@@ -178,11 +153,10 @@ std::vector<DemandState> demand_states(const Candidate& candidate,
   fill_violations(candidate, limits, violations);
   std::vector<DemandState> states;
   for (const char* condition : {" in hover", " in forward flight"}) {
-    for (const Limit limit : requirement_order) {
-      states.push_back({std::string(demand_name(limit)) + condition, 0});
+    for (std::size_t i = 0; i < demand_count; ++i) {
+      states.push_back({std::string(demand_name(static_cast<Demand>(i))) + condition, 0});
     }
   }
-  states.push_back({"converter input voltage", 0});
   for (const UserLimit& limit : limits) states.push_back({limit.name, 0});
   for (std::size_t i = 0; i < states.size(); ++i) states[i].violation = violations[i];
   return states;

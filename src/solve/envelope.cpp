@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "solve/cable_limits.hpp"
-
 namespace tethercalc {
 namespace {
 
@@ -13,17 +10,11 @@ constexpr double shortest_length = 0.1;
 
 double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
 
-Margin worst_margin(const Design& design) {
+DemandMargin worst_margin(const Design& design) {
   const double area = *design.tether.cross_section;
-  const std::vector<Margin> margins = requirement_margins(
-      design, evaluate(design, area, Condition::hover), evaluate(design, area, Condition::forward));
-  return *std::min_element(margins.begin(), margins.end(), [](const Margin& a, const Margin& b) {
-    // A tilt beyond its limit leaves nothing else to judge: it is the cause.
-    if ((a.limit == Limit::max_pitch) != (b.limit == Limit::max_pitch) && a.value == b.value) {
-      return a.limit == Limit::max_pitch;
-    }
-    return a.value < b.value;
-  });
+  const Margins margins = demand_margins(design, evaluate(design, area, Condition::hover),
+                                         evaluate(design, area, Condition::forward));
+  return margins.worst();
 }
 
 }  // namespace
@@ -79,8 +70,8 @@ std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
     const double middle = 0.5 * (good + bad);
     (margin(middle).value >= 0 ? good : bad) = middle;
   }
-  const Margin missed = margin(bad);
-  return ReachEnd{good, true, missed.limit, missed.condition};
+  const DemandMargin missed = margin(bad);
+  return ReachEnd{good, true, limit_of(missed.demand), missed.condition};
 }
 
 std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach against,

@@ -56,7 +56,7 @@ class MarginCurve {
   }
 
   [[nodiscard]] Sample at_radius(double radius, double tan_guess) const {
-    const double power = flight_.available_power(flight_.resistance(radius));
+    const double power = flight_.available_power(flight_.tether().resistance(radius));
     return with_available(radius, flight_.available_thrust(power), tan_guess);
   }
 
@@ -107,19 +107,20 @@ struct CrossingGuess {
 };
 
 /// Exact where the tilt is that of `a` all the way and contacts have no resistance: then available
-/// thrust is linear in r², and necessary thrust proportional to the mass.
+/// thrust is linear in r², and necessary thrust proportional to the weight.
 CrossingGuess guess_crossing(const SteadyFlight& flight, const Sample& a, const Sample& b) {
   const double width = b.radius - a.radius;
   const double per_square = (b.available - a.available) / (width * (b.radius + a.radius));
-  const double per_mass = a.necessary / flight.takeoff_mass(a.radius);
+  const double per_weight = a.necessary / flight.weight(a.radius);
   // Margin over x = r − a.radius: a.margin + slope·x + curvature·x².
-  const double slope = 2 * per_square * a.radius - per_mass * flight.mass_slope(a.radius);
-  const double curvature = per_square - 0.5 * per_mass * flight.mass_curvature();
+  const double slope = 2 * per_square * a.radius - per_weight * flight.weight_slope(a.radius);
+  const double curvature = per_square - 0.5 * per_weight * flight.tether().mass_curvature() *
+                                            flight.design().flight.gravity;
   const double root = std::sqrt(slope * slope - 4 * curvature * a.margin());
   const double x = -2 * a.margin() / (slope + (a.margin() < 0 ? root : -root));
   const double share = a.margin() / (a.margin() - b.margin());
   const double radius = a.radius + (x > 0 && x < width ? x : width * share);
-  const double needed_slope = per_mass * flight.mass_slope(radius) / (2 * per_square * radius);
+  const double needed_slope = per_weight * flight.weight_slope(radius) / (2 * per_square * radius);
   return {radius,
           needed_slope < 1 ? needed_slope : 0};  // 1 and more only where there are two edges
 }
@@ -284,8 +285,8 @@ double saturation_radius(const SteadyFlight& flight) {
 /// motors can make. Not positive where that holds for the thinnest tether.
 double heaviest_radius(const SteadyFlight& flight, double headroom) {
   const Design& design = flight.design();
-  return flight.radius_of_mass(design.drone.motor_count * design.drone.motor.max_thrust() /
-                               (headroom * design.flight.gravity));
+  return flight.radius_of_weight(design.drone.motor_count * design.drone.motor.max_thrust() /
+                                 headroom);
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
 double total_power(const SteadyFlight& flight, const MotorCurve& motor, const ThrustAt& at) {
-  const double total = supplied_power(flight.design().supply.voltage, flight.resistance(at.radius),
-                                      flight.input_power(motor.power(at.thrust.value)));
+  const double total =
+      supplied_power(flight.design().supply.voltage, flight.tether().resistance(at.radius),
+                     flight.input_power(motor.power(at.thrust.value)));
   return total > 0 ? total : infinity;
 }
 
@@ -110,7 +111,9 @@ ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, cons
           [&](double r) {
             const double y = power_at(thrust_at(flight, r, from.tan_pitch));
             // Far above any power, and falling towards the radii that can deliver.
-            return y < infinity ? y : 1e300 * flight.resistance(r) / flight.resistance(lo.radius);
+            return y < infinity ? y
+                                : 1e300 * flight.tether().resistance(r) /
+                                      flight.tether().resistance(lo.radius);
           },
           start, start + width, bits);
       (void)power;
@@ -141,15 +144,16 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
   const double price = (flight.input_power(1) - flight.input_power(0)) *
                        motor.slope(motor.piece(thrust)) * design.flight.gravity /
                        design.drone.motor_count;
-  const double saved = -flight.resistance_slope(1);
-  const double bare = std::sqrt(current * std::sqrt(saved / (price * flight.mass_curvature())));
+  const double saved = -flight.tether().resistance_slope(1);
+  const double bare =
+      std::sqrt(current * std::sqrt(saved / (price * flight.tether().mass_curvature())));
   // Then with the insulation's mass, the loss in the line and the weight there; a propeller's power
   // grows with thrust to the 3/2.
-  const double share = flight.mass_curvature() * bare / flight.mass_slope(bare);
-  const double growth = flight.takeoff_mass(bare) / flight.takeoff_mass(lightest);
+  const double share = flight.tether().mass_curvature() * bare / flight.tether().mass_slope(bare);
+  const double growth = flight.weight(bare) / flight.weight(lightest);
   const double root_growth = std::sqrt(growth);
   const double supplied =
-      supplied_power(voltage, flight.resistance(bare), power * growth * root_growth);
+      supplied_power(voltage, flight.tether().resistance(bare), power * growth * root_growth);
   const double more_current = supplied > 0 ? supplied / power : 2;
   return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
@@ -164,9 +168,10 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const double hover_power = flight.drone_power(flight.necessary_thrust(lightest, 0));
   if (!(hover_power < infinity)) return none;
   const double voltage = design.supply.voltage;
-  radii.lo = std::max(lightest, flight.radius_of_resistance(voltage * voltage / (4 * hover_power)));
-  radii.hi = std::min(radii.hi, flight.radius_of_mass(design.drone.motor_count *
-                                                      motor.max_thrust() / design.flight.gravity));
+  radii.lo = std::max(lightest,
+                      flight.tether().radius_of_resistance(voltage * voltage / (4 * hover_power)));
+  radii.hi =
+      std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
   if (!(radii.lo <= radii.hi)) return none;
 
   const auto at_radius = [&](double radius) {

@@ -43,7 +43,8 @@ void take(Optimization& result, const Flights& flights, double area) {
   result.area = area;
   result.hover = evaluate(flights.hover, area);
   result.forward = evaluate(flights.forward, area);
-  result.feasible = result.hover.flyable && result.forward.flyable;
+  const Design& design = flights.hover.design();
+  result.feasible = demand_margins(design, result.hover, result.forward).met();
 }
 
 bool on_edge(double area, double edge) { return std::abs(area - edge) <= same_edge * area; }
@@ -112,17 +113,23 @@ Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double dema
 /// some area but no area meets all, the demand for headroom.
 void name_obstacle(Optimization& result, const Flights& flights) {
   const Requirements& need = flights.hover.design().requirements;
-  struct Demand {
+  struct Wanted {
     Condition condition;
     double headroom;
   };
-  const Demand asked{need.headroom_at, need.buffer_battery ? 1 : need.thrust_headroom};
-  Demand missed = asked;
-  for (const Demand& demand : {Demand{Condition::hover, 1}, Demand{Condition::forward, 1}, asked}) {
+  const Wanted asked{need.headroom_at, need.buffer_battery ? 1 : need.thrust_headroom};
+  Wanted missed = asked;
+  for (const Wanted& demand : {Wanted{Condition::hover, 1}, Wanted{Condition::forward, 1}, asked}) {
     if (best_headroom(flights.in(demand.condition)).value < demand.headroom) {
       missed = demand;
       break;
     }
+  }
+  for (const DemandMargin& margin :
+       demand_margins(flights.hover.design(), OperatingPoint{}, Condition::hover)) {
+    if (margin.demand != Demand::input_voltage || margin.met()) continue;
+    result.limited_by = Limit::input_voltage;
+    return;
   }
   const SteadyFlight& flight = flights.in(missed.condition);
   result.limiting_condition = missed.condition;
@@ -130,6 +137,32 @@ void name_obstacle(Optimization& result, const Flights& flights) {
 }
 
 }  // namespace
+
+Limit limit_of(Demand demand) {
+  switch (demand) {
+    case Demand::takeoff_mass:
+      return Limit::takeoff_mass;
+    case Demand::max_pitch:
+      return Limit::max_pitch;
+    case Demand::input_voltage:
+      return Limit::input_voltage;
+    case Demand::thrust_headroom:
+      break;
+    case Demand::conductor_temperature:
+    case Demand::drum_temperature:
+      return Limit::conductor_temperature;
+    case Demand::tether_strength:
+      return Limit::tether_strength;
+    case Demand::converter_rating:
+      return Limit::converter_rating;
+  }
+  return Limit::available_power;
+}
+
+Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand) {
+  const bool saturated = point.available_thrust >= design.drone.motor.max_thrust();
+  return demand == Demand::thrust_headroom && saturated ? Limit::motor_thrust : limit_of(demand);
+}
 
 Optimization optimize(const Design& design) {
   if (has_cable_limits(design)) return optimize_within_cable_limits(design);
@@ -156,7 +189,6 @@ Optimization optimize_without_cable_limits(const Design& design) {
     const double flyable = cheapest_area(priced, result.feasible_areas, result.minimum_power);
     if (flyable > 0) {
       take(result, flights, flyable);
-      result.feasible = true;  // by construction; an edge may miss a headroom of 1 by rounding
     }
   }
   if (result.feasible) {

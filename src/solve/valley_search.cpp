@@ -93,14 +93,14 @@ class ValleySearch {
     const double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
     const double power =
         idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
-    const double resistance = flight_.resistance(at.radius);
+    const double resistance = flight_.tether().resistance(at.radius);
     const double least_current = power * per_voltage_;
     const double discriminant = 1 - 4 * resistance * least_current * per_voltage_;
     // I = 2·least_current/share, and times share² both sides are without a division.
     const double share = 1 + std::sqrt(std::max(0.0, discriminant));
     const double current_squared =
         discriminant >= 0 ? 4 * least_current * least_current : power / resistance;
-    return {-current_squared * flight_.resistance_slope(at.radius),
+    return {-current_squared * flight_.tether().resistance_slope(at.radius),
             slope * at.thrust.slope * share * share};
   }
 
@@ -115,8 +115,9 @@ class ValleySearch {
     before_piece_ = piece;
     const double secant = near_log(at.radius, before.radius) / -change;
     if (same_piece && secant > 0.05 && secant < 1) return secant;
-    const double mass_slope = flight_.mass_slope(at.radius);
-    return mass_slope / (3 * mass_slope + flight_.mass_curvature() * at.radius);
+    const StraightTether& tether = flight_.tether();
+    const double mass_slope = tether.mass_slope(at.radius);
+    return mass_slope / (3 * mass_slope + tether.mass_curvature() * at.radius);
   }
 
   [[nodiscard]] std::size_t piece_at(const ThrustAt& at) const {

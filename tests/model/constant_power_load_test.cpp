@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "support/straight_tether.hpp"
 #include "tethercalc/model/power_line.hpp"
-#include "tethercalc/model/tether.hpp"
+#include "tethercalc/model/tether_load.hpp"
 
 using namespace tethercalc;
 
@@ -11,7 +12,7 @@ TEST_CASE("600 W behind 100 m of AWG 18 need more than 48 V") {
   Tether tether;
   tether.length = 100;
   tether.conductor = {0.01724e-6, 0.00393, 8890};
-  CHECK(loop_resistance(tether, 0.823e-6) == Approx(4.19).margin(0.005));
+  CHECK(test::loop_resistance(tether, 0.823e-6) == Approx(4.19).margin(0.005));
   const double resistance = 4.19;  // as rounded for the currents below
   CHECK(std::isnan(supplied_power(48, resistance, 600)));
   CHECK(available_power(48, 0, resistance) == Approx(137).margin(0.5));

@@ -40,8 +40,8 @@ const std::vector<std::string> nothing;
 
 TEST_CASE("the drag figure shows measured drag as mass times missing acceleration") {
   const Observations& flight = fitted().flights.front();
-  const double wind = fitted().fit.wind()[0].estimate.value;
-  const AirframeDrag drag = fitted().fit.drag();
+  const double wind = fitted().identified.fit.wind()[0].estimate.value;
+  const AirframeDrag drag = fitted().identified.fit.drag();
   const auto rows = block_of(drag_figure(fitted()).script, "samples");
   REQUIRE(rows.size() > 350);
   REQUIRE(rows.size() <= 700);
@@ -85,7 +85,7 @@ TEST_CASE("the line of steady flight balances weight, tilt and drag in both dire
 TEST_CASE("without the linear term the same flight is fitted by a steeper curve") {
   REQUIRE(fitted().without_linear);
   CHECK(fitted().without_linear->linear_speed().estimate.value < 1e-5);
-  CHECK(fitted().without_linear->quality.rmse > fitted().fit.quality.rmse);
+  CHECK(fitted().without_linear->quality.rmse > fitted().identified.fit.quality.rmse);
   CHECK(block_of(drag_figure(fitted()).script, "bare").size() > 50);
 }
 

@@ -171,11 +171,11 @@ TEST_CASE("a design search is never worse than brute force over its fields") {
       for (int l = 0; l < 1000; ++l) {
         const double area = 0.1e-6 * std::pow(100, l / 999.0);
         const OperatingPoint f = evaluate(forward, area);
-        if (!(f.total_power < best) || !f.flyable) continue;
+        if (!(f.total_power < best) || !(f.headroom >= 1)) continue;
         const OperatingPoint h = evaluate(hover, area);
         const Requirements& need = design.requirements;
         const OperatingPoint& judged = need.headroom_at == Condition::hover ? h : f;
-        const bool met = h.flyable && f.flyable &&
+        const bool met = (h.headroom >= 1) && (f.headroom >= 1) &&
                          (need.buffer_battery || judged.headroom >= need.thrust_headroom);
         if (met && f.total_power < best) best = f.total_power;
       }

@@ -106,27 +106,4 @@ class ConductorHeat {
   double density_0C_;
 };
 
-/// The steady state of a tether under its own current, with a load of constant power at its end.
-struct TetherHeatState {
-  bool steady = false;                 ///< false: no steady state, or the power cannot be delivered
-  double current = 0;                  ///< A
-  double resistance = 0;               ///< Ω, loop
-  double conductor_temperature_C = 0;  ///< in the air
-  std::optional<double> drum_temperature_C;  ///< of the wound part, where there is one whose
-                                             ///< cooling is known
-};
-
-/// The coolest state in which power, current and temperature agree for conductors of `radius` m
-/// and insulation of `wall` m, which is the one that a cold tether warms up to.
-///
-/// The current that a resistance asks for rises with it, and the resistance with the current, so
-/// that the states visited from a cold start on rise towards it; the map is convex, so that secants
-/// through two of them never overshoot it, and a secant that points away from it proves that there
-/// is none: the tether runs away. `tether.ambient_temperature_C` must be set. `load_power` in W at
-/// the drone; `in_the_air` is what surrounds the airborne part. The wound part lies in the shade,
-/// in still air, and gives off the square of its current derating of what it would laid out.
-[[nodiscard]] TetherHeatState steady_tether(const Tether& tether, double radius, double wall,
-                                            double supply_voltage, double load_power,
-                                            const Surroundings& in_the_air);
-
 }  // namespace tethercalc

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "tethercalc/model/design.hpp"
+#include "tethercalc/model/flight_state.hpp"
 
 namespace tethercalc {
 
@@ -28,7 +28,7 @@ struct OperatingPoint {
   double current = 0;            ///< A
   double received_voltage = 0;   ///< V at the converter input
 
-  double tether_tension = 0;  ///< N at the drone: weight, drag and winch pull of the tether
+  double tether_tension = 0;  ///< N, the greatest along the tether: its weight, drag and winch pull
 
   /// °C in the air and on the drum, where the tether has an ambient temperature; NaN otherwise, and
   /// where there is no steady state. On the drum NaN also where its cooling is not known; the
@@ -36,13 +36,9 @@ struct OperatingPoint {
   double conductor_temperature = std::numeric_limits<double>::quiet_NaN();
   double drum_temperature = std::numeric_limits<double>::quiet_NaN();  ///< see above
   /// True where current and temperature drive each other up without end: the power could be
-  /// delivered over the cold cable, and no steady state over the warm one exists.
+  /// delivered over the cold cable, and no steady state over the warm one exists. Nothing is
+  /// available then, and the resistance is that of the cable at the temperature of the air.
   bool thermal_runaway = false;
-
-  /// True where the tilt is within its limit and the headroom at least 1 (but for
-  /// rounding): the motors make the
-  /// thrust, from power that arrives at no less than the lowest received voltage.
-  bool flyable = false;
 };
 
 /// The operating point for conductors of `area` m² (> 0, finite) in `condition`.
@@ -50,15 +46,17 @@ struct OperatingPoint {
 /// Paper section III-A with the neutral-valued parameters of `Design` in place:
 /// T_nec = (m_d + m_t)g/(n cosθ); P_drone = converter(n·f·P_motor(T_nec)) + P_aux;
 /// T_avail = motor(converter⁻¹(P_avail − P_aux)/(n·f)); U·I = P_drone + I²R.
-/// The auxiliary power is drawn at the converter's input. Where the tether has an ambient
-/// temperature, resistance, current and conductor temperature agree with each other (see
-/// conductor_heat.hpp), and everything that depends on the resistance with them; where they cannot
-/// (`thermal_runaway`), the resistance is that of the cable at the temperature of the air.
+/// The auxiliary power is drawn at the converter's input. Where the tether is heated, resistance,
+/// current and conductor temperature agree with each other (see tether_heat.hpp), and everything
+/// that depends on the resistance with them.
 [[nodiscard]] OperatingPoint evaluate(const Design& design, double area, Condition condition);
+
+/// The same in any flight state.
+[[nodiscard]] OperatingPoint evaluate(const Design& design, double area, const FlightState& state);
 
 class SteadyFlight;
 
-/// The same where many areas are evaluated in one condition.
+/// The same where many areas are evaluated in one flight.
 [[nodiscard]] OperatingPoint evaluate(const SteadyFlight& flight, double area);
 
 }  // namespace tethercalc

@@ -31,9 +31,20 @@ struct ReserveBattery {
 /// Mass in kg of the reserve battery that lands a drone of `mass` kg (all but the battery: drone,
 /// converter, tether) from `height` m: the drone carries the whole tether down, and descending is
 /// taken to need the power of hovering, which is a little more than it does. The battery carries
-/// itself: its mass is the least m with m = battery_mass_per_watt·landing_power(mass + m). 0
-/// without a battery, +infinity where no battery can carry itself.
+/// itself: its mass is the least m with m = battery_mass_per_watt·landing_power(mass + m), exactly.
+/// 0 without a battery, +infinity where no battery can carry itself.
 [[nodiscard]] double reserve_battery_mass(const Drone& drone, double mass, double height,
+                                          double gravity);
+
+/// How much more battery one more kilogram without it takes, kg/kg, at a take-off mass of
+/// `takeoff_mass` kg; +infinity where a kilogram more of battery asks for another one.
+[[nodiscard]] double reserve_battery_growth(const Drone& drone, double takeoff_mass, double height,
+                                            double gravity);
+
+/// The inverse of `mass + reserve_battery_mass(mass)`: the largest mass without battery in kg with
+/// which the drone takes off at `takeoff_mass` kg or less. Not positive where the battery for its
+/// auxiliaries alone is heavier.
+[[nodiscard]] double mass_without_battery(const Drone& drone, double takeoff_mass, double height,
                                           double gravity);
 
 }  // namespace tethercalc

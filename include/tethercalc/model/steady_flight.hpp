@@ -1,105 +1,99 @@
-// A design in one flight condition, prepared for evaluation at many conductor sizes.
+// A design in one flight state, prepared for many conductor sizes.
 #pragma once
 
 #include <cmath>
 #include <limits>
 
 #include "tethercalc/model/design.hpp"
+#include "tethercalc/model/flight_state.hpp"
+#include "tethercalc/model/reserve_battery.hpp"
+#include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc {
 
 /// Everything that steady flight needs as a function of the conductor's radius r, with what does
-/// not depend on r computed once. The tether's mass is a quadratic in r, its drag linear in r, its
-/// resistance linear in 1/r², at the tether's `conductor_temperature_C`: the heat balance, where
-/// one is asked for, is `evaluate`'s, and so is the mass of a reserve battery, which depends on r.
-/// `evaluate` and the solvers share these functions, so they cannot disagree. Refers to the
-/// design's motor and converter: the design must outlive it.
+/// not depend on r computed once: what the motors lift, the tilt at which thrust, weight and drag
+/// balance, the thrust that takes, the power for it, and the power that arrives. Resistances are
+/// those at the tether's `conductor_temperature_C`; the heat balance, where one is asked for, is
+/// `evaluate`'s. Operating points, solvers and diagnoses share these functions, so that they cannot
+/// disagree. Refers to the design, which must outlive it.
 ///
 /// Radii are in m and positive; thrusts are in N per motor; powers in W; masses in kg.
 class SteadyFlight {
  public:
-  /// Prepares `design` for `condition`. The design is taken as valid: no check is made here.
+  /// Prepares `design` for `state`. The design is taken as valid: no check is made here.
+  SteadyFlight(const Design& design, const FlightState& state);
+
+  /// The same for `flight_state(design, condition)`.
   SteadyFlight(const Design& design, Condition condition);
 
-  /// The same design in another condition, sooner than from the design.
+  /// The design was made for longer than this.
+  SteadyFlight(Design&&, const FlightState&) = delete;
+  SteadyFlight(Design&&, Condition) = delete;
+
+  /// The same design in another condition, sooner than from the design. Only for a flight that was
+  /// made for a condition.
   [[nodiscard]] SteadyFlight in(Condition condition) const;
 
-  /// The same with `mass` kg more on board.
-  [[nodiscard]] SteadyFlight carrying(double mass) const {
-    SteadyFlight heavier = *this;
-    heavier.drone_mass_ += mass;
-    return heavier;
-  }
-
-  /// Mass of the airborne tether.
-  [[nodiscard]] double tether_mass(double radius) const {
-    return mass_0_ + radius * (mass_1_ + radius * mass_2_);
-  }
-  /// Mass of drone and airborne tether, and the mass whose weight is the pull of the winch: what
-  /// the motors lift.
-  [[nodiscard]] double takeoff_mass(double radius) const {
-    return drone_mass_ + tether_mass(radius);
-  }
-  /// Derivative of the mass by the radius, kg/m.
-  [[nodiscard]] double mass_slope(double radius) const { return mass_1_ + 2 * radius * mass_2_; }
-  /// Second derivative, kg/m².
-  [[nodiscard]] double mass_curvature() const { return 2 * mass_2_; }
-
-  /// Radius at which the take-off mass is `mass`; negative where even the thinnest tether is
-  /// heavier.
-  [[nodiscard]] double radius_of_mass(double mass) const;
-
-  /// Drag of the airborne tether in N, along the motion.
-  [[nodiscard]] double tether_drag(double radius) const {
-    return tether_drag_0_ + tether_drag_1_ * radius;
-  }
-
+  /// The design this was made of.
+  [[nodiscard]] const Design& design() const { return *design_; }
+  /// The state it flies in.
+  [[nodiscard]] const FlightState& state() const { return state_; }
+  /// The load of its tether.
+  [[nodiscard]] const StraightTether& tether() const { return tether_; }
   /// Wall of the insulation in m, as the supply voltage asks for.
   [[nodiscard]] double wall() const { return wall_; }
 
-  /// Resistance of the loop in Ω: both conductors, the part on the drum, and the contacts.
-  [[nodiscard]] double resistance(double radius) const {
-    return contact_resistance_ + resistance_area_ / (radius * radius);
+  // --- Mass and weight ---
+
+  /// Mass of the reserve battery, which the design's whole tether decides, whatever is in the air;
+  /// +infinity where none can carry itself, 0 without one.
+  [[nodiscard]] double battery_mass(double radius) const {
+    return has_battery_ ? sized_battery(radius) : 0;
   }
-  /// The same with the whole tether at `temperature_C`.
-  [[nodiscard]] double resistance(double radius, double temperature_C) const;
-  /// Derivative of the resistance by the radius, Ω/m.
-  [[nodiscard]] double resistance_slope(double radius) const {
-    return -2 * resistance_area_ / (radius * radius * radius);
+  /// Mass of all that flies: drone, converter, battery, and the tether in the air.
+  [[nodiscard]] double takeoff_mass(double radius) const {
+    return fixed_mass_ + tether_.mass(radius) + battery_mass(radius);
   }
-  /// Radius at which the loop has `resistance`; +infinity where contacts alone have more.
-  [[nodiscard]] double radius_of_resistance(double resistance) const;
+  /// N that the motors lift: the weight of all that flies, and the pull of the winch.
+  [[nodiscard]] double weight(double radius) const {
+    return takeoff_mass(radius) * gravity_ + tether_.winch_pull();
+  }
+  /// Derivative of the weight by the radius, N/m.
+  [[nodiscard]] double weight_slope(double radius) const;
+  /// The largest radius at which the motors lift no more than `weight` N; negative where even the
+  /// thinnest tether is heavier. For a design in one of its conditions.
+  [[nodiscard]] double radius_of_weight(double weight) const;
+
+  // --- Balance of forces ---
 
   /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
   [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const {
-    return area_force_factor_ == 0 && tether_drag_1_ == 0
+    return area_force_factor_ == 0 && tether_.drag_slope() == 0
                ? 0
                : balanced_tan_pitch(radius, tan_limit, guess);
   }
-
   /// First approximation of `tan_pitch`: with the drag of the level drone.
   [[nodiscard]] double level_drag_tan_pitch(double radius) const {
-    return (area_force_factor_ * design_->drone.drag.front_area + tether_drag_0_ +
-            tether_drag_1_ * radius) /
-           (takeoff_mass(radius) * weight_per_mass_);
+    return (area_force_factor_ * design_->drone.drag.front_area + tether_.drag(radius)) /
+           weight(radius);
   }
-
-  /// Airspeed in m/s in this condition.
-  [[nodiscard]] double airspeed() const { return airspeed_; }
-
   /// Sign of the tilt: −1 flying backward through the air, else +1.
-  [[nodiscard]] double pitch_sign() const { return pitch_sign_; }
-
+  [[nodiscard]] double pitch_sign() const { return state_.airspeed < 0 ? -1 : 1; }
   /// Tangent of the design's largest allowed tilt.
   [[nodiscard]] double tan_pitch_limit() const { return tan_pitch_limit_; }
+  /// N at the tilt limit against the motion, but for the tether's share.
+  [[nodiscard]] double airframe_drag_at_pitch_limit() const {
+    return area_force_factor_ * effective_area(design_->drone.drag, tan_pitch_limit_);
+  }
 
   /// A range of radii, open at both ends and empty where lo ≥ hi.
   struct Radii {
     double lo = 0;  ///< m
     double hi = 0;  ///< m
   };
-  /// The radii at which the tilt exceeds its limit. (Weight grows with r², tether drag with r:
-  /// there is at most one such range.)
+  /// The radii at which the tilt exceeds its limit, for a design without a reserve battery. (Weight
+  /// grows with r², tether drag with r: there is at most one such range.)
   [[nodiscard]] Radii beyond_pitch_limit() const;
 
   /// A thrust of one motor and how it changes with the radius.
@@ -108,19 +102,21 @@ class SteadyFlight {
     double slope = 0;      ///< N/m
     double tan_slope = 0;  ///< derivative of the tangent of the tilt, 1/m
   };
-  /// Thrust that carries the weight at a tilt with tangent `tan_pitch`: (m_d + m_t)g/(n·cosθ).
+  /// Thrust that holds the weight at a tilt with tangent `tan_pitch`: weight/(n·cosθ).
   [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const {
-    return takeoff_mass(radius) * weight_per_mass_ * std::sqrt(1 + tan_pitch * tan_pitch) *
-           per_motor_;
+    return weight(radius) * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
   }
   /// The same with its derivative, where `tan_pitch` is that of the equilibrium at `radius`.
   [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const;
+
+  // --- Power ---
 
   /// Largest power at the converter's input over a loop of `resistance`.
   [[nodiscard]] double available_power(double resistance) const {
     return deliverable_ / resistance;
   }
-  /// Thrust the motors make of `available_power` at the converter's input.
+  /// Thrust the motors make of `available_power` at the converter's input, which gives no more than
+  /// its rated output.
   [[nodiscard]] double available_thrust(double available_power) const;
 
   /// Radius at which the available power is exactly `power`: 0 for power ≤ 0, +infinity where
@@ -128,8 +124,8 @@ class SteadyFlight {
   [[nodiscard]] double radius_of_available_power(double power) const {
     if (!(power > 0)) return 0;
     // P = deliverable/(R_contact + resistance_area/r²), solved for r.
-    const double line = deliverable_ - contact_resistance_ * power;
-    return line > 0 ? std::sqrt(resistance_area_ * power / line)
+    const double line = deliverable_ - tether_.contact_resistance() * power;
+    return line > 0 ? std::sqrt(tether_.resistance_area() * power / line)
                     : std::numeric_limits<double>::infinity();
   }
 
@@ -145,24 +141,19 @@ class SteadyFlight {
   /// Power at the converter's output for one motor's data-sheet power.
   [[nodiscard]] double output_power(double motor_power) const { return power_scale_ * motor_power; }
 
-  /// The design this was made of.
-  [[nodiscard]] const Design& design() const { return *design_; }
-
  private:
   void set_airspeed(double speed);
+  [[nodiscard]] double sized_battery(double radius) const;
   [[nodiscard]] double balanced_tan_pitch(double radius, double tan_limit, double guess) const;
 
   const Design* design_;
-  double drone_mass_;  ///< with the winch's pull as mass
+  FlightState state_;
   double wall_;
-  double airspeed_;
-  double mass_0_, mass_1_, mass_2_;  ///< tether mass = mass_0 + mass_1·r + mass_2·r²
-  double contact_resistance_;
-  double resistance_area_;  ///< Ω·m², (R − R_contact)·r²
-  double weight_per_mass_;  ///< gravity, m/s²
+  StraightTether tether_;
+  double fixed_mass_;  ///< drone and converter
+  bool has_battery_;
+  double gravity_;  ///< m/s²
   double area_force_factor_;
-  double tether_drag_0_, tether_drag_1_;  ///< tether drag = tether_drag_0 + tether_drag_1·r, N
-  double pitch_sign_;
   double tan_pitch_limit_;
   double deliverable_;  ///< V², P_avail·R
   double per_motor_;    ///< one over the number of motors

@@ -67,12 +67,29 @@ struct StrengthMemberData {
 /// of the bundle (a 4 mm SK90 rope has 711.5 kg/m³). All 0 for no member.
 [[nodiscard]] StrengthMemberData strength_member_data(const StrengthMember& member);
 
+/// The cable's own I²R heat as a flight has shown it, where it was measured: the conductor's
+/// temperature is that of the air plus a rise that follows, with one time constant, the balance of
+/// heat made and carried off. Still-air cooling plus a part that grows with the square root of the
+/// airspeed is King's law for a wire across the wind (King 1914, Phil. Trans. A 214:373). On the
+/// drum the same rise is taken.
+struct MeasuredHeating {
+  /// K per W/m of loop, in still air, settled; 0: nothing was measured.
+  double rise_per_loss = 0;
+  double time_constant = 200;  ///< s, > 0; steady flight does not depend on it
+  double wind_cooling = 0;     ///< (s/m)^½, ≥ 0
+};
+
+/// Settled rise over the air in K: rise_per_loss·`loss`/(1 + wind_cooling·√|v|), `loss` in W per
+/// metre of loop with its conductors at 20 °C, v = `airspeed` in m/s.
+[[nodiscard]] double settled_rise(const MeasuredHeating& heating, double loss, double airspeed);
+
 /// The cable as bought and laid, but for its cross-section where that is still to be found.
 struct Tether {
   double length = 0;          ///< m in the air, h; also the flight height
   double spooled_length = 0;  ///< m still on the drum: adds resistance, not airborne mass or drag
   Conductor conductor;        ///< material of both conductors
-  double conductor_temperature_C = 20;  ///< °C, mean along the tether, in operation
+  double conductor_temperature_C = 20;  ///< °C, mean along the tether, in operation; where heat is
+                                        ///< asked for: without current
   Insulation insulation;                ///< of each conductor
   double contact_resistance = 0;        ///< Ω, plugs and slip rings of the whole loop
   double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
@@ -82,35 +99,21 @@ struct Tether {
   /// °C of the air. Set, the conductor's temperature is that of a steady heat balance, and
   /// `conductor_temperature_C` is not used; unset, it is what that says.
   std::optional<double> ambient_temperature_C{};
+  MeasuredHeating heating{};         ///< takes the place of the balance where it was measured
   double sun = 0;                    ///< W/m² of sunlight across the tether in the air
   Drum drum;                         ///< of the length on it
   StrengthMember strength_member{};  ///< beside the conductors
   double winch_pull = 0;             ///< N, with which the ground end is pulled down
 };
 
-/// Resistivity in Ω·m at the tether's conductor temperature: ρ = ρ20·(1 + α(T − 20 °C))
-/// (IEC 60287-1-1, 2.1.1).
-[[nodiscard]] double resistivity(const Tether& tether);
+/// Whether the current warms the tether: an ambient temperature or a measured heating is set.
+[[nodiscard]] bool is_heated(const Tether& tether);
 
-/// The same at `temperature` in °C.
+/// Resistivity in Ω·m at `temperature` in °C: ρ = ρ20·(1 + α(T − 20 °C)) (IEC 60287-1-1, 2.1.1).
 [[nodiscard]] double resistivity(const Conductor& conductor, double temperature_C);
 
 /// Radius in m of a round conductor of `area` m².
 [[nodiscard]] double conductor_radius(double area);
-
-/// Resistance in Ω of the loop for conductors of `area` m² (> 0), there and back, over the airborne
-/// and the spooled length, contacts included: R = 2(h + h_spool)ρ/A + R_contact.
-[[nodiscard]] double loop_resistance(const Tether& tether, double area);
-
-/// Mass in kg of the airborne tether for conductors of `area` m² (≥ 0):
-/// m_t = 2h(ρ_c·A + ρ_i·π((r + s)² − r²)) (paper section III-A), with the strength member. The wall
-/// is `insulation.thickness`; one that grows with the voltage is `SteadyFlight`'s.
-[[nodiscard]] double airborne_mass(const Tether& tether, double area);
-
-/// Drag area in m² of the airborne tether, coefficient included, so that its drag is
-/// ½·ρ_air·drag_area·v²: C·k·4h(r + s) (paper section V-B: two independent cylinders, all of it
-/// taken by the drone), and the strength member as a third.
-[[nodiscard]] double tether_drag_area(const Tether& tether, double area);
 
 /// Breaking load in N: that of the strength member where there is one, which is stiffer than metal
 /// and takes the load, else that of both conductors of `area` m²; 0 where their strength is

@@ -19,7 +19,7 @@ namespace tethercalc {
 struct DragFlights {
   std::string name;                   ///< of the log, or how many there are
   std::vector<Observations> flights;  ///< one a log, as the fit saw them
-  DragFit fit;                        ///< with the linear term
+  DragIdentification identified;      ///< the fit with the linear term, and what it was made of
   /// The same without the linear term, which shows what that is for; empty where there is no such
   /// fit.
   std::optional<DragFit> without_linear;

@@ -11,6 +11,10 @@ namespace tethercalc {
 /// "hover" or "forward flight".
 [[nodiscard]] std::string condition_words(Condition condition);
 
+/// What a design misses at `point`, in a few words.
+[[nodiscard]] std::string missed_words(const Design& design, const OperatingPoint& point,
+                                       const DemandMargin& missed);
+
 /// Why the optimum is where it is. For a feasible result.
 [[nodiscard]] std::string limit_sentence(const Design& design, const Optimization& result);
 

@@ -6,17 +6,10 @@
 #include <vector>
 
 #include "tethercalc/diagnose/diagnosis.hpp"
-#include "tethercalc/identify/drag_identification.hpp"
 #include "tethercalc/report/flight_figures.hpp"
 #include "tethercalc/report/optimize_report.hpp"
 
 namespace tethercalc {
-
-/// The drag that a flight of this drone shows.
-struct LearnedDrag {
-  DragIdentification result;  ///< the fit and what it was made of
-  DragFlights flights;        ///< what its figures are drawn from
-};
 
 /// What a log says about the calculation.
 struct LogDiagnosis {
@@ -28,7 +21,7 @@ struct LogDiagnosis {
 struct PageContent {
   OptimizeStudy study;                  ///< the answer
   std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
-  std::optional<LearnedDrag> drag;      ///< likewise
+  std::optional<DragFlights> drag;      ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told
   std::string command;                  ///< by which the page can be made again, for a shell
 };

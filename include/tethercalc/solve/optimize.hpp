@@ -1,7 +1,7 @@
 // The conductor cross-section to fly.
 #pragma once
 
-#include "tethercalc/model/operating_point.hpp"
+#include "tethercalc/model/demands.hpp"
 #include "tethercalc/solve/interval.hpp"
 #include "tethercalc/solve/minimum_power.hpp"
 
@@ -17,7 +17,15 @@ enum class Limit {
   conductor_temperature,  ///< the rated temperature of the insulation, in the air or on the drum
   tether_strength,        ///< the breaking load that the tether's tension asks for
   converter_rating,       ///< the rated output of the converter
+  input_voltage,          ///< the range of the converter's input
 };
+
+/// The limit that a demand is told as.
+[[nodiscard]] Limit limit_of(Demand demand);
+
+/// The same for one that is missed at `point`: too little thrust there is the motors' fault where
+/// they give their most.
+[[nodiscard]] Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand);
 
 /// The answer to "which cross-section", or to why there is none. Areas in m².
 struct Optimization {

@@ -1,0 +1,69 @@
+// How warm a tether's own current makes it in a flight, and what that does to its resistance.
+#pragma once
+
+#include <optional>
+
+#include "tethercalc/model/conductor_heat.hpp"
+#include "tethercalc/model/steady_flight.hpp"
+
+namespace tethercalc {
+
+/// Temperatures of the conductors, °C.
+struct TetherTemperatures {
+  double in_air = 20;  ///< of the part in the air
+  /// Of the wound part, where there is one whose cooling is known; its resistance is otherwise
+  /// taken at the temperature of the part in the air.
+  std::optional<double> on_drum{};
+};
+
+/// The steady state of a tether under its own current, with a load of constant power at its end.
+struct TetherHeatState {
+  bool steady = false;                ///< false: no steady state, or the power cannot be delivered
+  double current = 0;                 ///< A
+  double resistance = 0;              ///< Ω, loop
+  TetherTemperatures temperatures{};  ///< of the conductors
+};
+
+/// The heat of a tether with one conductor in one flight: by the balance of conductor_heat.hpp in
+/// the flight's air, wind and sun, or by the heating that was measured where the design has one.
+/// The wound part lies in the shade, in still air, and gives off the square of its current derating
+/// of what it would laid out. For a design that `is_heated`; the flight must outlive this.
+class TetherHeat {
+ public:
+  /// `radius` in m of the conductors.
+  TetherHeat(const SteadyFlight& flight, double radius);
+
+  /// Steady temperatures at `current` A (≥ 0); nothing where there are none below
+  /// `highest_conductor_temperature_C`.
+  [[nodiscard]] std::optional<TetherTemperatures> temperatures(double current) const;
+
+  /// Resistance of the loop in Ω at these temperatures.
+  [[nodiscard]] double resistance(const TetherTemperatures& temperatures) const;
+
+  /// The coolest state in which power, current and temperature agree, which is the one that a cold
+  /// tether warms up to. `load_power` in W at the drone.
+  ///
+  /// The current that a resistance asks for rises with it, and the resistance with the current, so
+  /// that the states visited from a cold start on rise towards it; the map is convex, so that
+  /// secants through two of them never overshoot it, and a secant that points away from it proves
+  /// that there is none: the tether runs away.
+  [[nodiscard]] TetherHeatState carrying(double load_power) const;
+
+ private:
+  /// Surfaces that are known to be at least as warm, for currents that rise from call to call.
+  struct Surfaces {
+    double in_air_C = 0;
+    double on_drum_C = 0;
+  };
+  [[nodiscard]] std::optional<TetherTemperatures> temperatures(double current,
+                                                               Surfaces& surfaces) const;
+
+  const SteadyFlight& flight_;
+  double radius_;
+  bool measured_;
+  bool wound_;  ///< there is cable on a drum whose cooling is known
+  ConductorHeat in_air_;
+  ConductorHeat on_drum_;
+};
+
+}  // namespace tethercalc
