@@ -299,12 +299,8 @@ class ProblemReader {
       constexpr double rounding = 1e-9;
       Design bare = design;
       for (const auto& [field, value] : best_ends) set_field(bare, *field, value);
-      Tether& tether = bare.tether;
       // As cold as it gets. (Sun only warms, and winches only pull.)
-      if (tether.ambient_temperature_C) {
-        tether.conductor_temperature_C = *tether.ambient_temperature_C;
-        tether.ambient_temperature_C.reset();
-      }
+      Tether& tether = bare.tether = without_heat(bare.tether);
       if (tether.cross_section && !area_is_free) {
         // A wall that grows with the voltage is bounded by the one for handling.
         tether.insulation.dielectric_safety_factor = 0;
