@@ -7,6 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "diagnose/series.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -17,8 +19,6 @@ using Eigen::VectorXd;
 /// Huber's bound in robust standard deviations. At 3 it costs 0.5 % of efficiency where the noise
 /// is normal, and hardly touches the honest residuals of a model that still lacks an effect.
 constexpr double huber_bound = 3.0;
-/// Median absolute deviation of a normal distribution over its standard deviation, inverted.
-constexpr double mad_to_sigma = 1.4826;
 /// Slopes by forward differences: this part of a parameter's scale. The scale is a change that
 /// matters, so the model is smooth over a ten-thousandth of it, and 1e-4 of an effect stands eight
 /// digits above rounding.
@@ -36,9 +36,7 @@ double robust_sigma(const VectorXd& residual) {
   for (Index i = 0; i < residual.size(); ++i) {
     magnitude[static_cast<std::size_t>(i)] = std::abs(residual[i]);
   }
-  const auto middle = magnitude.begin() + static_cast<std::ptrdiff_t>(magnitude.size() / 2);
-  std::nth_element(magnitude.begin(), middle, magnitude.end());
-  return mad_to_sigma * *middle;
+  return mad_to_sigma * median(std::move(magnitude));
 }
 
 double huber_loss(const VectorXd& residual, double bound) {
@@ -339,6 +337,21 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, std::vector<double
     fit.block_error[static_cast<Index>(b)] = held_out.squaredNorm();
   }
   return fit;
+}
+
+BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near) {
+  std::vector<double> start;
+  for (const ModelParameter& p : record.parameters()) start.push_back(p.neutral);
+  for (const std::size_t g : freed.groups) {
+    const bool known =
+        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
+                               near->freed.groups.end();
+    for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
+      const std::size_t index = record.first_parameter(g) + k;
+      start[index] = known ? near->values[index] : record.parameters()[index].start;
+    }
+  }
+  return fit_blocks(record, freed, std::move(start));
 }
 
 MatrixXd group_slopes(const Record& record, std::size_t group, const std::vector<double>& values) {

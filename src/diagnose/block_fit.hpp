@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tethercalc/diagnose/selection.hpp"
+#include "diagnose/selection.hpp"
 
 namespace tethercalc {
 
@@ -74,6 +74,10 @@ struct BlockFit {
 /// neutral), then one Gauss–Newton step a block for the fits without it.
 [[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed,
                                   std::vector<double> start);
+
+/// The same, started from the values of `near` for what is free in both, elsewhere from the
+/// parameters' own first values.
+[[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near);
 
 /// Slopes of the prediction by the parameters of `group` over their scales, at `values`.
 [[nodiscard]] Eigen::MatrixXd group_slopes(const Record& record, std::size_t group,

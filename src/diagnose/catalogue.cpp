@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/flight_prediction.hpp"
 #include "diagnose/power_effects.hpp"
-#include "tethercalc/diagnose/flight_prediction.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -94,7 +94,7 @@ std::vector<Effect> flight_effects() {
        .change = "F_D: u|u| → u|u| + j·u",
        .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
-       .on_flight = [](FlightPrediction& p, Values x) { p.linear_speed += x[0]; }});
+       .on_flight = [](FlightPrediction& p, Values x) { p.law.linear_speed += x[0]; }});
 
   effects.push_back(
       {.id = "wind",
@@ -120,9 +120,12 @@ std::vector<Effect> flight_effects() {
        .parameters =
            {{.name = "wind_north_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
             {.name = "wind_east_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .sizes = 2,
        .to_separate = "fly passes at four headings, a quarter turn apart",
        .change = "u = v − (w_N cos ψ + w_E sin ψ), ψ the yaw",
        .channel = "yaw",
+       .aliased_because =
+           "the yaw hardly turns in this flight, where a wind over ground is a steady headwind",
        .replaces = "wind",
        .flight_phase = FlightPhase::air,
        .on_flight = [](FlightPrediction& p, Values x) {
@@ -168,12 +171,8 @@ std::vector<Effect> flight_effects() {
            "ones: a wind changes its sign, an offset of the pitch does not grow with speed",
        .change = "F_D → F_D·(1 + a·sign u)",
        .channel = "forward_speed",
-       .flight_phase = FlightPhase::force,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         for (std::size_t i = 0; i < p.drag.size(); ++i) {
-           p.drag[i] *= 1 + (p.airspeed[i] > 0 ? x[0] : -x[0]);
-         }
-       }});
+       .flight_phase = FlightPhase::air,
+       .on_flight = [](FlightPrediction& p, Values x) { p.law.fore_aft_asymmetry += x[0]; }});
 
   effects.push_back(
       {.id = "propwash",

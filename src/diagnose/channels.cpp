@@ -1,19 +1,14 @@
-#include "tethercalc/diagnose/channels.hpp"
+#include "diagnose/channels.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 
+#include "diagnose/series.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
-
-std::vector<double> product(std::vector<double> a, const std::vector<double>& b) {
-  std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::multiplies<>());
-  return a;
-}
 
 std::vector<double> in_degrees(std::vector<double> angle) {
   for (double& value : angle) value /= unit::degree;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "diagnose/series.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr double spike_over_slope = 2;
 /// three times in calm flight.
 constexpr double stuck_after = 1.0;
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
                           std::vector<bool>& bad) {
   if (range.size() < 3) return 0;
@@ -31,7 +27,7 @@ std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
   for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
     deviation.push_back(std::abs(series[i] - between(i)));
   }
-  const double bound = spike_bound * median_of(deviation);
+  const double bound = spike_bound * median(deviation);
   std::size_t count = 0;
   for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
     const double slope = std::abs(series[i + 1] - series[i - 1]);

@@ -1,6 +1,6 @@
 // Notation: θ tilt, φ roll, u airspeed, w headwind along the forward axis, j linear speed of the
 // drag law, κ gain of the vertical acceleration a_D.
-#include "tethercalc/diagnose/flight_prediction.hpp"
+#include "diagnose/flight_prediction.hpp"
 
 #include <cmath>
 
@@ -78,23 +78,19 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   const std::size_t size = record.size();
   p.tilt = record.tilt;
   p.headwind.assign(size, 0.0);
-  p.linear_speed = 0;
+  p.law = {base.front_area, base.top_area, 0, 0};
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
 
-  // tan θ is kept where the acceleration will stand; cos and sin of |θ| follow without
-  // trigonometry.
+  // tan θ is kept where the acceleration will stand.
   std::vector<double>& tan_tilt = p.acceleration;
   tan_tilt = record.tan_tilt;
   if (p.tilt != record.tilt) {
     for (std::size_t i = 0; i < size; ++i) tan_tilt[i] = std::tan(p.tilt[i]);
   }
   for (std::size_t i = 0; i < size; ++i) {
-    const double cos_tilt = 1 / std::sqrt(1 + tan_tilt[i] * tan_tilt[i]);
-    const double area = cos_tilt * (base.front_area + base.top_area * std::abs(tan_tilt[i]));
-    const double u = record.forward_speed[i] - p.headwind[i];
-    p.airspeed[i] = u;
-    p.drag[i] = 0.5 * record.air_density * area * u * (std::abs(u) + p.linear_speed);
+    p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
+    p.drag[i] = airframe_drag_force(p.law, record.air_density, p.airspeed[i], tan_tilt[i]);
   }
   act(p, effects, FlightPhase::force);
 

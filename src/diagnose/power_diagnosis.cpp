@@ -10,13 +10,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "diagnose/channels.hpp"
+#include "diagnose/log_model.hpp"
 #include "diagnose/power_effects.hpp"
 #include "diagnose/power_residuals.hpp"
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
-#include "diagnose/told_selection.hpp"
 #include "diagnose/unit_checks.hpp"
-#include "tethercalc/diagnose/channels.hpp"
 #include "tethercalc/model/flight_state.hpp"
 
 namespace tethercalc {
@@ -128,236 +128,6 @@ bool acts_on(const Effect& effect, Stage compared) {
   }
 }
 
-ModelParameter in_SI(const EffectParameter& p, const Design& design) {
-  ModelParameter m;
-  m.neutral = p.in_design != nullptr ? p.in_design(design) : p.neutral * p.unit_SI;
-  m.lower = std::min(m.neutral, p.lower * p.unit_SI);
-  m.upper = std::max(m.neutral, p.upper * p.unit_SI);
-  m.scale = p.scale * p.unit_SI;
-  m.start = m.neutral;
-  return m;
-}
-
-ParameterGroup group_of(const Effect& effect, const Design& design, bool in_base) {
-  ParameterGroup group;
-  group.id = effect.id;
-  group.role = in_base ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
-  for (const EffectParameter& p : effect.parameters) {
-    group.parameters.push_back(in_SI(p, design));
-    group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
-  }
-  // The size of an effect starts one scale from neutral, what shapes it at its typical value.
-  ModelParameter& size = group.parameters.front();
-  size.start = std::min(size.neutral + size.scale, size.upper);
-  return group;
-}
-
-/// The search's view of a log: rows of all stages, their memory taken out.
-class PowerProblem {
- public:
-  PowerProblem(const PowerModel& base, const PowerResiduals& residuals,
-               std::vector<const Effect*> effects)
-      : base_(base),
-        residuals_(residuals),
-        effects_(std::move(effects)),
-        cache_(residuals.stages().size()) {
-    std::size_t first = 0;
-    for (const Effect* effect : effects_) {
-      first_.push_back(first);
-      first += effect->parameters.size();
-    }
-  }
-
-  /// The base model with every effect whose parameters differ from neutral.
-  [[nodiscard]] PowerModel model(std::span<const double> values,
-                                 const std::function<bool(const Effect&)>& wanted) const {
-    PowerModel changed = base_;
-    for (std::size_t e = 0; e < effects_.size(); ++e) {
-      const Effect& effect = *effects_[e];
-      const auto own = values.subspan(first_[e], effect.parameters.size());
-      if (!wanted(effect) || is_neutral(effect, own)) continue;
-      effect.on_power(changed, own);
-    }
-    return changed;
-  }
-
-  /// Minus the whitened residual of every row. A stage whose effects have the values of the last
-  /// call is not computed again: slopes move one parameter at a time.
-  void predict(std::span<const double> values, std::span<double> out) {
-    const std::size_t n = residuals_.samples();
-    std::vector<double> standardised(n);
-    for (std::size_t k = 0; k < residuals_.stages().size(); ++k) {
-      const Stage stage = residuals_.stages()[k].stage;
-      std::vector<double> key;
-      for (std::size_t e = 0; e < effects_.size(); ++e) {
-        if (!acts_on(*effects_[e], stage)) continue;
-        const auto own = values.subspan(first_[e], effects_[e]->parameters.size());
-        key.insert(key.end(), own.begin(), own.end());
-      }
-      Cached& last = cache_[k];
-      if (last.rows.empty() || last.key != key) {
-        const PowerModel m =
-            model(values, [stage](const Effect& effect) { return acts_on(effect, stage); });
-        residuals_.standardised(k, m, standardised);
-        last.key = std::move(key);
-        last.rows.resize(residuals_.stages()[k].rows);
-        residuals_.whitened(k, standardised, last.rows);
-        // A tilt beyond the limit has no power: far off, but finite.
-        for (double& r : last.rows) {
-          if (!std::isfinite(r)) r = 1e3;
-        }
-      }
-      std::transform(last.rows.begin(), last.rows.end(),
-                     out.begin() + static_cast<std::ptrdiff_t>(residuals_.stages()[k].first_row),
-                     std::negate<>());
-    }
-  }
-
-  [[nodiscard]] std::size_t first_parameter(std::size_t e) const { return first_[e]; }
-
-  /// After the residuals' noise has changed.
-  void forget() { cache_.assign(cache_.size(), {}); }
-
- private:
-  [[nodiscard]] bool is_neutral(const Effect& effect, std::span<const double> own) const {
-    for (std::size_t k = 0; k < effect.sizes; ++k) {
-      if (own[k] != in_SI(effect.parameters[k], base_.design).neutral) return false;
-    }
-    return true;
-  }
-
-  struct Cached {
-    std::vector<double> key;
-    std::vector<double> rows;
-  };
-  const PowerModel& base_;
-  const PowerResiduals& residuals_;
-  std::vector<const Effect*> effects_;
-  std::vector<std::size_t> first_;
-  std::vector<Cached> cache_;
-};
-
-/// Block of every row; −1 for rows that are not used.
-std::vector<int> blocks_of(const PowerResiduals& residuals) {
-  std::vector<int> block;
-  block.reserve(residuals.rows());
-  for (const PowerStage& stage : residuals.stages()) {
-    for (std::size_t row = 0; row < stage.rows; ++row) {
-      const bool used = stage.usable_rows[row] && row >= stage.memory.size();
-      block.push_back(used ? block_at(residuals.log(), row * stage.samples_per_row) : -1);
-    }
-  }
-  return block;
-}
-
-/// The motor stage shares no effect with the others; the ammeter's gain acts on tether and
-/// converter.
-std::vector<SelectionPart> parts_of(const PowerResiduals& residuals,
-                                    const std::vector<const Effect*>& effects) {
-  SelectionPart motors{std::vector<char>(residuals.rows(), 0), {}};
-  SelectionPart line{std::vector<char>(residuals.rows(), 0), {}};
-  for (const PowerStage& stage : residuals.stages()) {
-    SelectionPart& part = stage.stage == Stage::motors ? motors : line;
-    const auto first = part.rows.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
-    std::fill(first, first + static_cast<std::ptrdiff_t>(stage.rows), char{1});
-  }
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    (acts_on(*effects[e], Stage::motors) ? motors : line).groups.push_back(e);
-  }
-  std::vector<SelectionPart> parts;
-  for (SelectionPart& part : {std::ref(line), std::ref(motors)}) {
-    if (std::count(part.rows.begin(), part.rows.end(), char{1}) > 0) parts.push_back(part);
-  }
-  return parts;
-}
-
-/// The search with the residuals' present noise.
-Selection search(const PowerResiduals& residuals, const std::vector<const Effect*>& effects,
-                 SelectionProblem& problem, const SelectionProgress& progress) {
-  problem.measured.assign(residuals.rows(), 0);
-  problem.noise.assign(residuals.rows(), 1);
-  problem.block = blocks_of(residuals);
-  problem.unnamed = power_shapes(residuals);
-  SelectionOptions options;
-  options.false_alarm_probability = false_alarm_probability;
-  const std::vector<SelectionPart> parts = parts_of(residuals, effects);
-  Selection selection = select_subset(problem, parts, options, progress);
-  // A step must stand where it happened, or names are sought for the stretch between.
-  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
-    selection = select_subset(problem, parts, options, progress);
-  }
-  return selection;
-}
-
-/// The motors' noise lasts for seconds, and few rows tell how long. Takes it from what the model
-/// that was found leaves, provided that no unnamed structure is in it. False where it stays.
-bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
-                  const SelectionProblem& problem, const Selection& selection) {
-  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
-    const PowerStage& stage = residuals.stages()[k];
-    if (stage.stage != Stage::motors) continue;
-    for (const std::size_t u : selection.unnamed.regressors) {
-      const auto first =
-          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
-      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
-                      [](double x) { return x != 0; })) {
-        return false;
-      }
-    }
-    residuals.refine_noise(k, found);
-    return true;
-  }
-  return false;
-}
-
-std::vector<ParameterEstimate> estimates(const Effect& effect, std::size_t first,
-                                         const ModelFit& fit, double student_factor) {
-  std::vector<ParameterEstimate> result;
-  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-    const EffectParameter& p = effect.parameters[k];
-    const double value = fit.values[first + k] / p.unit_SI;
-    const double half = student_factor * fit.standard_error[first + k] / p.unit_SI;
-    result.push_back({p.name, value, p.unit, std::max(value - half, std::min(value, p.lower)),
-                      std::min(value + half, std::max(value, p.upper))});
-  }
-  return result;
-}
-
-using ModelOf = std::function<PowerModel(std::span<const double>)>;
-
-/// Held-out residuals of a stage over its noise: every sample's by the fit without its block. NaN
-/// in samples that are left out.
-std::vector<double> held_out(const PowerResiduals& residuals, std::size_t k, const ModelFit& fit,
-                             const ModelOf& model) {
-  const std::size_t n = residuals.samples();
-  const PowerStage& stage = residuals.stages()[k];
-  std::vector<double> all(n, std::numeric_limits<double>::quiet_NaN());
-  std::vector<double> r(n);
-  for (std::size_t b = 0; b < fit.without_block.size(); ++b) {
-    residuals.standardised(k, model(fit.without_block[b]), r);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (stage.usable[i] && block_at(residuals.log(), i) == static_cast<int>(b) &&
-          std::isfinite(r[i])) {
-        all[i] = r[i];
-      }
-    }
-  }
-  return all;
-}
-
-/// Root mean square of held-out residuals in the stage's own unit, its noise's memory included.
-double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (const double r : held_out) {
-    if (!std::isfinite(r)) continue;
-    sum += r * r;
-    ++count;
-  }
-  const double percent = stage.stage == Stage::motors ? 100 : 1;
-  return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
-}
-
 /// What the stage compares, as its instruments show it.
 std::vector<double> measured_in(const PowerStage& stage, const PowerLog& log) {
   std::vector<double> out(log.time.size());
@@ -389,18 +159,204 @@ std::vector<double> predicted_in(const PowerStage& stage, const std::vector<doub
   return out;
 }
 
-/// Measured less predicted by `model`, NaN in samples that are left out.
-std::vector<double> left_by(const PowerResiduals& residuals, std::size_t k,
-                            const PowerModel& model) {
-  const PowerStage& stage = residuals.stages()[k];
-  std::vector<double> r(residuals.samples());
-  residuals.standardised(k, model, r);
-  const std::vector<double> measured = measured_in(stage, residuals.log());
-  std::vector<double> left = predicted_in(stage, measured, r);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    left[i] = stage.usable[i] ? measured[i] - left[i] : std::numeric_limits<double>::quiet_NaN();
+/// The search's view of a log: rows of all stages, their memory taken out.
+class PowerLogModel : public LogModel {
+ public:
+  PowerLogModel(const PowerModel& base, const PowerResiduals& residuals,
+                const std::vector<const Effect*>& effects,
+                std::span<const std::string> base_effects)
+      : base_(base), residuals_(residuals), cache_(residuals.stages().size()) {
+    for (const Effect* effect : effects) {
+      add(*effect, base.design,
+          std::find(base_effects.begin(), base_effects.end(), effect->id) != base_effects.end());
+    }
+    problem.predict = [this](std::span<const double> values, std::span<double> out) {
+      predict(values, out);
+    };
   }
-  return left;
+
+  /// The base model with every effect that is not neutral.
+  [[nodiscard]] PowerModel model(std::span<const double> values) const {
+    return model(values, [](const Effect&) { return true; });
+  }
+
+  /// After the residuals' noise has changed.
+  void forget() { cache_.assign(cache_.size(), {}); }
+
+  [[nodiscard]] std::size_t series(const Effect& effect) const override {
+    std::size_t stage = 0;
+    while (!acts_on(effect, residuals_.stages()[stage].stage)) ++stage;
+    return stage;
+  }
+  [[nodiscard]] Channel channel(const Effect& effect) const override {
+    return power_channel(effect.channel, residuals_.log());
+  }
+  [[nodiscard]] std::vector<double> left_by(std::size_t k,
+                                            std::span<const double> values) const override {
+    const PowerStage& stage = residuals_.stages()[k];
+    std::vector<double> r(residuals_.samples());
+    residuals_.standardised(k, model(values), r);
+    const std::vector<double> measured = measured_in(stage, residuals_.log());
+    std::vector<double> left = predicted_in(stage, measured, r);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      left[i] = stage.usable[i] ? measured[i] - left[i] : std::numeric_limits<double>::quiet_NaN();
+    }
+    return left;
+  }
+
+ private:
+  template <typename Wanted>
+  [[nodiscard]] PowerModel model(std::span<const double> values, Wanted wanted) const {
+    PowerModel changed = base_;
+    for (std::size_t g = 0; g < effects().size(); ++g) {
+      if (wanted(effect(g)) && !is_neutral(g, values)) effect(g).on_power(changed, own(g, values));
+    }
+    return changed;
+  }
+
+  /// Minus the whitened residual of every row. A stage whose effects have the values of the last
+  /// call is not computed again: slopes move one parameter at a time.
+  void predict(std::span<const double> values, std::span<double> out) {
+    std::vector<double> standardised(residuals_.samples());
+    for (std::size_t k = 0; k < residuals_.stages().size(); ++k) {
+      const PowerStage& compared = residuals_.stages()[k];
+      std::vector<double> key;
+      for (std::size_t g = 0; g < effects().size(); ++g) {
+        if (!acts_on(effect(g), compared.stage)) continue;
+        const auto of_group = own(g, values);
+        key.insert(key.end(), of_group.begin(), of_group.end());
+      }
+      Cached& last = cache_[k];
+      if (last.rows.empty() || last.key != key) {
+        const auto wanted = [&](const Effect& e) { return acts_on(e, compared.stage); };
+        residuals_.standardised(k, model(values, wanted), standardised);
+        last.key = std::move(key);
+        last.rows.resize(compared.rows);
+        residuals_.whitened(k, standardised, last.rows);
+        // A tilt beyond the limit has no power: far off, but finite.
+        for (double& r : last.rows) {
+          if (!std::isfinite(r)) r = 1e3;
+        }
+      }
+      std::transform(last.rows.begin(), last.rows.end(),
+                     out.begin() + static_cast<std::ptrdiff_t>(compared.first_row),
+                     std::negate<>());
+    }
+  }
+
+  struct Cached {
+    std::vector<double> key;
+    std::vector<double> rows;
+  };
+  const PowerModel& base_;
+  const PowerResiduals& residuals_;
+  std::vector<Cached> cache_;
+};
+
+/// Block of every row; −1 for rows that are not used.
+std::vector<int> blocks_of(const PowerResiduals& residuals) {
+  std::vector<int> block;
+  block.reserve(residuals.rows());
+  for (const PowerStage& stage : residuals.stages()) {
+    for (std::size_t row = 0; row < stage.rows; ++row) {
+      const bool used = stage.usable_rows[row] && row >= stage.memory.size();
+      block.push_back(used ? block_at(residuals.log(), row * stage.samples_per_row) : -1);
+    }
+  }
+  return block;
+}
+
+/// The motor stage shares no effect with the others; the ammeter's gain acts on tether and
+/// converter.
+std::vector<SelectionPart> parts_of(const PowerResiduals& residuals, const LogModel& view) {
+  SelectionPart motors{std::vector<char>(residuals.rows(), 0), {}};
+  SelectionPart line{std::vector<char>(residuals.rows(), 0), {}};
+  for (const PowerStage& stage : residuals.stages()) {
+    SelectionPart& part = stage.stage == Stage::motors ? motors : line;
+    const auto first = part.rows.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+    std::fill(first, first + static_cast<std::ptrdiff_t>(stage.rows), char{1});
+  }
+  for (std::size_t g = 0; g < view.effects().size(); ++g) {
+    (acts_on(view.effect(g), Stage::motors) ? motors : line).groups.push_back(g);
+  }
+  std::vector<SelectionPart> parts;
+  for (SelectionPart& part : {std::ref(line), std::ref(motors)}) {
+    if (std::count(part.rows.begin(), part.rows.end(), char{1}) > 0) parts.push_back(part);
+  }
+  return parts;
+}
+
+/// The search with the residuals' present noise.
+Selection search(const PowerResiduals& residuals, LogModel& view,
+                 const SelectionProgress& progress) {
+  SelectionProblem& problem = view.problem;
+  problem.measured.assign(residuals.rows(), 0);
+  problem.noise.assign(residuals.rows(), 1);
+  problem.block = blocks_of(residuals);
+  problem.unnamed = power_shapes(residuals);
+  SelectionOptions options;
+  options.false_alarm_probability = false_alarm_probability;
+  const std::vector<SelectionPart> parts = parts_of(residuals, view);
+  Selection selection = select_subset(problem, parts, options, progress);
+  // A step must stand where it happened, or names are sought for the stretch between.
+  if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
+    selection = select_subset(problem, parts, options, progress);
+  }
+  return selection;
+}
+
+/// The motors' noise lasts for seconds, and few rows tell how long. Takes it from what the model
+/// that was found leaves, provided that no unnamed structure is in it. False where it stays.
+bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
+                  const SelectionProblem& problem, const Selection& selection) {
+  for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
+    const PowerStage& stage = residuals.stages()[k];
+    if (stage.stage != Stage::motors) continue;
+    for (const std::size_t u : selection.unnamed.regressors) {
+      const auto first =
+          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
+                      [](double x) { return x != 0; })) {
+        return false;
+      }
+    }
+    residuals.refine_noise(k, found);
+    return true;
+  }
+  return false;
+}
+
+/// Held-out residuals of a stage over its noise: every sample's by the fit without its block. NaN
+/// in samples that are left out.
+std::vector<double> held_out(const PowerResiduals& residuals, std::size_t k, const ModelFit& fit,
+                             const PowerLogModel& view) {
+  const std::size_t n = residuals.samples();
+  const PowerStage& stage = residuals.stages()[k];
+  std::vector<double> all(n, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> r(n);
+  for (std::size_t b = 0; b < fit.without_block.size(); ++b) {
+    residuals.standardised(k, view.model(fit.without_block[b]), r);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (stage.usable[i] && block_at(residuals.log(), i) == static_cast<int>(b) &&
+          std::isfinite(r[i])) {
+        all[i] = r[i];
+      }
+    }
+  }
+  return all;
+}
+
+/// Root mean square of held-out residuals in the stage's own unit, its noise's memory included.
+double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double r : held_out) {
+    if (!std::isfinite(r)) continue;
+    sum += r * r;
+    ++count;
+  }
+  const double percent = stage.stage == Stage::motors ? 100 : 1;
+  return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
 /// The effects of `catalogue` that the log can show; the others go to `diagnosis.not_testable`.
@@ -444,108 +400,24 @@ bool too_short(const PowerLog& log, const std::vector<Effect>& catalogue, Diagno
   return true;
 }
 
-/// What was found, and in what.
-struct Searched {
-  const std::vector<const Effect*>& effects;
-  const PowerResiduals& residuals;
-  const PowerProblem& view;
-  const SelectionProblem& problem;
-  const Selection& selection;
-  ModelOf model;  ///< with every effect whose parameters differ from neutral
-};
-
-void tell_base(const Searched& searched, Diagnosis& diagnosis) {
-  const Selection& selection = searched.selection;
-  diagnosis.samples = searched.residuals.samples();
-  // Rows are whitened: each counts.
-  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
-                                           static_cast<double>(searched.residuals.stages().size()));
-  diagnosis.base.holdout_rmse = selection.base.holdout_rmse;
-  diagnosis.extended.holdout_rmse = selection.extended.holdout_rmse;
-  for (std::size_t e = 0; e < searched.effects.size(); ++e) {
-    if (searched.problem.groups[e].role != ParameterGroup::Role::fitted) continue;
-    for (ParameterEstimate& p : estimates(*searched.effects[e], searched.view.first_parameter(e),
-                                          selection.base, selection.student_factor)) {
-      diagnosis.base.parameters.push_back(std::move(p));
-    }
-  }
-}
-
-Finding finding_of(const SelectedGroup& found, const Searched& searched) {
-  const Effect& effect = *searched.effects[found.group];
-  Finding finding = finding_of(effect, found);
-  finding.parameters = estimates(effect, searched.view.first_parameter(found.group),
-                                 searched.selection.complete, searched.selection.student_factor);
-  for (const std::size_t g : found.indistinguishable) {
-    finding.indistinguishable_from.push_back(searched.effects[g]->id);
-  }
-  if (!finding.indistinguishable_from.empty()) finding.to_separate = effect.to_separate;
-  return finding;
-}
-
-/// The measured less the predicted with the finding and without it.
-FindingTrace trace_of(const SelectedGroup& found, const Searched& searched) {
-  const PowerResiduals& residuals = searched.residuals;
-  const Effect& effect = *searched.effects[found.group];
-  FindingTrace trace;
-  while (!acts_on(effect, residuals.stages()[trace.series].stage)) ++trace.series;
-  trace.channel = power_channel(effect.channel, residuals.log());
-  std::vector<double> values = searched.selection.complete.values;
-  trace.with = left_by(residuals, trace.series, searched.model(values));
-  const std::vector<ModelParameter>& own = searched.problem.groups[found.group].parameters;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    values[searched.view.first_parameter(found.group) + k] = own[k].neutral;
-  }
-  trace.without = left_by(residuals, trace.series, searched.model(values));
-  return trace;
-}
-
-void tell_findings(const Searched& searched, Diagnosis& diagnosis) {
-  for (const SelectedGroup& found : searched.selection.selected) {
-    const Finding& finding = diagnosis.findings.emplace_back(finding_of(found, searched));
-    for (const ParameterEstimate& p : finding.parameters) {
-      diagnosis.extended.parameters.push_back(p);
-    }
-    diagnosis.traces.push_back(trace_of(found, searched));
-  }
-  diagnosis.budget = error_budget(searched.selection);
-}
-
-void tell_aliased(const Searched& searched, Diagnosis& diagnosis) {
-  for (const Selection::Aliased& aliased : searched.selection.aliased) {
-    std::string because = "in this log it changes nothing that can be told apart";
-    for (std::size_t k = 0; k < aliased.with.size(); ++k) {
-      because += (k == 0 ? " from " : ", ") + searched.effects[aliased.with[k]]->id;
-    }
-    diagnosis.not_identifiable.push_back({searched.effects[aliased.group]->id, because});
-  }
-}
-
-void tell_unnamed(const Searched& searched, Diagnosis& diagnosis) {
-  const UnnamedStructure& unnamed = searched.selection.unnamed;
-  if (unnamed.regressors.empty()) return;
-  const UnnamedRegressor& strongest = searched.problem.unnamed[unnamed.regressors.front()];
-  const double size = strongest.size * unnamed.coefficients.front();
-  Unexplained& told = diagnosis.unexplained;
-  told.detected = true;
-  told.channels = unnamed.channels;
-  told.share_percent = unnamed.share_percent;
+void size_up(const LogModel& view, const Selection& selection, Unexplained& told) {
+  if (!told.detected) return;
+  const UnnamedRegressor& strongest = view.problem.unnamed[selection.unnamed.regressors.front()];
+  const double size = strongest.size * selection.unnamed.coefficients.front();
   told.size = std::abs(size);
   told.size_unit = strongest.unit;
   told.shape =
       fmt::format("{}, by {:+.2g} {}; no effect of the catalogue does, so it stays unnamed",
                   strongest.shape, size, strongest.unit);
-  told.regressor = strongest.shape;
 }
 
 /// Measured and predicted, before and after, of every stage in its own unit.
-void compare_stages(const Searched& searched, Diagnosis& diagnosis) {
-  const PowerResiduals& residuals = searched.residuals;
-  const Selection& selection = searched.selection;
+void compare_stages(const PowerResiduals& residuals, const PowerLogModel& view,
+                    const Selection& selection, Diagnosis& diagnosis) {
   for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
     const PowerStage& stage = residuals.stages()[k];
-    const std::vector<double> before = held_out(residuals, k, selection.base, searched.model);
-    const std::vector<double> after = held_out(residuals, k, selection.extended, searched.model);
+    const std::vector<double> before = held_out(residuals, k, selection.base, view);
+    const std::vector<double> after = held_out(residuals, k, selection.extended, view);
     diagnosis.further.push_back(
         {stage.quantity, stage.unit, stage_rmse(stage, before), stage_rmse(stage, after)});
     const std::vector<double> measured = measured_in(stage, residuals.log());
@@ -591,32 +463,21 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
       testable_effects(catalogue, residuals.log(), unusable, diagnosis);
   if (residuals.stages().empty()) return result;
 
-  PowerProblem view(base, residuals, effects);
-  SelectionProblem problem;
-  for (const Effect* effect : effects) {
-    const bool in_base =
-        std::find(base_effects.begin(), base_effects.end(), effect->id) != base_effects.end();
-    problem.groups.push_back(group_of(*effect, design, in_base));
-  }
-  problem.predict = [&view](std::span<const double> values, std::span<double> out) {
-    view.predict(values, out);
-  };
-  const ModelOf model = [&view](std::span<const double> values) {
-    return view.model(values, [](const Effect&) { return true; });
-  };
-  Selection selection = search(residuals, effects, problem, progress);
-  if (refine_noise(residuals, model(selection.extended.values), problem, selection)) {
+  PowerLogModel view(base, residuals, effects, base_effects);
+  Selection selection = search(residuals, view, progress);
+  if (refine_noise(residuals, view.model(selection.extended.values), view.problem, selection)) {
     view.forget();
-    selection = search(residuals, effects, problem, progress);
+    selection = search(residuals, view, progress);
   }
 
-  const Searched searched{effects, residuals, view, problem, selection, model};
-  tell_base(searched, diagnosis);
-  tell_findings(searched, diagnosis);
-  tell_aliased(searched, diagnosis);
-  tell_unnamed(searched, diagnosis);
-  compare_stages(searched, diagnosis);
-  result.extended = model(selection.extended.values).design;
+  tell(view, selection, diagnosis);
+  diagnosis.samples = residuals.samples();
+  // Rows are whitened: each counts.
+  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
+                                           static_cast<double>(residuals.stages().size()));
+  size_up(view, selection, diagnosis.unexplained);
+  compare_stages(residuals, view, selection, diagnosis);
+  result.extended = view.model(selection.extended.values).design;
   // What the payload draws less than nothing is another's error; a spec cannot hold it.
   result.extended.drone.auxiliary_power = std::max(0.0, result.extended.drone.auxiliary_power);
   return result;

@@ -9,16 +9,16 @@ using Values = std::span<const double>;
 
 const std::string to_separate_tether =
     "Fly at several heights: contacts and a drum add the same resistance at every height, a higher "
-    "resistivity adds in proportion to the height.";
+    "resistivity adds in proportion to the height";
 const std::string to_separate_converter =
     "Vary the load, by height, payload or airspeed: auxiliaries draw the same at every load, the "
-    "converter's losses grow with it.";
+    "converter's losses grow with it";
 const std::string to_separate_motors =
     "Fly at several heights and airspeeds, and weigh the drone: mass and motor efficiency differ "
-    "only in how the power bends with the thrust.";
+    "only in how the power bends with the thrust";
 const std::string to_separate_airspeed =
     "Hold airspeeds between 0 and the design airspeed at a low and at a great height: tether drag "
-    "grows with the height, airframe drag does not, and the induced power falls before drag rises.";
+    "grows with the height, airframe drag does not, and the induced power falls before drag rises";
 
 Effect conductor_resistivity() {
   Effect e;
@@ -56,7 +56,7 @@ Effect conductor_heating() {
   e.needs = {"drone_voltage_V"};
   e.to_separate =
       "Hover at one height for ten minutes from a cold start: heating shows as a drift of the "
-      "resistance, everything else does not.";
+      "resistance, everything else does not";
   e.change = "R = 2hρ(T)/A, τ·dT/dt = T_ambient + k·I²R′/(1 + c·√v) − T";
   e.channel = "time";
   e.on_power = [](PowerModel& m, Values x) { m.design.tether.heating = {x[0], x[1], x[2]}; };
@@ -236,7 +236,7 @@ Effect current_sensor_gain() {
   e.stage = Stage::supply;
   e.parameters = {{"supply_current_gain", "1", 1, 1, 0.5, 2, 0.03, ""}};
   e.needs = {"drone_voltage_V", "bus_voltage_V", "bus_current_A"};
-  e.to_separate = "Compare the ammeter with another one.";
+  e.to_separate = "Compare the ammeter with another one";
   e.change = "I = I_read/g";
   e.channel = "supply_current";
   e.on_power = [](PowerModel& m, Values x) { m.supply_current_gain *= x[0]; };
@@ -251,7 +251,10 @@ std::vector<Effect> power_effects() {
       contact_resistance(),  spooled_length(),        converter_efficiency_curve(),
       auxiliary_power(),     motor_power_scale(),     translational_lift(),
       extra_mass(),          tether_drag(),           airframe_drag()};
-  for (Effect& effect : effects) effect.log = LogKind::power;
+  for (Effect& effect : effects) {
+    effect.log = LogKind::power;
+    effect.parameters.front().start = effect.parameters.front().scale;
+  }
   return effects;
 }
 

@@ -8,15 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "diagnose/series.hpp"
+
 namespace tethercalc {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Standard deviation of normal noise with few outliers, from the median absolute value.
 double robust_deviation(const std::vector<double>& x, const std::vector<char>& usable) {
@@ -24,7 +19,7 @@ double robust_deviation(const std::vector<double>& x, const std::vector<char>& u
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (usable[i]) size.push_back(std::abs(x[i]));
   }
-  return 1.4826 * median(std::move(size));
+  return mad_to_sigma * median(std::move(size));
 }
 
 /// Third differences of samples i … i+3, scaled to keep the variance of white noise; slow signals
@@ -49,7 +44,7 @@ std::vector<double> steadied(const std::vector<double>& x) {
   if (n < 2 * half + 1) return x;
   std::vector<double> step(n - 1);
   for (std::size_t i = 1; i < n; ++i) step[i - 1] = std::abs(x[i] - x[i - 1]);
-  const double noise = 1.4826 * median(step) / std::sqrt(2.0);
+  const double noise = mad_to_sigma * median(step) / std::sqrt(2.0);
   std::vector<double> sum(n + 1, 0);
   std::partial_sum(x.begin(), x.end(), sum.begin() + 1);
   const double limit = 3 * noise * std::sqrt(2.0 / half);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "diagnose/series.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -27,12 +29,6 @@ constexpr std::array<Channel, 8> channels{{
     {"bus_voltage_V", &PowerLog::bus_voltage, true, true},
     {"bus_current_A", &PowerLog::bus_current, true, false},
 }};
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // A noisy instrument repeats its last digit by chance: with noise of one digit in about a third of
 // the samples, twenty times running once in 10⁹ samples.
@@ -81,7 +77,7 @@ std::size_t mark_spikes(const std::vector<double>& x, std::vector<char>& bad) {
   std::copy_if(deviation.begin(), deviation.end(), std::back_inserter(nonzero),
                [](double d) { return d > 0; });
   if (nonzero.size() < x.size() / 10) return 0;
-  const double scale = 1.4826 * median(nonzero);
+  const double scale = mad_to_sigma * median(nonzero);
   std::size_t marked = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (deviation[i] > limit * scale && !bad[i]) {
@@ -194,12 +190,6 @@ double best_delay(const std::function<double(double)>& agreement, std::size_t sa
       std::atanh(std::min(best_value, 0.999999)) - std::atanh(std::min(none, 0.999999));
   const bool clear = z * std::sqrt(static_cast<double>(samples)) > 6 && best_value > 0.05;
   return clear && std::abs(best) > negligible ? best : 0;
-}
-
-std::vector<double> product(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> out(a.size());
-  std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::multiplies<>());
-  return out;
 }
 
 void note_delay(const char* what, double delay, std::vector<std::string>& notes) {

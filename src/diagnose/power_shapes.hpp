@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnose/power_residuals.hpp"
-#include "tethercalc/diagnose/selection.hpp"
+#include "diagnose/selection.hpp"
 
 namespace tethercalc {
 

@@ -1,6 +1,5 @@
-#include "tethercalc/diagnose/selection.hpp"
+#include "diagnose/selection.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -8,9 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 
-#include "diagnose/block_fit.hpp"
+#include "diagnose/fit_judgement.hpp"
 #include "diagnose/unnamed_structure.hpp"
 
 namespace tethercalc {
@@ -20,12 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A candidate is aliased where less than this part of its change of the prediction, in root mean
-/// square, is its own. A hundredth means that its variance is inflated ten-thousandfold, and that
-/// a log of 10 minutes knows as much of it as 60 ms would without the alias.
-constexpr double aliased_below = 0.01;
-/// A rival explains as well only if it removes at least this part of what the selected effect does.
-constexpr double rival_gain = 0.5;
 /// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
 /// within what the idealised shape of any named effect misses of nature.
 constexpr double outdone_gain = 0.1;
@@ -35,7 +29,6 @@ constexpr double gain_beside_unnamed = 2.5;
 /// Unnamed structure enters the estimates of the parameters only where it is at least this part of
 /// the squared error. A small one disturbs them less without it than its chosen shape does with it.
 constexpr double structure_that_disturbs = 0.25;
-constexpr std::size_t most_rivals = 2;
 
 double students_t_p_value(double t, double degrees) {
   if (!std::isfinite(t)) return t > 0 ? 0 : 1;
@@ -60,21 +53,6 @@ BlockDifference difference(const VectorXd& a, const VectorXd& b) {
   const auto blocks = static_cast<double>(d.size());
   const double spread = (d.array() - d.mean()).square().sum();
   return {d.sum(), std::sqrt(blocks / (blocks - 1) * spread)};
-}
-
-double gain_percent(double before, double after) {
-  return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
-}
-
-/// Standard error of the gain by leaving out one block after the other.
-double gain_se_percent(const BlockFit& before, const BlockFit& after) {
-  const auto blocks = static_cast<double>(before.block_error.size());
-  VectorXd gain(before.block_error.size());
-  for (Index b = 0; b < gain.size(); ++b) {
-    gain[b] = gain_percent(before.squared_error() - before.block_error[b],
-                           after.squared_error() - after.block_error[b]);
-  }
-  return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
 }
 
 /// What the systematic errors add to the variance of each parameter of the fit: the squares of how
@@ -131,7 +109,6 @@ class Search {
 
   [[nodiscard]] Freed freed(const std::vector<std::size_t>& selected) const;
   [[nodiscard]] BlockFit fit(const std::vector<std::size_t>& selected, const BlockFit* near) const;
-  [[nodiscard]] BlockFit fit(const Freed& free, const BlockFit* near) const;
   [[nodiscard]] double p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const;
   [[nodiscard]] double wald_p_value(std::size_t g, const BlockFit& without,
                                     const BlockFit& with) const;
@@ -142,7 +119,6 @@ class Search {
   [[nodiscard]] std::optional<Trial> best_step() const;
   [[nodiscard]] std::vector<std::size_t> selected_without(std::size_t g) const;
 
-  void find_aliased(const BlockFit& base, Selection& result) const;
   void step_forward();
   void drop_superfluous();
   bool drop_outdone();
@@ -181,23 +157,7 @@ Freed Search::freed(const std::vector<std::size_t>& selected) const {
 }
 
 BlockFit Search::fit(const std::vector<std::size_t>& selected, const BlockFit* near) const {
-  return fit(freed(selected), near);
-}
-
-/// Starts from the values of `near` for what is free in both.
-BlockFit Search::fit(const Freed& free, const BlockFit* near) const {
-  std::vector<double> start;
-  for (const ModelParameter& p : record_.parameters()) start.push_back(p.neutral);
-  for (const std::size_t g : free.groups) {
-    const bool known =
-        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
-                               near->freed.groups.end();
-    for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
-      const std::size_t index = record_.first_parameter(g) + k;
-      start[index] = known ? near->values[index] : record_.parameters()[index].start;
-    }
-  }
-  return fit_blocks(record_, free, std::move(start));
+  return fit_blocks(record_, freed(selected), near);
 }
 
 /// Of the hypothesis that the group is neutral. A group that replaces another has no neutral value
@@ -211,7 +171,7 @@ double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& w
   if (replaced == without.freed.groups.end()) return wald_p_value(g, without, with);
   both.groups.insert(std::upper_bound(both.groups.begin(), both.groups.end(), *replaced),
                      *replaced);
-  return wald_p_value(g, without, fit(both, &with));
+  return wald_p_value(g, without, fit_blocks(record_, both, &with));
 }
 
 /// Wald's statistic with the jackknife covariance, referred to Hotelling's distribution for as many
@@ -249,7 +209,7 @@ Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit wit
   const double least_gain =
       options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
   trial.worth_a_name =
-      gain >= least_gain && gain > 2 * gain_se_percent(without, with) &&
+      gain >= least_gain && gain > 2 * gain_se_percent(without.block_error, with.block_error) &&
       trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
   trial.fit = std::move(with);
   return trial;
@@ -421,58 +381,6 @@ void Search::add_unnamed() {
   }
 }
 
-void Search::find_aliased(const BlockFit& base, Selection& result) const {
-  for (const std::size_t g : candidates()) {
-    std::vector<Index> columns;
-    std::vector<std::size_t> column_group;
-    for (std::size_t k = 0; k < base.active.size(); ++k) {
-      std::size_t owner = 0;
-      while (owner + 1 < record_.problem().groups.size() &&
-             record_.first_parameter(owner + 1) <= base.active[k]) {
-        ++owner;
-      }
-      if (group(g).replaces == owner) continue;
-      columns.push_back(static_cast<Index>(k));
-      column_group.push_back(owner);
-    }
-    std::vector<double> values = base.values;
-    for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
-      const std::size_t index = record_.first_parameter(g) + k;
-      values[index] = record_.parameters()[index].start;
-    }
-    MatrixXd slopes = group_slopes(record_, g, values);
-    const VectorXd norms = slopes.colwise().norm();
-    if (norms.minCoeff() <= 0) {
-      result.aliased.push_back({g, {}});
-      continue;
-    }
-    slopes = slopes * norms.cwiseInverse().asDiagonal();
-    const MatrixXd own = slopes;
-    if (!columns.empty()) {
-      const MatrixXd others = base.jacobian(Eigen::all, columns);
-      slopes -= others * others.colPivHouseholderQr().solve(slopes);
-    }
-    const MatrixXd gram = slopes.transpose() * slopes;
-    const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(gram).eigenvalues().minCoeff();
-    if (std::sqrt(std::max(least, 0.0)) >= aliased_below) continue;
-
-    Selection::Aliased aliased{g, {}};
-    std::vector<std::pair<double, std::size_t>> nearness;
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const VectorXd other = base.jacobian.col(columns[k]);
-      const double cosine = std::abs(other.dot(own.col(0))) / std::max(other.norm(), 1e-300);
-      nearness.emplace_back(-cosine, column_group[k]);
-    }
-    std::sort(nearness.begin(), nearness.end());
-    for (const auto& [cosine, owner] : nearness) {
-      if (std::find(aliased.with.begin(), aliased.with.end(), owner) == aliased.with.end()) {
-        aliased.with.push_back(owner);
-      }
-    }
-    result.aliased.push_back(std::move(aliased));
-  }
-}
-
 std::vector<std::size_t> Search::rivals(std::size_t g, const BlockFit& all) const {
   const BlockFit without = fit(selected_without(g), &all);
   const double earned = without.squared_error() - all.squared_error();
@@ -490,32 +398,14 @@ std::vector<std::size_t> Search::rivals(std::size_t g, const BlockFit& all) cons
       found.emplace_back(rival.squared_error(), c);
     }
   }
-  std::sort(found.begin(), found.end());
-  std::vector<std::size_t> result;
-  for (std::size_t k = 0; k < std::min(found.size(), most_rivals); ++k) {
-    result.push_back(found[k].second);
-  }
-  return result;
+  return nearest_rivals(std::move(found));
 }
 
 ModelFit Search::model_fit(const BlockFit& fit) const {
-  ModelFit result;
-  result.values = fit.values;
-  result.standard_error.assign(fit.values.size(), 0);
-  result.without_block.assign(record_.blocks(), fit.values);
-  const VectorXd systematic = systematic_variance(record_, fit);
-  for (std::size_t k = 0; k < fit.active.size(); ++k) {
-    const std::size_t index = fit.active[k];
-    const auto column = static_cast<Index>(k);
-    const ModelParameter& p = record_.parameters()[index];
-    result.standard_error[index] =
-        p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0) + systematic[column]);
-    for (std::size_t b = 0; b < record_.blocks(); ++b) {
-      double& value = result.without_block[b][index];
-      value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,
-                         p.upper);
-    }
-  }
+  ModelFit result = neutral_fit(record_.problem(), record_.blocks());
+  std::vector<int> block_ids(record_.blocks());
+  std::iota(block_ids.begin(), block_ids.end(), 0);
+  add_fit(record_, fit, block_ids, systematic_variance(record_, fit), result);
   result.holdout_rmse = std::sqrt(fit.squared_error() / static_cast<double>(record_.rows()));
   result.holdout_residual.assign(record_.problem().measured.size(), 0);
   for (Index i = 0; i < record_.rows(); ++i) {
@@ -547,7 +437,7 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
     entry.rmse_before = rmse(before);
     entry.rmse_after = rmse(after);
     entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
-    entry.gain_se_percent = gain_se_percent(before, after);
+    entry.gain_se_percent = gain_se_percent(before.block_error, after.block_error);
     before = std::move(after);
   }
   result.extended = model_fit(before);
@@ -569,13 +459,7 @@ void Search::sum_up(const BlockFit& base, Selection& result) const {
   if (unnamed_.empty()) return;
   result.unnamed.regressors = unnamed_;
   result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
-  for (const std::size_t u : unnamed_) {
-    const std::string& channel = record_.problem().unnamed[u].channel;
-    auto& channels = result.unnamed.channels;
-    if (std::find(channels.begin(), channels.end(), channel) == channels.end()) {
-      channels.push_back(channel);
-    }
-  }
+  name_channels(record_.problem(), result.unnamed);
   result.unnamed.share_percent = 100 * std::max(0.0, share);
 }
 
@@ -589,7 +473,9 @@ Selection Search::run() {
   const BlockFit base = fit(selected_, nullptr);
   current_ = base;
   result.base = model_fit(base);
-  find_aliased(base, result);
+  for (const std::size_t g : candidates()) {
+    if (auto aliased = aliased_in(record_, base, g)) result.aliased.push_back(std::move(*aliased));
+  }
   for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
 
   // Every round either ends or puts an effect on the list of those never tried again.
@@ -607,18 +493,6 @@ Selection Search::run() {
 Selection select_effects(const SelectionProblem& problem, const SelectionOptions& options,
                          const SelectionProgress& progress) {
   return Search(problem, options, progress).run();
-}
-
-double noise_floor(std::span<const double> residuals) {
-  if (residuals.size() < 2) throw std::invalid_argument("a noise floor needs two residuals");
-  std::vector<double> steps(residuals.size() - 1);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    steps[i] = std::abs(residuals[i + 1] - residuals[i]);
-  }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  // 1.4826: median absolute deviation to standard deviation; √2: a difference of two readings.
-  return 1.4826 * *middle / std::sqrt(2.0);
 }
 
 }  // namespace tethercalc

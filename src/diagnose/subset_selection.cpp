@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "diagnose/block_fit.hpp"
+#include "diagnose/fit_judgement.hpp"
 #include "diagnose/unnamed_structure.hpp"
 
 namespace tethercalc {
@@ -22,21 +22,15 @@ using Groups = std::vector<std::size_t>;
 /// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
 /// likelihood.
 constexpr double rival_excess = 6;
-/// A rival must remove at least this part of what the selected effect does.
-constexpr double rival_gain = 0.5;
 /// Shapes take the place of names only where they shorten the description by this much more: a
 /// mechanism that is known to exist is the likelier cause, and the true shape of a named effect
 /// differs a little from the idealised one. e⁻⁴ = 2 % of the likelihood.
 constexpr double name_preference = 8;
-constexpr std::size_t most_rivals = 2;
 /// Part of what unnamed shapes remove that they may miss of the unknown. A name beside them must
 /// explain more than that, or it might name the unknown's rest.
 constexpr double missed_by_shapes = 0.1;
 constexpr std::size_t most_shapes = 3;  ///< more would describe noise that nobody reads
 constexpr std::size_t beam = 4;         ///< subsets of one size that are tried with one more effect
-/// An effect is aliased where less than this part of its change of the prediction, in root mean
-/// square, is its own.
-constexpr double aliased_below = 0.01;
 
 struct Model {
   Groups named;  ///< sorted
@@ -113,30 +107,18 @@ class PartSearch {
   std::vector<Selection::Aliased> aliased_;
 };
 
-/// Starts from the values of `near` for what is free in both.
 Model PartSearch::model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
   Freed freed;
   freed.groups = fitted_;
   freed.groups.insert(freed.groups.end(), named.begin(), named.end());
   std::sort(freed.groups.begin(), freed.groups.end());
   freed.unnamed = shapes;
-  std::vector<double> start;
-  for (const ModelParameter& p : record_.parameters()) start.push_back(p.neutral);
-  for (const std::size_t g : freed.groups) {
-    const bool known =
-        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
-                               near->freed.groups.end();
-    for (std::size_t k = 0; k < problem_.groups[g].parameters.size(); ++k) {
-      const std::size_t index = record_.first_parameter(g) + k;
-      start[index] = known ? near->values[index] : record_.parameters()[index].start;
-    }
-  }
-  Model result{named, shapes, fit_blocks(record_, freed, start), 0};
+  Model result{named, shapes, fit_blocks(record_, freed, near), 0};
   result.length = result.fit.squared_error() + name_price_ * static_cast<double>(named.size()) +
                   shape_price_ * static_cast<double>(shapes.size());
   if (!named.empty() && !shapes.empty()) {
     freed.unnamed.clear();
-    const double named_alone = fit_blocks(record_, freed, std::move(start)).squared_error();
+    const double named_alone = fit_blocks(record_, freed, near).squared_error();
     result.length += missed_by_shapes * static_cast<double>(named.size()) *
                      std::max(0.0, named_alone - result.fit.squared_error());
   }
@@ -229,22 +211,10 @@ void PartSearch::add_names() {
 void PartSearch::find_aliased(const Model& model, bool beside_findings) {
   for (const std::size_t g : candidates_) {
     if (is_aliased(g) || std::binary_search(model.named.begin(), model.named.end(), g)) continue;
-    std::vector<double> values = model.fit.values;
-    for (std::size_t k = 0; k < problem_.groups[g].parameters.size(); ++k) {
-      const std::size_t index = record_.first_parameter(g) + k;
-      values[index] = record_.parameters()[index].start;
+    auto aliased = aliased_in(record_, model.fit, g);
+    if (aliased && !(aliased->with.empty() && beside_findings)) {
+      aliased_.push_back(std::move(*aliased));
     }
-    // The first parameter is the size of the effect.
-    const VectorXd slope = group_slopes(record_, g, values).col(0);
-    const auto others = static_cast<Index>(model.fit.active.size());
-    VectorXd own = slope;
-    if (others > 0) {
-      const MatrixXd jacobian = model.fit.jacobian.leftCols(others);
-      own -= jacobian * jacobian.colPivHouseholderQr().solve(slope);
-    }
-    if (slope.norm() > 0 && own.norm() >= aliased_below * slope.norm()) continue;
-    if (slope.norm() <= 0 && beside_findings) continue;
-    aliased_.push_back({g, slope.norm() > 0 ? model.named : Groups{}});
   }
 }
 
@@ -278,12 +248,7 @@ Groups PartSearch::rivals(std::size_t g) const {
       found.emplace_back(rival.length, c);
     }
   }
-  std::sort(found.begin(), found.end());
-  Groups result;
-  for (const auto& [length, c] : found) {
-    if (result.size() < most_rivals) result.push_back(c);
-  }
-  return result;
+  return nearest_rivals(std::move(found));
 }
 
 /// Standard errors from the curvature of the likelihood, by parameter. Unlike the jackknife of the
@@ -315,47 +280,12 @@ std::map<std::size_t, double> likelihood_errors(const Record& record, const Bloc
   return errors;
 }
 
-/// What of a fit concerns the freed parameters of `groups`, into a fit of all parts.
-void merge_fit(const PartSearch& part, const BlockFit& fit, const std::vector<int>& block_ids,
+void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
                ModelFit& all) {
-  const Record& record = part.record();
-  const auto student = static_cast<Index>(record.blocks());
-  for (const std::size_t g : fit.freed.groups) {
-    const std::size_t first = record.first_parameter(g);
-    for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
-      all.values[first + k] = fit.values[first + k];
-      for (auto& values : all.without_block) values[first + k] = fit.values[first + k];
-    }
-  }
   for (const auto& [index, error] : likelihood_errors(record, fit)) {
     all.standard_error[index] = error;
   }
-  for (std::size_t k = 0; k < fit.active.size(); ++k) {
-    const std::size_t index = fit.active[k];
-    const auto column = static_cast<Index>(k);
-    const ModelParameter& p = record.parameters()[index];
-    all.standard_error[index] = std::max(
-        all.standard_error[index], p.scale * std::sqrt(jackknife_covariance(fit, {column})(0, 0)));
-    for (Index b = 0; b < student; ++b) {
-      double& value =
-          all.without_block[static_cast<std::size_t>(block_ids[static_cast<std::size_t>(b)])]
-                           [index];
-      value = std::clamp(value + p.scale * fit.left_out(column, b), p.lower, p.upper);
-    }
-  }
-}
-
-/// Standard error of the gain in percent by leaving out one block after the other. `other` is the
-/// squared error of the other parts.
-double gain_se_percent(const VectorXd& before, const VectorXd& after, double other) {
-  const auto blocks = static_cast<double>(before.size());
-  VectorXd gain(before.size());
-  for (Index b = 0; b < gain.size(); ++b) {
-    gain[b] =
-        100 *
-        (1 - std::sqrt((other + after.sum() - after[b]) / (other + before.sum() - before[b])));
-  }
-  return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
+  add_fit(record, fit, block_ids, {}, all);
 }
 
 }  // namespace
@@ -363,16 +293,9 @@ double gain_se_percent(const VectorXd& before, const VectorXd& after, double oth
 Selection select_subset(const SelectionProblem& problem, const std::vector<SelectionPart>& parts,
                         const SelectionOptions& options, const SelectionProgress& progress) {
   Selection result;
-  std::vector<double> neutral;
-  for (const ParameterGroup& group : problem.groups) {
-    for (const ModelParameter& p : group.parameters) neutral.push_back(p.neutral);
-  }
   const int blocks = 1 + *std::max_element(problem.block.begin(), problem.block.end());
-  ModelFit empty;
-  empty.values = neutral;
-  empty.standard_error.assign(neutral.size(), 0);
-  empty.without_block.assign(static_cast<std::size_t>(std::max(blocks, 0)), neutral);
-  result.base = result.extended = result.complete = empty;
+  result.base = result.extended = result.complete =
+      neutral_fit(problem, static_cast<std::size_t>(std::max(blocks, 0)));
 
   struct Found {
     SelectedGroup entry;
@@ -431,9 +354,9 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
     base_error += search.base().fit.squared_error();
     named_error += before->squared_error();
     complete_error += best.fit.squared_error();
-    merge_fit(search, search.base().fit, block_ids, result.base);
-    merge_fit(search, *before, block_ids, result.extended);
-    merge_fit(search, best.fit, block_ids, result.complete);
+    merge_fit(search.record(), search.base().fit, block_ids, result.base);
+    merge_fit(search.record(), *before, block_ids, result.extended);
+    merge_fit(search.record(), best.fit, block_ids, result.complete);
     for (std::size_t k = 0; k < best.shapes.size(); ++k) {
       result.unnamed.regressors.push_back(shape_index[best.shapes[k]]);
       result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
@@ -448,7 +371,7 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
     const double after = error - f.gain();
     f.entry.rmse_before = std::sqrt(error / rows);
     f.entry.rmse_after = std::sqrt(after / rows);
-    f.entry.gain_percent = 100 * (1 - std::sqrt(after / error));
+    f.entry.gain_percent = gain_percent(error, after);
     f.entry.gain_se_percent = gain_se_percent(f.before, f.after, error - f.before.sum());
     error = after;
     result.selected.push_back(f.entry);
@@ -458,13 +381,7 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
   result.complete.holdout_rmse = std::sqrt(complete_error / rows);
   result.student_factor =
       boost::math::quantile(boost::math::students_t(static_cast<double>(result.blocks) - 1), 0.975);
-  for (const std::size_t u : result.unnamed.regressors) {
-    const std::string& channel = problem.unnamed[u].channel;
-    auto& channels = result.unnamed.channels;
-    if (std::find(channels.begin(), channels.end(), channel) == channels.end()) {
-      channels.push_back(channel);
-    }
-  }
+  name_channels(problem, result.unnamed);
   if (!result.unnamed.regressors.empty()) {
     result.unnamed.share_percent = 100 * std::max(0.0, 1 - complete_error / named_error);
   }

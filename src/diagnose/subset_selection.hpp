@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tethercalc/diagnose/selection.hpp"
+#include "diagnose/selection.hpp"
 
 namespace tethercalc {
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/series.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -16,14 +18,6 @@ double quantile(std::vector<double> values, double part) {
       values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), place, values.end());
   return *place;
-}
-
-double median(const std::vector<double>& values) { return quantile(values, 0.5); }
-
-double median_product(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> product(a.size());
-  std::transform(a.begin(), a.end(), b.begin(), product.begin(), std::multiplies<>());
-  return median(product);
 }
 
 }  // namespace
@@ -90,8 +84,8 @@ void check_power_units(const Design& design, const PowerLog& log) {
     }
   }
   if (!log.bus_voltage.empty() && !log.bus_current.empty() && voltage > 0 && current > 0) {
-    const double bus = median_product(log.bus_voltage, log.bus_current);
-    const double supply = median_product(log.supply_voltage, log.supply_current);
+    const double bus = median(product(log.bus_voltage, log.bus_current));
+    const double supply = median(product(log.supply_voltage, log.supply_current));
     if (!(bus > 0.1 * supply && bus < 3 * supply)) {
       report(
           fmt::format("the bus takes {:.3g} W in the median where the supply gives {:.3g} W; a "

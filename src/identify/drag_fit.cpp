@@ -303,14 +303,12 @@ Box box(const DragBounds& bounds, Index flights) {
 }
 
 struct LocalDrag {
-  double front_area;
-  double top_area;
-  double linear_speed;
+  AirframeDrag law;
   double wind;
 };
 
 LocalDrag local(const VectorXd& x, Index flight) {
-  return {x(front), x(top), x(linear), x(shared + flight)};
+  return {{x(front), x(top), x(linear), 0}, x(shared + flight)};
 }
 
 /// One row of J and the residual.
@@ -323,12 +321,9 @@ struct Row {
 };
 
 inline Row row_at(const Sample& s, double k, const LocalDrag& drag) {
-  const double u = s.speed - drag.wind;
-  const double speed = std::abs(u);
-  const double factor = k * u * (speed + drag.linear_speed);
-  const double area = drag.front_area * s.cosine + drag.top_area * s.sine;
-  return {s.cosine * factor, s.sine * factor, k * area * u,
-          -k * area * (2 * speed + drag.linear_speed), s.observed - area * factor};
+  const AirframeDragSlopes d =
+      airframe_drag_slopes(drag.law, 2 * k, s.speed - drag.wind, s.cosine, s.sine);
+  return {d.by_front_area, d.by_top_area, d.by_linear_speed, -d.by_airspeed, s.observed - d.force};
 }
 
 struct NormalEquations {
@@ -726,21 +721,22 @@ std::optional<SteadyDrag> steady_drag(const DragFit& fit, double airspeed) {
   const double steepest = std::tan(60 * unit::degree);
   const AirframeDrag drag = fit.drag();
   const double weight = fit.conditions.mass * fit.conditions.gravity;
-  const double pressure = 0.5 * fit.conditions.air_density * airspeed;
-  const double factor = pressure * (airspeed + drag.linear_speed);
+  const double density = fit.conditions.air_density;
+  const double factor = area_force_factor(drag, density, airspeed);
   const double t =
       equilibrium_tan_pitch({weight, factor, 0, drag.front_area, drag.top_area}, steepest);
   if (!std::isfinite(t)) return std::nullopt;
 
   // Implicit derivative of weight·t = factor·(A_f + A_t·t)/√(1 + t²).
   const double secant = std::sqrt(1 + t * t);
-  const double area = (drag.front_area + drag.top_area * t) / secant;
+  const AirframeDragSlopes d =
+      airframe_drag_slopes(drag, density, airspeed, 1 / secant, t / secant);
   const double stiffness =
       weight - factor * (drag.top_area - drag.front_area * t) / (secant * secant * secant);
   std::vector<double> gradient(fit.parameters.size(), 0.0);
-  gradient[front] = factor / secant / stiffness;
-  gradient[top] = factor * t / secant / stiffness;
-  gradient[linear] = pressure * area / stiffness;
+  gradient[front] = d.by_front_area / stiffness;
+  gradient[top] = d.by_top_area / stiffness;
+  gradient[linear] = d.by_linear_speed / stiffness;
 
   const auto scaled = [&gradient](double by) {
     std::vector<double> out = gradient;

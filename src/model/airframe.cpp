@@ -11,12 +11,6 @@ double effective_area(const AirframeDrag& drag, double tan_pitch) {
          std::sqrt(1 + tan_pitch * tan_pitch);
 }
 
-double area_force_factor(const AirframeDrag& drag, double air_density, double airspeed) {
-  const double speed = std::abs(airspeed);
-  const double asymmetry = airspeed < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
-  return 0.5 * air_density * speed * (speed + drag.linear_speed) * (1 + asymmetry);
-}
-
 double airframe_drag_force(const AirframeDrag& drag, double air_density, double airspeed,
                            double tan_pitch) {
   return std::copysign(area_force_factor(drag, air_density, airspeed), airspeed) *

@@ -1,4 +1,4 @@
-#include "tethercalc/diagnose/flight_prediction.hpp"
+#include "diagnose/flight_prediction.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

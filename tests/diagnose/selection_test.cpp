@@ -1,5 +1,5 @@
 // The search on records whose answer is known by construction: linear models with drawn columns.
-#include "tethercalc/diagnose/selection.hpp"
+#include "diagnose/selection.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -240,13 +240,4 @@ TEST_CASE("a record that makes no sense is refused") {
   bad = good.problem;
   for (int& block : bad.block) block %= static_cast<int>(fewest_blocks) - 1;
   CHECK_THROWS_AS(select_effects(bad), std::invalid_argument);
-}
-
-TEST_CASE("the noise floor sees the noise, not what is slow") {
-  Random random(12);
-  std::normal_distribution<double> normal(0, 0.3);
-  Column series;
-  for (int i = 0; i < 4000; ++i) series.push_back(5 * std::sin(i / 200.0) + normal(random));
-  // The median of 4000 differences scatters by about 2 %.
-  CHECK(noise_floor(series) == Approx(0.3).epsilon(0.08));
 }

@@ -4,7 +4,7 @@
 
 #include "support/simulated_flight.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
-#include "tethercalc/diagnose/channels.hpp"
+#include "diagnose/channels.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;

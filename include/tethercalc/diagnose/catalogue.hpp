@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "tethercalc/diagnose/selection.hpp"
-
 namespace tethercalc {
 
 struct Design;            // model/design.hpp
@@ -40,6 +38,7 @@ struct EffectParameter {
       spec_field{};  ///< JSON path in the design spec that takes it; empty: ends with the flight
   /// The neutral value, in SI, where a design has one of its own; null: `neutral` for every design.
   double (*in_design)(const Design&) = nullptr;
+  double start = 0;  ///< in `unit`, beyond neutral: the first value that a search tries
 };
 
 /// One entry.
@@ -56,6 +55,9 @@ struct Effect {
   std::string to_separate{};         ///< what flight or channel tells it from its like
   std::string change{};              ///< the change of the prediction as a formula
   std::string channel{};             ///< where it shows, an id as in `diagnose/channels.hpp`
+
+  /// Why a log may not show it beside the base model, where that has one reason; else empty.
+  std::string aliased_because{};
 
   std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 

@@ -3,11 +3,36 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tethercalc {
+
+/// Every default is a choice; the comment says what it trades.
+struct SelectionOptions {
+  /// Chance of naming anything at all where nothing is hidden, over the whole catalogue and all
+  /// steps (Bonferroni–Holm over the candidates that are tested).
+  double false_alarm_probability = 0.01;
+
+  /// Smallest drop of held-out rmse worth a name, in percent. Below it a statistically certain
+  /// gain may as well come from the imperfection of the log (time stamps, filters, sampling).
+  double least_gain_percent = 2.0;
+
+  /// The same for unnamed structure, in percent of the held-out rmse left.
+  double least_unexplained_percent = 2.0;
+
+  /// At most this many effects are named.
+  std::size_t most_findings = 6;
+};
+
+/// Told after each fit what is being done, in words; for a progress display.
+using SelectionProgress = std::function<void(const std::string&)>;
+
+/// Fewer blocks than this give no usable spread: a t quantile with 5 degrees of freedom is already
+/// 30 % wider than the normal one.
+inline constexpr std::size_t fewest_blocks = 6;
 
 /// A fitted parameter in the unit a person reads it in.
 struct ParameterEstimate {

@@ -6,7 +6,6 @@
 
 #include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
-#include "tethercalc/diagnose/selection.hpp"
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {

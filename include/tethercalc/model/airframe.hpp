@@ -1,6 +1,8 @@
 // Aerodynamic drag of the drone, and the tilt at which thrust balances it.
 #pragma once
 
+#include <cmath>
+
 namespace tethercalc {
 
 /// Drag of the drone as in the paper's section III-B. The areas include the drag coefficient; they
@@ -19,13 +21,39 @@ struct AirframeDrag {
 
 /// Drag in N per m² of effective area at `airspeed` (m/s, either sign), `air_density` in kg/m³:
 /// ½·ρ·(v² + j·|v|)·(1 + a·sign v). Never negative.
-[[nodiscard]] double area_force_factor(const AirframeDrag& drag, double air_density,
-                                       double airspeed);
+[[nodiscard]] inline double area_force_factor(const AirframeDrag& drag, double air_density,
+                                              double airspeed) {
+  const double speed = std::abs(airspeed);
+  const double asymmetry = airspeed < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
+  return 0.5 * air_density * speed * (speed + drag.linear_speed) * (1 + asymmetry);
+}
 
 /// Drag in N against the motion, with the sign of `airspeed` (m/s, forward positive):
 /// ½·ρ·(A_f cos|θ| + A_t sin|θ|)·(v|v| + j·v)·(1 + a·sign v). `air_density` in kg/m³.
 [[nodiscard]] double airframe_drag_force(const AirframeDrag& drag, double air_density,
                                          double airspeed, double tan_pitch);
+
+/// The same force with its derivatives.
+struct AirframeDragSlopes {
+  double force = 0;            ///< N
+  double by_front_area = 0;    ///< N/m²
+  double by_top_area = 0;      ///< N/m²
+  double by_linear_speed = 0;  ///< N·s/m
+  double by_airspeed = 0;      ///< N·s/m
+};
+
+/// At a tilt with `cosine` = cos θ and `sine` = |sin θ|.
+[[nodiscard]] inline AirframeDragSlopes airframe_drag_slopes(const AirframeDrag& drag,
+                                                             double air_density, double airspeed,
+                                                             double cosine, double sine) {
+  const double speed = std::abs(airspeed);
+  const double asymmetry = airspeed < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
+  const double k = 0.5 * air_density * (1 + asymmetry);
+  const double factor = std::copysign(area_force_factor(drag, air_density, airspeed), airspeed);
+  const double area = drag.front_area * cosine + drag.top_area * sine;
+  return {area * factor, cosine * factor, sine * factor, k * area * airspeed,
+          k * area * (2 * speed + drag.linear_speed)};
+}
 
 /// What `equilibrium_tan_pitch` balances.
 struct ForceBalance {

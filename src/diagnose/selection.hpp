@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/diagnose/diagnosis.hpp"
+
 namespace tethercalc {
 
 /// A parameter of the model, in the unit the model takes it in.
@@ -74,23 +76,6 @@ struct SelectionProblem {
   std::vector<std::vector<double>> systematic{};
 };
 
-/// Every default is a choice; the comment says what it trades.
-struct SelectionOptions {
-  /// Chance of naming anything at all where nothing is hidden, over the whole catalogue and all
-  /// steps (Bonferroni–Holm over the candidates that are tested).
-  double false_alarm_probability = 0.01;
-
-  /// Smallest drop of held-out rmse worth a name, in percent. Below it a statistically certain
-  /// gain may as well come from the imperfection of the log (time stamps, filters, sampling).
-  double least_gain_percent = 2.0;
-
-  /// The same for unnamed structure, in percent of the held-out rmse left.
-  double least_unexplained_percent = 2.0;
-
-  /// At most this many effects are named.
-  std::size_t most_findings = 6;
-};
-
 /// A group that was freed, after the joint fit.
 struct SelectedGroup {
   std::size_t group = 0;       ///< index into SelectionProblem::groups
@@ -147,9 +132,6 @@ struct Selection {
   UnnamedStructure unnamed;        ///< beside the selected groups
 };
 
-/// Told after each fit what is being done, in words; for a progress display.
-using SelectionProgress = std::function<void(const std::string&)>;
-
 /// Forward steps with backward checks.
 ///
 /// Each step frees the candidate with the largest drop of held-out error, provided the drop beats
@@ -166,13 +148,5 @@ using SelectionProgress = std::function<void(const std::string&)>;
 [[nodiscard]] Selection select_effects(const SelectionProblem& problem,
                                        const SelectionOptions& options = {},
                                        const SelectionProgress& progress = {});
-
-/// Fewer blocks than this give no usable spread: a t quantile with 5 degrees of freedom is already
-/// 30 % wider than the normal one.
-inline constexpr std::size_t fewest_blocks = 6;
-
-/// Noise of a series of residuals at its highest frequency, from the median absolute difference of
-/// neighbours: what an instrument adds, whatever slow effect is hidden. ≥ 0; needs two values.
-[[nodiscard]] double noise_floor(std::span<const double> residuals);
 
 }  // namespace tethercalc

@@ -7,6 +7,7 @@
 
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/identify/observations.hpp"
+#include "tethercalc/model/airframe.hpp"
 
 namespace tethercalc {
 
@@ -59,7 +60,7 @@ struct FlightPrediction {
   const FlightRecord& record;    ///< what is predicted from
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
-  double linear_speed = 0;       ///< j of the drag law, m/s
+  AirframeDrag law;              ///< of the drag
   std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
   std::vector<double> drag;      ///< N against the motion; known in the force phase
   std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
@@ -75,8 +76,8 @@ struct EffectValues {
 };
 
 /// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ/cosφ − F_D/m with
-/// F_D = ½ρ(A_f cos θ + A_t sin|θ|)(u|u| + j·u), u = v − w, as changed by `effects`. Effects act in
-/// the order given within each phase; those at their neutral values change nothing.
+/// F_D the drag law of `model/airframe.hpp` at the airspeed v − w, as changed by `effects`. Effects
+/// act in the order given within each phase; those at their neutral values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/flight_prediction.hpp"
 #include "tethercalc/diagnose/diagnosis.hpp"
-#include "tethercalc/diagnose/flight_prediction.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 
 namespace tethercalc {

@@ -1,0 +1,148 @@
+#include "diagnose/fit_judgement.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tethercalc {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double aliased_below = 0.01;
+constexpr std::size_t most_rivals = 2;
+/// Cosine beyond which a change of the prediction looks like another at all.
+constexpr double alike = 0.1;
+
+std::size_t owner_of(const Record& record, std::size_t parameter) {
+  std::size_t owner = 0;
+  while (owner + 1 < record.problem().groups.size() &&
+         record.first_parameter(owner + 1) <= parameter) {
+    ++owner;
+  }
+  return owner;
+}
+
+/// Slopes by the parameters of the group that are no mere shapes, freed at their first values.
+MatrixXd size_slopes(const Record& record, const BlockFit& fit, std::size_t group) {
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  std::vector<double> values = fit.values;
+  std::vector<Index> sizes;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    values[record.first_parameter(group) + k] = own[k].start;
+    if (!own[k].shape_only) sizes.push_back(static_cast<Index>(k));
+  }
+  return group_slopes(record, group, values)(Eigen::all, sizes);
+}
+
+}  // namespace
+
+double gain_percent(double before, double after) {
+  return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
+}
+
+double gain_se_percent(const VectorXd& before, const VectorXd& after, double other) {
+  const auto blocks = static_cast<double>(before.size());
+  VectorXd gain(before.size());
+  for (Index b = 0; b < gain.size(); ++b) {
+    gain[b] = gain_percent(other + before.sum() - before[b], other + after.sum() - after[b]);
+  }
+  return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
+}
+
+std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFit& fit,
+                                             std::size_t group) {
+  std::vector<Index> columns;
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    if (record.problem().groups[group].replaces != owner_of(record, fit.active[k])) {
+      columns.push_back(static_cast<Index>(k));
+    }
+  }
+  MatrixXd slopes = size_slopes(record, fit, group);
+  const VectorXd norms = slopes.colwise().norm();
+  if (norms.minCoeff() <= 0) return Selection::Aliased{group, {}};
+  slopes = slopes * norms.cwiseInverse().asDiagonal();
+  const VectorXd size = slopes.col(0);
+  if (!columns.empty()) {
+    const MatrixXd others = fit.jacobian(Eigen::all, columns);
+    slopes -= others * others.colPivHouseholderQr().solve(slopes);
+  }
+  const MatrixXd gram = slopes.transpose() * slopes;
+  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(gram).eigenvalues().minCoeff();
+  if (std::sqrt(std::max(least, 0.0)) >= aliased_below) return std::nullopt;
+
+  std::vector<std::pair<double, std::size_t>> nearness;
+  for (const Index k : columns) {
+    const VectorXd other = fit.jacobian.col(k);
+    const double cosine = std::abs(other.dot(size)) / std::max(other.norm(), 1e-300);
+    if (cosine > alike) {
+      nearness.emplace_back(-cosine, owner_of(record, fit.active[static_cast<std::size_t>(k)]));
+    }
+  }
+  std::sort(nearness.begin(), nearness.end());
+  Selection::Aliased aliased{group, {}};
+  for (const auto& [cosine, owner] : nearness) {
+    if (std::find(aliased.with.begin(), aliased.with.end(), owner) == aliased.with.end()) {
+      aliased.with.push_back(owner);
+    }
+  }
+  return aliased;
+}
+
+std::vector<std::size_t> nearest_rivals(std::vector<std::pair<double, std::size_t>> found) {
+  std::sort(found.begin(), found.end());
+  found.resize(std::min(found.size(), most_rivals));
+  std::vector<std::size_t> groups;
+  for (const auto& [distance, group] : found) groups.push_back(group);
+  return groups;
+}
+
+ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks) {
+  ModelFit fit;
+  for (const ParameterGroup& group : problem.groups) {
+    for (const ModelParameter& p : group.parameters) fit.values.push_back(p.neutral);
+  }
+  fit.standard_error.assign(fit.values.size(), 0);
+  fit.without_block.assign(blocks, fit.values);
+  return fit;
+}
+
+void add_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
+             const VectorXd& systematic, ModelFit& all) {
+  for (const std::size_t g : fit.freed.groups) {
+    const std::size_t first = record.first_parameter(g);
+    for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
+      all.values[first + k] = fit.values[first + k];
+      for (auto& values : all.without_block) values[first + k] = fit.values[first + k];
+    }
+  }
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    const std::size_t index = fit.active[k];
+    const auto column = static_cast<Index>(k);
+    const ModelParameter& p = record.parameters()[index];
+    const double variance = jackknife_covariance(fit, {column})(0, 0) +
+                            (systematic.size() > 0 ? systematic[column] : 0);
+    all.standard_error[index] = std::max(all.standard_error[index], p.scale * std::sqrt(variance));
+    for (std::size_t b = 0; b < record.blocks(); ++b) {
+      double& value = all.without_block[static_cast<std::size_t>(block_ids[b])][index];
+      value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,
+                         p.upper);
+    }
+  }
+}
+
+void name_channels(const SelectionProblem& problem, UnnamedStructure& unnamed) {
+  for (const std::size_t u : unnamed.regressors) {
+    const std::string& channel = problem.unnamed[u].channel;
+    if (std::find(unnamed.channels.begin(), unnamed.channels.end(), channel) ==
+        unnamed.channels.end()) {
+      unnamed.channels.push_back(channel);
+    }
+  }
+}
+
+}  // namespace tethercalc

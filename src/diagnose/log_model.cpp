@@ -1,0 +1,176 @@
+#include "diagnose/log_model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace tethercalc {
+namespace {
+
+/// In SI, at the neutral value in `design`.
+ModelParameter in_SI(const EffectParameter& p, const Design& design) {
+  ModelParameter m;
+  m.neutral = p.in_design != nullptr ? p.in_design(design) : p.neutral * p.unit_SI;
+  m.lower = std::min(m.neutral, p.lower * p.unit_SI);
+  m.upper = std::max(m.neutral, p.upper * p.unit_SI);
+  m.scale = p.scale * p.unit_SI;
+  m.start = std::clamp(m.neutral + p.start * p.unit_SI, m.lower, m.upper);
+  return m;
+}
+
+/// The parameters of the groups that are fitted, and of those that left their neutral values.
+std::vector<ParameterEstimate> estimates(const LogModel& log, const Selection& selection,
+                                         const ModelFit& fit, std::size_t group) {
+  std::vector<ParameterEstimate> result;
+  const Effect& effect = log.effect(group);
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const EffectParameter& p = effect.parameters[k];
+    const ModelParameter& bounds = log.problem.groups[group].parameters[k];
+    if (!(bounds.lower < bounds.upper)) continue;
+    const std::size_t index = log.first_parameter(group) + k;
+    const double half = selection.student_factor * fit.standard_error[index];
+    const double value = fit.values[index];
+    result.push_back({p.name, value / p.unit_SI, p.unit,
+                      std::max(value - half, bounds.lower) / p.unit_SI,
+                      std::min(value + half, bounds.upper) / p.unit_SI});
+  }
+  return result;
+}
+
+std::vector<ParameterEstimate> parameters(const LogModel& log, const Selection& selection,
+                                          const ModelFit& fit) {
+  std::vector<ParameterEstimate> result;
+  for (std::size_t g = 0; g < log.effects().size(); ++g) {
+    const std::size_t first = log.first_parameter(g);
+    bool freed = log.problem.groups[g].role == ParameterGroup::Role::fitted;
+    for (std::size_t k = 0; k < log.effect(g).parameters.size(); ++k) {
+      freed = freed || fit.standard_error[first + k] > 0 ||
+              fit.values[first + k] != log.problem.groups[g].parameters[k].neutral;
+    }
+    if (!freed) continue;
+    for (ParameterEstimate& p : estimates(log, selection, fit, g)) result.push_back(std::move(p));
+  }
+  return result;
+}
+
+Finding finding_of(const LogModel& log, const Selection& selection, const SelectedGroup& found) {
+  const Effect& effect = log.effect(found.group);
+  Finding finding;
+  finding.effect = effect.id;
+  finding.title = effect.title;
+  finding.mechanism = effect.mechanism;
+  finding.stage = to_string(effect.stage);
+  finding.parameters = estimates(log, selection, selection.complete, found.group);
+  finding.holdout_rmse_before = found.rmse_before;
+  finding.holdout_rmse_after = found.rmse_after;
+  finding.gain_percent = found.gain_percent;
+  finding.gain_se_percent = found.gain_se_percent;
+  std::vector<std::string> separators;
+  for (const std::size_t g : found.indistinguishable) {
+    const Effect& rival = log.effect(g);
+    finding.indistinguishable_from.push_back(rival.id);
+    if (rival.to_separate == effect.to_separate) continue;
+    separators.push_back(fmt::format("{}: {}", rival.id, rival.to_separate));
+  }
+  // Where effects of a kind are told apart in one way, that is said once.
+  if (separators.size() < found.indistinguishable.size()) {
+    separators.insert(separators.begin(), effect.to_separate);
+  }
+  finding.to_separate = fmt::format("{}", fmt::join(separators, "; "));
+  return finding;
+}
+
+FindingTrace trace_of(const LogModel& log, const Selection& selection, std::size_t group) {
+  FindingTrace trace;
+  trace.series = log.series(log.effect(group));
+  trace.channel = log.channel(log.effect(group));
+  std::vector<double> values = selection.complete.values;
+  trace.with = log.left_by(trace.series, values);
+  for (std::size_t k = 0; k < log.effect(group).parameters.size(); ++k) {
+    values[log.first_parameter(group) + k] = log.problem.groups[group].parameters[k].neutral;
+  }
+  trace.without = log.left_by(trace.series, values);
+  return trace;
+}
+
+NotIdentifiable not_identifiable(const LogModel& log, const Selection::Aliased& aliased) {
+  const Effect& effect = log.effect(aliased.group);
+  std::string because = "it changes nothing in this log";
+  if (!effect.aliased_because.empty()) {
+    because = effect.aliased_because;
+  } else if (!aliased.with.empty()) {
+    because =
+        fmt::format("in this log it acts like {}", log.problem.groups[aliased.with.front()].id);
+  }
+  return {effect.id, std::move(because)};
+}
+
+/// Parts of the base model's held-out squared error, which sum to the whole.
+ErrorBudget error_budget(const Selection& selection) {
+  const double all = selection.base.holdout_rmse * selection.base.holdout_rmse;
+  ErrorBudget budget;
+  double left = 100;
+  for (const SelectedGroup& s : selection.selected) {
+    const double share = 100 * (s.rmse_before * s.rmse_before - s.rmse_after * s.rmse_after) / all;
+    budget.findings.push_back(share);
+    left -= share;
+  }
+  budget.unexplained = left * selection.unnamed.share_percent / 100;
+  budget.noise = left - budget.unexplained;
+  return budget;
+}
+
+}  // namespace
+
+void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
+  first_.push_back(effects_.empty() ? 0 : first_.back() + effects_.back()->parameters.size());
+  ParameterGroup group;
+  group.id = effect.id.empty() ? effect.title : effect.id;
+  group.role = fitted ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
+  for (const EffectParameter& p : effect.parameters) {
+    group.parameters.push_back(in_SI(p, design));
+    group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
+  }
+  for (std::size_t g = 0; g < effects_.size(); ++g) {
+    if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) group.replaces = g;
+  }
+  effects_.push_back(&effect);
+  problem.groups.push_back(std::move(group));
+}
+
+std::size_t LogModel::first_parameter(std::string_view id) const {
+  const auto found = std::find_if(effects_.begin(), effects_.end(),
+                                  [id](const Effect* effect) { return effect->id == id; });
+  return first_[static_cast<std::size_t>(found - effects_.begin())];
+}
+
+bool LogModel::is_neutral(std::size_t group, std::span<const double> values) const {
+  const auto sizes =
+      own(group, values)
+          .first(std::min(effects_[group]->sizes, effects_[group]->parameters.size()));
+  return std::equal(sizes.begin(), sizes.end(), problem.groups[group].parameters.begin(),
+                    [](double value, const ModelParameter& p) { return value == p.neutral; });
+}
+
+void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis) {
+  diagnosis.base = {selection.base.holdout_rmse, parameters(log, selection, selection.base)};
+  diagnosis.extended = {selection.extended.holdout_rmse,
+                        parameters(log, selection, selection.complete)};
+  for (const SelectedGroup& found : selection.selected) {
+    diagnosis.findings.push_back(finding_of(log, selection, found));
+    diagnosis.traces.push_back(trace_of(log, selection, found.group));
+  }
+  for (const Selection::Aliased& aliased : selection.aliased) {
+    diagnosis.not_identifiable.push_back(not_identifiable(log, aliased));
+  }
+  diagnosis.budget = error_budget(selection);
+  const UnnamedStructure& unnamed = selection.unnamed;
+  if (unnamed.regressors.empty()) return;
+  diagnosis.unexplained.detected = true;
+  diagnosis.unexplained.channels = unnamed.channels;
+  diagnosis.unexplained.share_percent = unnamed.share_percent;
+  diagnosis.unexplained.regressor = log.problem.unnamed[unnamed.regressors.front()].shape;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,60 @@
+// A kind of log as the search and the writer of diagnoses see it: effects with their parameters,
+// rows, predictions, and what of them a person is shown.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnose/selection.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
+
+namespace tethercalc {
+
+/// One log of some kind. Groups that are no effects of the catalogue, such as drag areas, are
+/// described as such too: an `Effect` without an id, that is always fitted.
+class LogModel {
+ public:
+  LogModel() = default;
+  LogModel(const LogModel&) = delete;
+  LogModel& operator=(const LogModel&) = delete;
+  virtual ~LogModel() = default;
+
+  /// Adds a group for `effect`, which must outlive this; fitted from the start, or a candidate.
+  void add(const Effect& effect, const Design& design, bool fitted);
+
+  [[nodiscard]] const Effect& effect(std::size_t group) const { return *effects_[group]; }
+  [[nodiscard]] std::span<const Effect* const> effects() const { return effects_; }
+  [[nodiscard]] std::size_t first_parameter(std::size_t group) const { return first_[group]; }
+  /// First parameter of an effect that was added.
+  [[nodiscard]] std::size_t first_parameter(std::string_view id) const;
+  /// The part of all parameters that belongs to `group`.
+  [[nodiscard]] std::span<const double> own(std::size_t group,
+                                            std::span<const double> values) const {
+    return values.subspan(first_[group], effects_[group]->parameters.size());
+  }
+  /// Whether the sizes of `group` are neutral, so that it changes nothing.
+  [[nodiscard]] bool is_neutral(std::size_t group, std::span<const double> values) const;
+
+  SelectionProblem problem;  ///< its groups in the order in which they were added
+
+  // --- What is shown of a finding ---
+
+  /// Where the effect acts first, into `Diagnosis::compared`.
+  [[nodiscard]] virtual std::size_t series(const Effect& effect) const = 0;
+  /// The channel that it acts through.
+  [[nodiscard]] virtual Channel channel(const Effect& effect) const = 0;
+  /// Measured less predicted with these values, NaN in samples that are left out.
+  [[nodiscard]] virtual std::vector<double> left_by(std::size_t series,
+                                                    std::span<const double> values) const = 0;
+
+ private:
+  std::vector<const Effect*> effects_;
+  std::vector<std::size_t> first_;
+};
+
+/// All that is told alike of every kind of log: qualities and parameters of the models, findings
+/// with their traces, aliases, the error budget, and of the unexplained all but its size.
+void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis);
+
+}  // namespace tethercalc
