@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "io/closest_name.hpp"
-#include "solve/cable_limits.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/csv_cell.hpp"
@@ -250,11 +249,7 @@ class ProblemReader {
         request_.subject_to.begin(), request_.subject_to.end(), [](const std::string& limit) {
           return find_field(limit.substr(0, limit.find_first_of("<>"))) != nullptr;
         });
-    Design some = file_.design;
-    for (const FreeRange& free : problem.ranges) free.set(some, free.range.lo);
-    for (const FreeChoice& choice : problem.choices) choice.alternatives.front().apply(some);
-    const bool quickly_found = !has_cable_limits(some);
-    if (least_power && only_fields && request_.pareto.empty() && quickly_found) return;
+    if (least_power && only_fields && request_.pareto.empty()) return;
     // From below AWG 36 to what no drone lifts.
     problem.ranges.push_back({dot_path(area.pointer), {0.01, 100}, [&area](Design& d, double x) {
                                 set_field(d, area, x);

@@ -65,6 +65,25 @@ void validate(const std::vector<ConverterMassPoint>& masses);
                                                           : efficiency_at(converter, output_power));
 }
 
+/// Efficiency η = offset + slope·P_out on one piece of the curve.
+struct EfficiencyPiece {
+  double offset = 1;  ///< of a load of 0
+  double slope = 0;   ///< 1/W
+
+  /// Input power in W for `output` W.
+  [[nodiscard]] double input_power(double output) const {
+    return output / (offset + slope * output);
+  }
+  /// Its derivative.
+  [[nodiscard]] double input_slope(double output) const {
+    const double efficiency = offset + slope * output;
+    return offset / (efficiency * efficiency);
+  }
+};
+
+/// The piece that holds `output_power`.
+[[nodiscard]] EfficiencyPiece efficiency_piece(const Converter& converter, double output_power);
+
 /// Output power in W made of `input_power` in W: the inverse of `converter_input_power`. 0 where
 /// input_power ≤ 0.
 [[nodiscard]] double converter_output_power(const Converter& converter, double input_power);
