@@ -132,13 +132,8 @@ TetherHeatState TetherHeat::carrying(double load_power) const {
       return state;
     }
     if (!(slope < 1)) return {};
-    // Rounding may point back where the state is all but found.
-    current = std::max(current, current + change / (1 - slope));
-    if (change < 0 || !(current < infinity)) {
-      state.steady = change < 0 && -change <= 1e-9 * current;
-      if (state.steady) return state;
-      return {};
-    }
+    current += change / (1 - slope);
+    if (!(current > 0 && current < infinity)) return {};
   }
   return {};
 }

@@ -187,7 +187,10 @@ class RadiiSearch {
     if (demands_.margin(b.at, a.at) >= 0) return append(radii_, {a.at.radius, b.at.radius});
     const double ratio = b.at.radius / a.at.radius;
     if (++stretches_ > most_stretches || ratio < 1 + 1e-12) return collect_monotone(a, b);
-    if (ratio < narrow && on_one_piece(demands_.flight(), a.at, b.at, demands_.headroom())) {
+    // Where the cable runs away there is no margin that could point to what lies between.
+    const bool runs_away = !a.met() && !b.met() && std::min(a.margin, b.margin) == -1;
+    if (ratio < narrow && !runs_away &&
+        on_one_piece(demands_.flight(), a.at, b.at, demands_.headroom())) {
       return collect_narrow(a, b);
     }
     const End middle = between(a, std::sqrt(a.at.radius * b.at.radius));
@@ -303,20 +306,23 @@ class BestHeadroomSearch {
     double necessary = 0;  ///< N, whatever the tilt limit
     double available = 0;  ///< N
     double headroom = 0;
+    bool warm = false;  ///< there is a steady state of a heated cable
   };
 
   Look look(double radius) {
     const OperatingPoint point = evaluate(flight_, area_of(radius));
     if (point.headroom > best_.value) best_ = {point.headroom, area_of(radius)};
     return {radius, flight_.necessary_thrust(radius, flight_.tan_pitch(radius, infinity)),
-            point.available_thrust, point.headroom > 0 ? point.headroom : 0};
+            point.available_thrust, point.headroom > 0 ? point.headroom : 0,
+            !std::isnan(point.conductor_temperature)};
   }
 
   void improve(const Look& a, const Look& b) {
     constexpr int most_stretches = 5000;  // a hundred times more than usual
-    constexpr double rounding = 1e-14;
-    if (!(most_headroom(a, b) > best_.value * (1 + rounding))) return;
-    if (b.radius < a.radius * (1 + 1e-13)) return;
+    // Warm cables may run away within rounding of where the load can still be delivered.
+    const double rounding = is_heated(flight_.design().tether) ? 1e-9 : 1e-13;
+    if (!(most_headroom(a, b) > best_.value * (1 + 0.1 * rounding))) return;
+    if (b.radius < a.radius * (1 + rounding)) return;
     if (++stretches_ > most_stretches) return;
     if (b.radius < 1.2 * a.radius && smooth(a, b)) {
       // Half of the digits: at a smooth maximum the value is then exact to all of them.
@@ -346,10 +352,15 @@ class BestHeadroomSearch {
                      : std::max(warm, std::min(1.0, over(flight_.tether().resistance(b.radius))));
   }
 
-  /// Whether motors, converter and reserve battery follow one piece of their curves.
+  /// Whether motors, converter and reserve battery follow one piece of their curves, at the thrust
+  /// available and, where its power heats the cable, at the necessary one.
   [[nodiscard]] bool smooth(const Look& a, const Look& b) const {
+    const auto one_piece = [&](double from, double to) {
+      return on_one_piece(flight_, {a.radius, 0, {from}}, {b.radius, 0, {to}});
+    };
     return a.available > 0 && b.available > 0 && b.available < flight_.most_thrust() &&
-           on_one_piece(flight_, {a.radius, 0, {a.available}}, {b.radius, 0, {b.available}});
+           a.warm == b.warm && one_piece(a.available, b.available) &&
+           (!a.warm || one_piece(a.necessary, b.necessary));
   }
 
   const SteadyFlight& flight_;

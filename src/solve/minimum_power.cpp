@@ -203,8 +203,17 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
     }
     search.search(first, last);
   }
-  return search.power() < infinity ? MinimumPower{area_of(search.best().radius), search.power()}
-                                   : none;
+  if (!(search.power() < infinity)) return none;
+  // The root of a square may miss its end by rounding, beyond which a warm cable runs away or a
+  // reserve battery grows by leaps.
+  const double area = area_of(search.best().radius);
+  for (const double inside : {area, std::nextafter(area, 0), std::nextafter(area, 1),
+                              area * (1 - 1e-15), area * (1 + 1e-15)}) {
+    if (one_valley) break;
+    const ThrustAt there = thrust_at(flight, conductor_radius(inside), search.best().tan_pitch);
+    if (total_power(flight, there) <= search.power() * (1 + 1e-9)) return {inside, search.power()};
+  }
+  return {area, search.power()};
 }
 
 }  // namespace

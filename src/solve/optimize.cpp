@@ -46,6 +46,23 @@ void take(Optimization& result, const Flights& flights, double area) {
   result.feasible = demand_margins(design, result.hover, result.forward).met();
 }
 
+/// The same at `area`, or a hair's breadth inside where it is an edge beyond which a warm cable
+/// runs away or a reserve battery leaps, so that rounding may take it out.
+void take_within(Optimization& result, const Flights& flights, const IntervalSet& areas,
+                 double area) {
+  take(result, flights, area);
+  const Design& design = flights.hover.design();
+  const bool steep = is_heated(design.tether) || design.drone.reserve_battery.specific_energy > 0;
+  if (result.feasible || !steep) return;
+  for (const Interval& range : areas) {
+    if (area != range.lo && area != range.hi) continue;
+    for (double share = 1e-15; share < 1e-6 && !result.feasible; share *= 10) {
+      const double inside = area * (area == range.lo ? 1 + share : 1 - share);
+      if (range.contains(inside)) take(result, flights, inside);
+    }
+  }
+}
+
 bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
   return std::abs(point.pitch) >= design.requirements.max_pitch * (1 - same_edge);
 }
@@ -199,13 +216,13 @@ Optimization optimize(const Design& design) {
   // The cheapest of more areas than are feasible is the optimum if it is feasible, as it mostly is
   // where the headroom is met.
   const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-  if (area > 0) take(result, flights, area);
+  if (area > 0) take_within(result, flights, result.feasible_areas, area);
   if (!result.feasible) {
     result.feasible_areas = intersection(
         areas_meeting_demands(hover, demanded_headroom(need, Condition::hover)),
         areas_meeting_demands(flights.forward, demanded_headroom(need, Condition::forward)));
     const double met = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-    if (met > 0) take(result, flights, met);
+    if (met > 0) take_within(result, flights, result.feasible_areas, met);
   }
   if (result.feasible) {
     name_limit(result, flights);

@@ -38,7 +38,20 @@ class ValleySearch {
         left_{radii.lo, false},
         right_{radii.hi, false} {}
 
-  ThrustAt bottom(ThrustAt at) {
+  ThrustAt bottom(ThrustAt start) {
+    const ThrustAt found = descend(start);
+    // Where a cable begins to run away the power ends, and may be least just before.
+    const bool ends = heated_ && right_.known && runs_away(found);
+    return ends ? thrust_at(flight_, right_.radius, found.tan_pitch) : found;
+  }
+
+ private:
+  [[nodiscard]] bool runs_away(const ThrustAt& at) const {
+    const double power = flight_.input_power(motor_.power(at.thrust.value));
+    return !TetherHeat(flight_, at.radius).carrying(power).steady;
+  }
+
+  ThrustAt descend(ThrustAt at) {
     // Relative to the radius. The end of such a step is a hundred times closer to the bottom, where
     // the power is flat to the square of that; and the thrust is straight to the square of the
     // step.
@@ -80,7 +93,6 @@ class ValleySearch {
     return at;
   }
 
- private:
   struct Side {
     double radius = 0;
     bool known = false;  ///< else the end of the range, not looked at yet

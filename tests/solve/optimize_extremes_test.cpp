@@ -62,7 +62,7 @@ void check_against_areas(const Design& design, int count) {
     CHECK(evaluate(design, best.area, need.headroom_at).headroom == best.value);
   }
   if (tried.least_power < infinity) {
-    CHECK(result.minimum_power.power <= tried.least_power * (1 + 1e-9));
+    CHECK(result.minimum_power.power <= tried.least_power * (1 + 1e-7));
   }
   if (!result.feasible) {
     CHECK(tried.power == infinity);
@@ -72,8 +72,9 @@ void check_against_areas(const Design& design, int count) {
   const OperatingPoint forward = evaluate(design, result.area, Condition::forward);
   CHECK(demand_margins(design, hover, forward).met());
   const double power = (need.power_at == Condition::hover ? hover : forward).total_power;
-  // What lies on an edge is met to 1e-9, and areas beyond the edge by as much are cheaper.
-  CHECK(power <= tried.power * (1 + 1e-8));
+  // What lies on an edge is met to 1e-9, and areas beyond the edge by as much are cheaper. Without
+  // drag but from above the power has a kink where the tilt ends, by the root of such a rounding.
+  CHECK(power <= tried.power * (1 + 1e-7));
 }
 
 /// More than usual where the environment asks for it, as once before a release.

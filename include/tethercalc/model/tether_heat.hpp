@@ -48,9 +48,9 @@ class TetherHeat {
   /// tether warms up to. `load_power` in W at the drone.
   ///
   /// The current that a resistance asks for rises with it, and the resistance with the current, so
-  /// that the states visited from a cold start on rise towards it; the map is convex, so that
-  /// Newton's steps from there never overshoot it, and one that points away from it proves that
-  /// there is none: the tether runs away.
+  /// that the states visited from a cold start on rise towards it; the map is convex but for the
+  /// air's properties, so that Newton's steps from there hardly overshoot it, and one that points
+  /// away from it proves that there is none: the tether runs away.
   [[nodiscard]] TetherHeatState carrying(double load_power) const;
 
   /// Derivative of the loop's resistance by the conductors' radius, Ω/m, in a steady state, at the
