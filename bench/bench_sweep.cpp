@@ -39,7 +39,8 @@ Prepared drawn(SampleMethod method) {
 
 void sweep(benchmark::State& state, const Prepared& prepared, RowFormat format, bool written) {
   const SweepRows rows(prepared.space.axes(), format);
-  SweepJob job{&prepared.space, &prepared.base.design, &rows,
+  const RowWriter write = [&](std::string& text, const SweepRow& row) { rows.append(text, row); };
+  SweepJob job{&prepared.space, &prepared.base.design, write,
                {0, designs},    written ? 0 : designs, static_cast<unsigned>(state.range(0))};
   std::size_t bytes = 0;
   for (auto _ : state) {

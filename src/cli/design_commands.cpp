@@ -34,13 +34,14 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
 }
 
 int run_optimize(const SpecOptions& spec, const Output& output) {
-  const OptimizeStudy answer = study(read(spec));
+  const DesignFile file = read(spec);
+  const OptimumStudy answer = study_optimum(file.design, wire_sizes());
   switch (output.format) {
     case Format::table:
-      emit(output, optimize_text(answer, style_for(output)));
+      emit(output, optimize_text(file, answer, style_for(output)));
       break;
     case Format::json:
-      emit(output, json_text(optimize_json(answer)));
+      emit(output, json_text(optimize_json(file, answer)));
       break;
     case Format::csv:
       emit(output, optimize_csv(answer));

@@ -34,13 +34,13 @@ int run_envelope(const EvaluateOptions& options, const Output& output) {
   if (!file.design.tether.cross_section) {
     throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
   }
-  const EnvelopeStudy answer = study_envelope(std::move(file));
+  const EnvelopeStudy answer = study_envelope(file.design);
   switch (output.format) {
     case Format::table:
-      emit(output, envelope_text(answer, style_for(output)));
+      emit(output, envelope_text(file, answer, style_for(output)));
       break;
     case Format::json:
-      emit(output, json_text(envelope_json(answer)));
+      emit(output, json_text(envelope_json(file, answer)));
       break;
     case Format::csv:
       emit(output, envelope_csv(answer));

@@ -33,7 +33,11 @@ DesignFile read_spec(const PlotOptions& options) {
   return file;
 }
 
-Figure optimum(const PlotOptions& options) { return optimum_figure(study(read_spec(options))); }
+Figure optimum(const PlotOptions& options) {
+  const DesignFile file = read_spec(options);
+  const OptimumStudy study = study_optimum(file.design, wire_sizes());
+  return optimum_figure(file.name, study, area_curve(study));
+}
 
 Figure motors(const PlotOptions& options) {
   const DesignFile file = read_spec(options);

@@ -41,6 +41,7 @@ std::string shell_word(std::string_view word) {
 int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {
   const DesignFile file = read_design(options.spec.file, options.spec.overrides);
   PageContent content;
+  content.file = file;
   content.command = command;
   if (!options.flight_log.empty()) content.drag = learn_drag(options, file.design);
   if (!options.flight_log.empty() || !options.power_log.empty()) {
@@ -49,9 +50,10 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
   }
   content.motors = compare_motors(file.design, library_motors());
-  content.study = study(file);
+  content.optimum = study_optimum(file.design, wire_sizes());
+  content.curve = area_curve(content.optimum);
   emit(output, report_page(content));
-  return content.study.result.feasible ? done : answer_is_no;
+  return content.optimum.result.feasible ? done : answer_is_no;
 }
 
 std::string shell_command(std::span<const char* const> arguments) {

@@ -20,6 +20,7 @@
 #include "tethercalc/io/row_file.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
 #include "tethercalc/io/whole_file.hpp"
+#include "tethercalc/report/sweep_rows.hpp"
 #include "tethercalc/report/sweep_summary.hpp"
 #include "tethercalc/solve/ordered_chunks.hpp"
 
@@ -200,7 +201,8 @@ struct Sweep {
     SweepCursor cursor(space, base);
     cursor.move_to(row);
     std::string text;
-    rows.append(text, cursor.values(), sweep_outcome(cursor.design(), varies_cross_section(space)));
+    rows.append(text, {cursor.values(), cursor.design(),
+                       sweep_outcome(cursor.design(), varies_cross_section(space))});
     text.pop_back();
     return text;
   }
@@ -252,7 +254,10 @@ std::string how_to_continue(const RowFile& file) {
 /// Writes all rows from `first` on. Returns false where it was interrupted.
 bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, unsigned threads,
                 SweepSummary* summary) {
-  SweepJob job{&sweep.space, &sweep.base, &sweep.rows, {first, sweep.range.end}, first, threads};
+  const RowWriter write = [&](std::string& text, const SweepRow& row) {
+    sweep.rows.append(text, row);
+  };
+  SweepJob job{&sweep.space, &sweep.base, write, {first, sweep.range.end}, first, threads};
   if (summary != nullptr) job.range.begin = sweep.range.begin;  // it needs the earlier rows as well
   Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
   std::uint64_t written = first;

@@ -40,16 +40,4 @@ std::vector<WireSize> wire_sizes() {
   return sizes;
 }
 
-std::vector<WireNeighbours> wire_sizes_near(double area) {
-  std::vector<WireNeighbours> all{{"AWG", {}, {}}, {"IEC 60228", {}, {}}, {"VDE 0295", {}, {}}};
-  for (const WireSize& size : wire_sizes()) {
-    for (WireNeighbours& neighbours : all) {
-      if (neighbours.standard != size.standard) continue;
-      if (size.area <= area) neighbours.below = size;
-      if (size.area >= area && !neighbours.above) neighbours.above = size;
-    }
-  }
-  return all;
-}
-
 }  // namespace tethercalc

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/text_table.hpp"
@@ -204,6 +205,12 @@ std::vector<std::string> cable_warnings(const Design& design) {
         "the rated temperature of the insulation is not known, so that heat limits nothing "
         "(rated_temperature_C of the material)");
   }
+  return warnings;
+}
+
+std::vector<std::string> all_warnings(const DesignFile& file) {
+  std::vector<std::string> warnings = file.warnings;
+  for (std::string& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
   return warnings;
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tethercalc/report/cable_report.hpp"
@@ -86,35 +84,13 @@ ordered_json end_json(const std::optional<ReachEnd>& end, double si_factor) {
 
 }  // namespace
 
-bool EnvelopeStudy::any() const {
-  return std::any_of(greatest.begin(), greatest.end(),
-                     [](const ReachResult& r) { return r.end.has_value(); });
-}
-
-EnvelopeStudy study_envelope(DesignFile file) {
-  EnvelopeStudy study;
-  const Design& design = file.design;
-  for (const Reach reach : all_reaches) {
-    study.greatest.push_back({reach, greatest_reach(design, reach)});
-  }
-  for (const auto& [of, against] :
-       {std::pair{Reach::payload, Reach::height}, std::pair{Reach::headwind, Reach::height},
-        std::pair{Reach::payload, Reach::headwind}}) {
-    study.curves.push_back({of, against, envelope_curve(design, of, against)});
-  }
-  for (std::string& warning : cable_warnings(design)) file.warnings.push_back(std::move(warning));
-  study.file = std::move(file);
-  return study;
-}
-
-std::string envelope_text(const EnvelopeStudy& study, const TextStyle& style) {
-  std::string out = style.bold(study.file.name) + "\n\n";
-  out +=
-      fmt::format("{} mm² of {}, {} V\n",
-                  significant(*study.file.design.tether.cross_section / unit::square_millimetre, 4),
-                  study.file.conductor.id, significant(study.file.design.supply.voltage, 3));
-  for (const ReachResult& result : study.greatest)
-    out += wrapped(sentence_of(study.file.design, result));
+std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
+                          const TextStyle& style) {
+  std::string out = style.bold(file.name) + "\n\n";
+  out += fmt::format("{} mm² of {}, {} V\n",
+                     significant(*file.design.tether.cross_section / unit::square_millimetre, 4),
+                     file.conductor.id, significant(file.design.supply.voltage, 3));
+  for (const ReachResult& result : study.greatest) out += wrapped(sentence_of(file.design, result));
   for (const EnvelopeCurve& curve : study.curves) {
     if (curve.points.empty()) continue;
     const ReachWords of = words_of(curve.of);
@@ -126,23 +102,23 @@ std::string envelope_text(const EnvelopeStudy& study, const TextStyle& style) {
     for (const EnvelopePoint& point : curve.points) {
       const std::string end = point.end ? fixed(point.end->value / of.si_factor, of.decimals) : "–";
       table.add({fixed(point.against / against.si_factor, against.decimals), end,
-                 point.end ? beyond_words(study.file.design, *point.end)
+                 point.end ? beyond_words(file.design, *point.end)
                            : std::string("the demands are not met")});
     }
     out += table.text(style);
   }
-  for (const std::string& warning : study.file.warnings) {
+  for (const std::string& warning : all_warnings(file)) {
     out += "\n" + style.subdued(wrapped("Note: " + warning));
   }
   return out;
 }
 
-ordered_json envelope_json(const EnvelopeStudy& study) {
+ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
   ordered_json greatest = ordered_json::object();
   for (const ReachResult& result : study.greatest) {
     const ReachWords words = words_of(result.reach);
     ordered_json end = end_json(result.end, words.si_factor);
-    if (result.end) end["sentence"] = sentence_of(study.file.design, result);
+    if (result.end) end["sentence"] = sentence_of(file.design, result);
     greatest[words.key] = std::move(end);
   }
   ordered_json curves = ordered_json::array();
@@ -160,11 +136,11 @@ ordered_json envelope_json(const EnvelopeStudy& study) {
     }
     curves.push_back({{"of", of.key}, {"against", against.key}, {"points", points}});
   }
-  return {{"name", study.file.name},
-          {"cross_section_mm2", *study.file.design.tether.cross_section / unit::square_millimetre},
+  return {{"name", file.name},
+          {"cross_section_mm2", *file.design.tether.cross_section / unit::square_millimetre},
           {"greatest", greatest},
           {"curves", curves},
-          {"warnings", study.file.warnings}};
+          {"warnings", all_warnings(file)}};
 }
 
 std::string envelope_csv(const EnvelopeStudy& study) {

@@ -78,20 +78,10 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
   return sentence;
 }
 
-/// Whether the thrust available at `area` is what the converter's rating leaves of the line's.
-bool converter_caps_headroom(const Design& design, Condition condition, double area) {
-  const Converter& converter = design.supply.converter;
-  if (!converter.rated_output_power) return false;
-  const double arriving = evaluate(design, area, condition).available_power;
-  // At the best of all areas the line gives just as much, but for the refinement of that area.
-  return converter_output_power(converter, arriving - design.drone.auxiliary_power) >
-         *converter.rated_output_power * (1 - 1e-3);
-}
-
 /// Why no area keeps a limit of the cable or the converter; empty for the other limits.
-std::string broken_limit_sentence(const Design& design, const Optimization& result) {
-  const std::string where = condition_words(result.limiting_condition);
-  switch (result.limited_by) {
+std::string broken_limit_sentence(const Design& design, const Refusal& refusal) {
+  const std::string where = condition_words(refusal.condition);
+  switch (refusal.limit) {
     case Limit::conductor_temperature:
       return fmt::format(
           "No cross-section that meets the other demands stays below the insulation's rated {} °C "
@@ -119,8 +109,10 @@ std::string broken_limit_sentence(const Design& design, const Optimization& resu
   }
 }
 
-std::string missed_words(const Design& design, const OperatingPoint& point,
-                         const DemandMargin& missed) {
+std::string shortcoming(const Design& design, const AreaPoints& points) {
+  const DemandMargin& missed = points.worst;
+  if (missed.met()) return "";
+  const OperatingPoint& point = points.in(missed.condition);
   const std::string where = condition_words(missed.condition);
   switch (missed.demand) {
     case Demand::takeoff_mass:
@@ -152,15 +144,19 @@ std::string missed_words(const Design& design, const OperatingPoint& point,
   return "more than the converter's rating in " + where;
 }
 
-std::string infeasible_words(const Design& design, const Optimization& result) {
-  if (result.limited_by == Limit::conductor_temperature) return "conductor too hot";
-  if (result.limited_by == Limit::tether_strength) return "tether too weak";
-  if (result.limited_by == Limit::converter_rating) return "converter too small";
-  if (result.limited_by == Limit::input_voltage) return "supply outside the converter's range";
-  const Condition where = result.limiting_condition;
-  const BestHeadroom best = best_headroom(design, where);
+std::string refusal_words(const Design& design, const Refusal& refusal) {
+  const Condition where = refusal.condition;
+  const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
-  switch (result.limited_by) {
+  switch (refusal.limit) {
+    case Limit::conductor_temperature:
+      return "conductor too hot";
+    case Limit::tether_strength:
+      return "tether too weak";
+    case Limit::converter_rating:
+      return "converter too small";
+    case Limit::input_voltage:
+      return "supply outside the converter's range";
     case Limit::max_pitch:
       return fmt::format("tilt above {}° in {}",
                          significant(design.requirements.max_pitch / unit::degree, 3),
@@ -176,15 +172,15 @@ std::string infeasible_words(const Design& design, const Optimization& result) {
   }
 }
 
-std::string infeasible_sentence(const Design& design, const Optimization& result) {
-  if (const std::string broken = broken_limit_sentence(design, result); !broken.empty()) {
+std::string refusal_sentence(const Design& design, const Refusal& refusal) {
+  if (const std::string broken = broken_limit_sentence(design, refusal); !broken.empty()) {
     return broken;
   }
-  const Condition where = result.limiting_condition;
-  const BestHeadroom best = best_headroom(design, where);
+  const Condition where = refusal.condition;
+  const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
   const std::string demand = headroom_words(demanded) + " in " + condition_words(where);
-  if (result.limited_by == Limit::max_pitch && !(best.value > 0)) {
+  if (refusal.limit == Limit::max_pitch && !(best.value > 0)) {
     return fmt::format(
         "No cross-section works: holding {} m/s in {} takes more tilt than the {} degrees allowed.",
         significant(airspeed(design, where), 3), condition_words(where),
@@ -198,17 +194,17 @@ std::string infeasible_sentence(const Design& design, const Optimization& result
   if (best.value >= demanded) {
     return "No cross-section works: each demand can be met by some, but none meets all of them.";
   }
-  if (converter_caps_headroom(design, where, best.area)) {
+  if (refusal.converter_caps) {
     return fmt::format(
         "No cross-section gives {}. The most is a headroom of {} at {} mm², where the converter "
         "gives its rated {} W: a thicker conductor would only weigh more.",
         demand, significant(best.value, 3), significant(square_millimetres(best.area), 4),
         significant(*design.supply.converter.rated_output_power, 4));
   }
-  const char* reason = result.limited_by == Limit::motor_thrust
+  const char* reason = refusal.limit == Limit::motor_thrust
                            ? "where the motors are at the end of their data sheet: a thicker "
                              "conductor would only weigh more"
-                       : result.limited_by == Limit::max_pitch
+                       : refusal.limit == Limit::max_pitch
                            ? "where the tilt is at its limit"
                            : "where thinner conductors deliver less power and thicker ones weigh "
                              "more than they deliver";

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tethercalc/report/cable_report.hpp"
@@ -22,68 +21,6 @@ double square_millimetres(double area) { return area / unit::square_millimetre; 
 
 std::string area_words(double area) { return significant(square_millimetres(area), 4) + " mm²"; }
 
-/// `value` rounded to two significant digits.
-double rounded(double value) {
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1);
-  return std::round(value / step) * step;
-}
-
-/// Round areas around what matters, and what matters itself, rising.
-std::vector<double> table_areas(const Optimization& result, const BestHeadroom& best) {
-  std::vector<double> exact;
-  const auto add = [&](double area) {
-    if (std::isfinite(area) && area > 0) exact.push_back(area);
-  };
-  add(result.feasible ? result.area : best.area);
-  add(result.minimum_power.area);
-  for (const Interval& range : result.feasible_areas) {
-    add(range.lo);
-    add(range.hi);
-  }
-  if (exact.empty()) return exact;
-  const auto [least, most] = std::minmax_element(exact.begin(), exact.end());
-  const double from = 0.5 * *least;
-  const double to = 1.5 * *most;
-  std::vector<double> areas = exact;
-  constexpr int steps = 12;
-  for (int i = 0; i <= steps; ++i) {
-    const double area = from * std::pow(to / from, double(i) / steps);
-    areas.push_back(rounded(square_millimetres(area)) * unit::square_millimetre);
-  }
-  std::sort(areas.begin(), areas.end());
-  const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };
-  areas.erase(std::unique(areas.begin(), areas.end(), same), areas.end());
-  return areas;
-}
-
-/// The standard sizes below and above the optimum, and the cable of the spec.
-std::vector<SizePoints> sizes_near(const DesignFile& file, double area) {
-  std::vector<SizePoints> sizes;
-  const auto add = [&](const std::string& name, double size) {
-    sizes.push_back({name, evaluate_areas(file.design, std::span(&size, 1)).front()});
-  };
-  if (std::isfinite(area)) {
-    // The end of a short standard is no neighbour; it counts where no standard goes further.
-    std::vector<WireNeighbours> standards = wire_sizes_near(area);
-    const auto brackets = [](const WireNeighbours& s) { return s.below && s.above; };
-    if (std::any_of(standards.begin(), standards.end(), brackets)) {
-      std::erase_if(standards, std::not_fn(brackets));
-    }
-    for (const WireNeighbours& standard : standards) {
-      for (const auto& size : {standard.below, standard.above}) {
-        if (size) add(size->name, size->area);
-      }
-    }
-  }
-  if (file.design.tether.cross_section) add("as specified", *file.design.tether.cross_section);
-  std::stable_sort(sizes.begin(), sizes.end(), [](const SizePoints& a, const SizePoints& b) {
-    return a.points.area < b.points.area;
-  });
-  const auto same = [](const SizePoints& a, const SizePoints& b) { return a.name == b.name; };
-  sizes.erase(std::unique(sizes.begin(), sizes.end(), same), sizes.end());
-  return sizes;
-}
-
 std::string lost_share(const OperatingPoint& point) {
   return significant(100 * point.tether_loss / point.total_power, 3);
 }
@@ -95,12 +32,11 @@ void add_condition_row(TextTable& table, const char* name, const OperatingPoint&
              fixed(point.pitch / unit::degree, 1)});
 }
 
-Answer feasible_answer(const OptimizeStudy& study) {
-  const Optimization& result = study.result;
-  const Design& design = study.file.design;
+Answer feasible_answer(const DesignFile& file, const Optimization& result) {
+  const Design& design = file.design;
   const OperatingPoint& hover = result.hover;
   Answer out;
-  out.headline = fmt::format("Fly {} of {}.", area_words(result.area), study.file.conductor.id);
+  out.headline = fmt::format("Fly {} of {}.", area_words(result.area), file.conductor.id);
   out.sentences.push_back(limit_sentence(design, result));
   out.sentences.push_back(fmt::format(
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",
@@ -135,10 +71,9 @@ std::string remedy_words(const Design& design, const Remedy& remedy) {
   return "";
 }
 
-Answer refusal(const OptimizeStudy& study) {
-  const Design& design = study.file.design;
-  Answer out{
-      "This design cannot fly as required.", {infeasible_sentence(design, study.result)}, {}};
+Answer refused_answer(const OptimumStudy& study) {
+  const Design& design = study.design;
+  Answer out{"This design cannot fly as required.", {refusal_sentence(design, *study.refusal)}, {}};
   out.sentences.push_back(
       study.remedies.empty()
           ? "No single change of supply voltage, drone mass, tether length or airspeed would make "
@@ -150,19 +85,19 @@ Answer refusal(const OptimizeStudy& study) {
   return out;
 }
 
-std::string answer_text(const OptimizeStudy& study, const TextStyle& style) {
-  const Answer told = answer(study);
+std::string answer_text(const DesignFile& file, const OptimumStudy& study, const TextStyle& style) {
+  const Answer told = answer(file, study);
   const std::string headline = style.bold(told.headline);
   std::string out = (study.result.feasible ? style.good(headline) : style.bad(headline)) + "\n";
   for (const std::string& sentence : told.sentences) out += wrapped(sentence);
   for (const std::string& remedy : told.remedies) out += "  " + remedy + "\n";
-  if (study.result.feasible) out += "\n" + condition_table(study).table.text(style);
+  if (study.result.feasible) out += "\n" + condition_table(study.result).table.text(style);
   return out;
 }
 
-std::string mark(const OptimizeStudy& study, const AreaPoints& row) {
+std::string mark(const OptimumStudy& study, const AreaPoints& row) {
   const Optimization& result = study.result;
-  std::string marks = shortcoming(study.file.design, row).empty() ? "feasible" : "";
+  std::string marks = shortcoming(study.design, row).empty() ? "feasible" : "";
   if (row.area == result.area) marks = "optimum";
   if (row.area == result.minimum_power.area)
     marks += marks.empty() ? "least power" : ", least power";
@@ -239,9 +174,9 @@ std::string csv_row(const Optimization& result) {
   return row + "\n";
 }
 
-std::string warnings_text(const DesignFile& file, const TextStyle& style) {
+std::string notes_text(std::span<const std::string> warnings, const TextStyle& style) {
   std::string out;
-  for (const std::string& warning : file.warnings) {
+  for (const std::string& warning : warnings) {
     out += style.subdued(wrapped("Note: " + warning));
   }
   return out;
@@ -249,44 +184,11 @@ std::string warnings_text(const DesignFile& file, const TextStyle& style) {
 
 }  // namespace
 
-std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const double> areas) {
-  const SteadyFlight hover(design, Condition::hover);
-  const SteadyFlight forward(design, Condition::forward);
-  std::vector<AreaPoints> table;
-  for (const double area : areas) {
-    table.push_back({area, evaluate(hover, area), evaluate(forward, area)});
-  }
-  return table;
+Answer answer(const DesignFile& file, const OptimumStudy& study) {
+  return study.result.feasible ? feasible_answer(file, study.result) : refused_answer(study);
 }
 
-std::string shortcoming(const Design& design, const AreaPoints& points) {
-  const Margins margins = demand_margins(design, points.hover, points.forward);
-  const DemandMargin& worst = margins.worst();
-  if (worst.met()) return "";
-  return missed_words(design, worst.condition == Condition::hover ? points.hover : points.forward,
-                      worst);
-}
-
-OptimizeStudy study(DesignFile file) {
-  OptimizeStudy study;
-  const Design& design = file.design;
-  study.result = optimize(design);
-  study.best_headroom = best_headroom(design, design.requirements.headroom_at);
-  study.table = evaluate_areas(design, table_areas(study.result, study.best_headroom));
-  study.sizes =
-      sizes_near(file, study.result.feasible ? study.result.area : study.best_headroom.area);
-  if (!study.result.feasible) study.remedies = remedies(design);
-  const std::vector<std::string> warnings = cable_warnings(design);
-  file.warnings.insert(file.warnings.end(), warnings.begin(), warnings.end());
-  study.file = std::move(file);
-  return study;
-}
-
-Answer answer(const OptimizeStudy& study) {
-  return study.result.feasible ? feasible_answer(study) : refusal(study);
-}
-
-TitledTable condition_table(const OptimizeStudy& study) {
+TitledTable condition_table(const Optimization& result) {
   TextTable table({{"", TextTable::Align::left},
                    {"supply W"},
                    {"drone W"},
@@ -296,12 +198,12 @@ TitledTable condition_table(const OptimizeStudy& study) {
                    {"at drone V"},
                    {"headroom"},
                    {"tilt deg"}});
-  add_condition_row(table, "hover", study.result.hover);
-  add_condition_row(table, "forward", study.result.forward);
+  add_condition_row(table, "hover", result.hover);
+  add_condition_row(table, "forward", result.forward);
   return {"The optimum in flight", std::move(table)};
 }
 
-TitledTable sizes_table(const OptimizeStudy& study) {
+TitledTable sizes_table(const OptimumStudy& study) {
   TextTable table({{"size", TextTable::Align::left},
                    {"mm²"},
                    {"tether g"},
@@ -309,21 +211,20 @@ TitledTable sizes_table(const OptimizeStudy& study) {
                    {"forward W"},
                    {"headroom"},
                    {"", TextTable::Align::left}});
-  const Design& design = study.file.design;
+  const Design& design = study.design;
   const Condition headroom_at = design.requirements.headroom_at;
   for (const SizePoints& size : study.sizes) {
     const AreaPoints& p = size.points;
-    const OperatingPoint& judged = headroom_at == Condition::hover ? p.hover : p.forward;
     const std::string fault = shortcoming(design, p);
     table.add({size.name, significant(square_millimetres(p.area), 4),
                fixed(p.hover.tether_mass / unit::gram, 0), fixed(p.hover.total_power, 1),
-               fixed(p.forward.total_power, 1), fixed(judged.headroom, 2),
+               fixed(p.forward.total_power, 1), fixed(p.in(headroom_at).headroom, 2),
                fault.empty() ? "meets every requirement" : fault});
   }
   return {"Sizes that can be bought", std::move(table)};
 }
 
-TitledTable power_table(const OptimizeStudy& study) {
+TitledTable power_table(const OptimumStudy& study) {
   TextTable table({{"mm²"},
                    {"tether g"},
                    {"available g"},
@@ -333,9 +234,9 @@ TitledTable power_table(const OptimizeStudy& study) {
                    {"forward W"},
                    {"lost %"},
                    {"", TextTable::Align::left}});
-  const bool by_hover = study.file.design.requirements.headroom_at == Condition::hover;
+  const Condition headroom_at = study.design.requirements.headroom_at;
   for (const AreaPoints& row : study.table) {
-    const OperatingPoint& judged = by_hover ? row.hover : row.forward;
+    const OperatingPoint& judged = row.in(headroom_at);
     table.add(
         {significant(square_millimetres(row.area), 4), fixed(row.hover.tether_mass / unit::gram, 0),
          fixed(judged.available_thrust / unit::gram_force, 0),
@@ -345,7 +246,7 @@ TitledTable power_table(const OptimizeStudy& study) {
         row.area == study.result.area);
   }
   return {fmt::format("Power against cross-section (thrust per motor, headroom and loss in {})",
-                      condition_words(study.file.design.requirements.headroom_at)),
+                      condition_words(headroom_at)),
           std::move(table)};
 }
 
@@ -363,7 +264,7 @@ TitledTable operating_table(const Design& design, Condition condition,
                    {"A"},
                    {"V"}});
   for (const AreaPoints& row : areas) {
-    const OperatingPoint& p = condition == Condition::hover ? row.hover : row.forward;
+    const OperatingPoint& p = row.in(condition);
     table.add({significant(square_millimetres(p.cross_section), 4),
                significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
                fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
@@ -377,18 +278,20 @@ TitledTable operating_table(const Design& design, Condition condition,
           std::move(table)};
 }
 
-std::string optimize_text(const OptimizeStudy& study, const TextStyle& style) {
-  std::string out = style.bold(study.file.name) + "\n\n";
-  out += answer_text(study, style);
+std::string optimize_text(const DesignFile& file, const OptimumStudy& study,
+                          const TextStyle& style) {
+  std::string out = style.bold(file.name) + "\n\n";
+  out += answer_text(file, study, style);
   if (!study.sizes.empty()) out += sizes_table(study).text(style);
   if (!study.table.empty()) out += power_table(study).text(style);
-  const std::string notes = warnings_text(study.file, style);
+  const std::string notes = notes_text(all_warnings(file), style);
   return notes.empty() ? out : out + "\n" + notes;
 }
 
-ordered_json optimize_json(const OptimizeStudy& study) {
+ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
   const Optimization& result = study.result;
-  const Requirements& need = study.file.design.requirements;
+  const Design& design = study.design;
+  const Requirements& need = design.requirements;
   ordered_json feasible = ordered_json::array();
   for (const Interval& range : result.headroom_areas) {
     feasible.push_back(
@@ -396,7 +299,7 @@ ordered_json optimize_json(const OptimizeStudy& study) {
   }
   ordered_json sizes = ordered_json::array();
   for (const SizePoints& size : study.sizes) {
-    const std::string fault = shortcoming(study.file.design, size.points);
+    const std::string fault = shortcoming(design, size.points);
     sizes.push_back({{"name", size.name},
                      {"cross_section_mm2", square_millimetres(size.points.area)},
                      {"feasible", fault.empty()},
@@ -405,7 +308,7 @@ ordered_json optimize_json(const OptimizeStudy& study) {
                      {"forward", operating_point_json(size.points.forward)}});
   }
   ordered_json out{
-      {"name", study.file.name},
+      {"name", file.name},
       {"status", status_name(result)},
       {"optimum", optimum_json(result)},
       {"headroom",
@@ -421,23 +324,20 @@ ordered_json optimize_json(const OptimizeStudy& study) {
         {"total_power_W", number_or_null(result.minimum_power.power)}}},
       {"standard_sizes", sizes},
       {"table", table_json(study.table)}};
-  const Design& design = study.file.design;
   out["voltage_class"] = voltage_class_json(design.supply.voltage);
   if (result.feasible) {
     out["thermal"] = thermal_json(design, result.hover, result.forward);
     out["cable"] = cable_json(design, result.hover, result.forward);
   }
   if (!result.feasible) {
-    out["reason"] = infeasible_sentence(study.file.design, result);
+    out["reason"] = refusal_sentence(design, *study.refusal);
     out["remedies"] = remedies_json(study.remedies);
   }
-  out["warnings"] = study.file.warnings;
+  out["warnings"] = all_warnings(file);
   return out;
 }
 
-std::string optimize_csv(const OptimizeStudy& study) {
-  return csv_header() + csv_row(study.result);
-}
+std::string optimize_csv(const OptimumStudy& study) { return csv_header() + csv_row(study.result); }
 
 std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
                           const TextStyle& style) {
@@ -452,9 +352,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
         out += wrapped(sentence);
       }
     }
-    for (const std::string& warning : cable_warnings(file.design)) {
-      out += style.subdued(wrapped("Note: " + warning));
-    }
+    out += notes_text(cable_warnings(file.design), style);
   }
   for (const AreaPoints& row : table) {
     const std::string fault = shortcoming(file.design, row);
@@ -463,7 +361,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
     }
   }
   if (out.back() != '\n') out += "\n";
-  return out + warnings_text(file, style);
+  return out + notes_text(file.warnings, style);
 }
 
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
@@ -471,13 +369,11 @@ ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> t
   for (const AreaPoints& row : table) {
     thermal.push_back(thermal_json(file.design, row.hover, row.forward));
   }
-  std::vector<std::string> warnings = file.warnings;
-  for (std::string& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
   return {{"name", file.name},
           {"table", table_json(table)},
           {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
           {"voltage_class", voltage_class_json(file.design.supply.voltage)},
-          {"warnings", warnings}};
+          {"warnings", all_warnings(file)}};
 }
 
 std::string evaluate_csv(std::span<const AreaPoints> table) {
@@ -487,28 +383,6 @@ std::string evaluate_csv(std::span<const AreaPoints> table) {
     out += "forward" + csv_values(row.forward) + "\n";
   }
   return out;
-}
-
-std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<MotorEntry> motors) {
-  std::vector<MotorOptimum> ranking;
-  for (MotorEntry& motor : motors) {
-    MotorOptimum entry{std::move(motor), design, {}, {}};
-    entry.design.drone.motor = entry.motor.curve;
-    entry.result = optimize(entry.design);
-    entry.best_headroom = best_headroom(entry.design, design.requirements.headroom_at);
-    ranking.push_back(std::move(entry));
-  }
-  const bool by_hover = design.requirements.power_at == Condition::hover;
-  const auto power = [by_hover](const MotorOptimum& entry) {
-    return by_hover ? entry.result.hover.total_power : entry.result.forward.total_power;
-  };
-  std::stable_sort(ranking.begin(), ranking.end(),
-                   [&](const MotorOptimum& a, const MotorOptimum& b) {
-                     if (a.result.feasible != b.result.feasible) return a.result.feasible;
-                     return a.result.feasible ? power(a) < power(b)
-                                              : a.best_headroom.value > b.best_headroom.value;
-                   });
-  return ranking;
 }
 
 TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking) {
@@ -537,7 +411,7 @@ std::vector<std::string> refused_motors(std::span<const MotorOptimum> ranking) {
   std::vector<std::string> refused;
   for (const MotorOptimum& entry : ranking) {
     if (entry.result.feasible) continue;
-    refused.push_back(entry.motor.id + ": " + infeasible_words(entry.design, entry.result));
+    refused.push_back(entry.motor.id + ": " + refusal_words(entry.design, *entry.refusal));
   }
   return refused;
 }
@@ -562,7 +436,7 @@ ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> 
                      {"optimum", optimum_json(entry.result)},
                      {"best_headroom", number_or_null(entry.best_headroom.value)},
                      {"reason", nullptr}};
-    if (!entry.result.feasible) row["reason"] = infeasible_sentence(entry.design, entry.result);
+    if (!entry.result.feasible) row["reason"] = refusal_sentence(entry.design, *entry.refusal);
     rows.push_back(std::move(row));
   }
   return {{"name", file.name}, {"motors", rows}};

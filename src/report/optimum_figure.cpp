@@ -13,8 +13,6 @@ namespace colour = gnuplot::colour;
 
 std::string feasible_style() { return gp::area(colour::green); }
 
-constexpr int samples = 240;  // a point every third of a millimetre of a column
-
 double square_millimetres(double area) { return area / unit::square_millimetre; }
 
 /// The cross-sections shown, mm².
@@ -23,36 +21,6 @@ struct View {
   double hi = 1;
   bool logarithmic = false;
 };
-
-/// Cross-sections that the reader looks for, mm².
-std::vector<double> landmarks(const OptimizeStudy& study) {
-  const Optimization& result = study.result;
-  std::vector<double> areas;
-  const auto add = [&areas](double area) {
-    if (std::isfinite(area) && area > 0) areas.push_back(square_millimetres(area));
-  };
-  if (result.feasible) add(result.area);
-  add(result.minimum_power.area);
-  if (!result.feasible) add(study.best_headroom.area);
-  for (const Interval& range : result.feasible_areas) add(range.lo);
-  if (study.file.design.tether.cross_section) add(*study.file.design.tether.cross_section);
-  return areas;
-}
-
-View view_of(const OptimizeStudy& study) {
-  const std::vector<double> areas = landmarks(study);
-  if (areas.empty()) return {0.01, 10, true};  // nothing flies: the sizes that tethers have
-  const auto [least, most] = std::minmax_element(areas.begin(), areas.end());
-  constexpr double most_on_a_linear_axis = 8;
-  if (*most > most_on_a_linear_axis * *least) return {*least / 2.5, *most * 2.5, true};
-  double hi = 2.2 * *most;
-  // An upper edge of the feasible range is shown unless it would crowd the rest.
-  for (const Interval& range : study.result.feasible_areas) {
-    const double edge = square_millimetres(range.hi);
-    if (edge < 4 * *most) hi = std::max(hi, 1.15 * edge);
-  }
-  return {0, hi, false};
-}
 
 /// What is drawn over the cross-section, in practical units.
 struct Curves {
@@ -65,32 +33,15 @@ struct Curves {
   std::vector<double> forward_W;  ///< from the supply
 };
 
-std::vector<double> sampled_areas(const OptimizeStudy& study, const View& view) {
-  std::vector<double> areas;
-  for (int i = 0; i <= samples; ++i) {
-    const double share = double(i) / samples;
-    const double area = view.logarithmic ? view.lo * std::pow(view.hi / view.lo, share)
-                                         : view.lo + (view.hi - view.lo) * share;
-    if (area > 0) areas.push_back(area * unit::square_millimetre);
-  }
-  // The landmarks themselves, so that curves pass through what is marked on them.
-  for (const double area : landmarks(study)) areas.push_back(area * unit::square_millimetre);
-  std::sort(areas.begin(), areas.end());
-  return areas;
-}
-
-Curves curves_of(const OptimizeStudy& study, const View& view) {
-  const Design& design = study.file.design;
-  const bool by_hover = design.requirements.headroom_at == Condition::hover;
+Curves curves_of(const Requirements& need, std::span<const AreaPoints> points) {
   Curves curves;
-  for (const AreaPoints& row : evaluate_areas(design, sampled_areas(study, view))) {
-    const OperatingPoint& judged = by_hover ? row.hover : row.forward;
+  for (const AreaPoints& row : points) {
+    const OperatingPoint& judged = row.in(need.headroom_at);
     curves.area.push_back(square_millimetres(row.area));
     curves.available.push_back(judged.available_thrust / unit::gram_force);
     curves.hover.push_back(row.hover.necessary_thrust / unit::gram_force);
     curves.forward.push_back(row.forward.necessary_thrust / unit::gram_force);
-    curves.required.push_back(design.requirements.thrust_headroom * judged.necessary_thrust /
-                              unit::gram_force);
+    curves.required.push_back(need.thrust_headroom * judged.necessary_thrust / unit::gram_force);
     curves.hover_W.push_back(row.hover.total_power);
     curves.forward_W.push_back(row.forward.total_power);
   }
@@ -114,7 +65,7 @@ bool any_power(const Curves& curves) {
 }
 
 /// Around the least power; thin conductors need any amount.
-gp::Range power_range(const OptimizeStudy& study, const Curves& curves) {
+gp::Range power_range(const OptimumStudy& study, const Curves& curves) {
   if (!any_power(curves)) return {0, 1};
   const double least = least_of(curves.hover_W, curves.forward_W);
   double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
@@ -174,7 +125,7 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
 }
 
 /// The upper axis with the sizes of a standard.
-std::string top_axis(const OptimizeStudy& study, const View& view, std::string_view standard) {
+std::string top_axis(const OptimumStudy& study, const View& view, std::string_view standard) {
   const double middle = study.result.feasible
                             ? square_millimetres(study.result.area)
                             : std::sqrt(std::max(view.lo, 0.1 * view.hi) * view.hi);
@@ -183,7 +134,7 @@ std::string top_axis(const OptimizeStudy& study, const View& view, std::string_v
 }
 
 /// Shaded ranges behind the curves, and a line at the optimum.
-std::string shading(const OptimizeStudy& study, const View& view) {
+std::string shading(const OptimumStudy& study, const View& view) {
   std::string out = "if (!characters) {\n";
   for (const Interval& range : study.result.feasible_areas) {
     const double lo = std::max(view.lo, square_millimetres(range.lo));
@@ -202,8 +153,8 @@ std::string shading(const OptimizeStudy& study, const View& view) {
 
 std::string area_words(double area) { return significant(square_millimetres(area), 3) + " mm²"; }
 
-gp::Plot thrust_plot(const OptimizeStudy& study) {
-  const Requirements& need = study.file.design.requirements;
+gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> points) {
+  const Requirements& need = study.design.requirements;
   const bool by_hover = need.headroom_at == Condition::hover;
   const std::string factor = significant(need.thrust_headroom, 2);
   gp::Plot plot;
@@ -218,20 +169,23 @@ gp::Plot thrust_plot(const OptimizeStudy& study) {
     plot.mark(square_millimetres(result.area), judged.available_thrust / unit::gram_force,
               gp::point(colour::black, 13, 0.9), "");
   } else if (study.best_headroom.value > 0) {
-    const auto best = evaluate(study.file.design, study.best_headroom.area, need.headroom_at);
-    plot.mark(square_millimetres(best.cross_section), best.available_thrust / unit::gram_force,
+    const auto best = std::find_if(points.begin(), points.end(), [&](const AreaPoints& row) {
+      return row.area == study.best_headroom.area;
+    });
+    plot.mark(square_millimetres(best->area),
+              best->in(need.headroom_at).available_thrust / unit::gram_force,
               gp::point(colour::black, 9, 0.9),
               fmt::format("best headroom, {}×", significant(study.best_headroom.value, 3)));
   }
   return plot;
 }
 
-gp::Plot power_plot(const OptimizeStudy& study) {
+gp::Plot power_plot(const OptimumStudy& study) {
   const Optimization& result = study.result;
   gp::Plot plot;
   plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
-    const bool by_hover = study.file.design.requirements.power_at == Condition::hover;
+    const bool by_hover = study.design.requirements.power_at == Condition::hover;
     const OperatingPoint& judged = by_hover ? result.hover : result.forward;
     plot.mark(square_millimetres(result.area), judged.total_power,
               gp::point(colour::black, 13, 0.9), "optimum, " + area_words(result.area));
@@ -245,13 +199,13 @@ gp::Plot power_plot(const OptimizeStudy& study) {
   return plot;
 }
 
-std::string description_of(const OptimizeStudy& study) {
-  const Design& design = study.file.design;
+std::string description_of(const OptimumStudy& study) {
+  const Design& design = study.design;
   const Optimization& result = study.result;
   std::string out =
       "Two diagrams over the cross-section of one conductor: thrust per motor, available, "
       "necessary and required; and power from the supply in hover and in forward flight. ";
-  if (!result.feasible) return out + infeasible_sentence(design, result);
+  if (!result.feasible) return out + refusal_sentence(design, *study.refusal);
   out += fmt::format("The optimum is {}, drawing {} W in hover and {} W in forward flight. ",
                      area_words(result.area), fixed(result.hover.total_power, 1),
                      fixed(result.forward.total_power, 1));
@@ -260,12 +214,12 @@ std::string description_of(const OptimizeStudy& study) {
 
 }  // namespace
 
-Figure optimum_figure(const OptimizeStudy& study) {
-  const View view = view_of(study);
-  const Curves curves = curves_of(study, view);
+Figure optimum_figure(const std::string& name, const OptimumStudy& study, const AreaCurve& curve) {
+  const View view{square_millimetres(curve.lo), square_millimetres(curve.hi), curve.logarithmic};
+  const Curves curves = curves_of(study.design.requirements, curve.points);
   Figure figure;
   figure.id = "optimum";
-  figure.title = study.file.name;
+  figure.title = name;
   figure.description = description_of(study);
   figure.lines = 43;
   const gp::Layout layout(figure.lines);
@@ -277,8 +231,8 @@ Figure optimum_figure(const OptimizeStudy& study) {
   if (view.logarithmic) figure.script += "set logscale x\nset logscale x2\n";
   figure.script += "set samples 2\nset multiplot\n";
 
-  const gp::Plot thrust = thrust_plot(study);
-  figure.script += layout.panel(4, 18) + layout.heading(study.file.name) + shading(study, view);
+  const gp::Plot thrust = thrust_plot(study, curve.points);
+  figure.script += layout.panel(4, 18) + layout.heading(name) + shading(study, view);
   figure.script += layout.above(2.4, "thrust per motor (g)", "AWG");
   figure.script += layout.legend(19.2, 2, thrust.legend());
   figure.script += top_axis(study, view, "AWG") + gp::set_range("y", thrust_range(curves));

@@ -18,7 +18,7 @@
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/sweep_rows.hpp"
-#include "tethercalc/solve/headroom.hpp"
+#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
@@ -49,11 +49,12 @@ constexpr std::array main_results{"status",
 /// Every result of a design by its name.
 ordered_json results_of(const Design& design) {
   std::string row;
-  SweepRows({}, RowFormat::json_lines).append(row, {}, sweep_outcome(design));
+  const ReferenceResults computed = reference_results(design);
+  SweepRows({}, RowFormat::json_lines).append(row, {{}, design, computed.outcome});
   ordered_json results = ordered_json::parse(row);
   results.erase("reason");  // a sentence for people, which may be put better at any time
-  const BestHeadroom best = best_headroom(design, design.requirements.headroom_at);
-  const MinimumPower least = optimize(design).minimum_power;
+  const BestHeadroom& best = computed.best_headroom;
+  const MinimumPower& least = computed.minimum_power;
   results["headroom.best"] = number_or_null(best.value);
   results["headroom.best_at_mm2"] = number_or_null(best.area / unit::square_millimetre);
   results["minimum_power.cross_section_mm2"] = number_or_null(least.area / unit::square_millimetre);

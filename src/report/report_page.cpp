@@ -10,6 +10,7 @@
 #include "report/characters.hpp"
 #include "report/html.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_figures.hpp"
 #include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
@@ -41,29 +42,30 @@ std::string section_markup(const Section& section) {
                      section.body);
 }
 
-Section answer_section(const OptimizeStudy& study) {
-  const Answer told = answer(study);
-  const bool feasible = study.result.feasible;
+Section answer_section(const PageContent& content) {
+  const Answer told = answer(content.file, content.optimum);
+  const bool feasible = content.optimum.result.feasible;
   std::string body = html::element(
       "p", told.headline, feasible ? " class=\"headline good\"" : " class=\"headline bad\"");
   body += "\n" + html::paragraphs(told.sentences);
   if (!told.remedies.empty()) body += html::list(told.remedies);
-  if (feasible) body += html::table(condition_table(study), "table-conditions");
-  for (const std::string& warning : study.file.warnings) {
+  if (feasible) body += html::table(condition_table(content.optimum.result), "table-conditions");
+  for (const std::string& warning : all_warnings(content.file)) {
     body += html::element("p", "Note: " + warning, " class=\"note\"") + "\n";
   }
   return {"answer", "The answer", std::move(body)};
 }
 
-Section cross_sections(const OptimizeStudy& study) {
-  std::string body = html::picture(optimum_figure(study));
+Section cross_sections(const PageContent& content) {
+  const OptimumStudy& study = content.optimum;
+  std::string body = html::picture(optimum_figure(content.file.name, study, content.curve));
   if (!study.sizes.empty()) body += html::table(sizes_table(study), "table-sizes");
   if (!study.table.empty()) body += html::table(power_table(study), "table-power");
   return {"cross-sections", "Thrust and power over the cross-section", std::move(body)};
 }
 
 Section other_motors(const PageContent& content) {
-  const DesignFile& file = content.study.file;
+  const DesignFile& file = content.file;
   std::string body = html::picture(motors_figure(file, content.motors));
   const TitledTable ranking = motor_table(file.design, content.motors);
   if (!ranking.table.rows().empty()) body += html::table(ranking, "table-motors");
@@ -180,14 +182,14 @@ std::string head(const std::string& title) {
 }  // namespace
 
 std::string report_page(const PageContent& content) {
-  std::vector<Section> sections{answer_section(content.study), cross_sections(content.study)};
+  std::vector<Section> sections{answer_section(content), cross_sections(content)};
   if (!content.motors.empty()) sections.push_back(other_motors(content));
   if (content.drag) sections.push_back(drag_section(*content.drag));
   for (const LogDiagnosis& log : content.diagnoses) sections.push_back(diagnosis_section(log));
-  sections.push_back(spec_section(content.study.file));
+  sections.push_back(spec_section(content.file));
   sections.push_back(method_section(content));
 
-  const std::string name = printable(content.study.file.name);
+  const std::string name = printable(content.file.name);
   constexpr std::size_t longest_title = 100;
   std::string out = "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n";
   out += head(printable(name, longest_title));

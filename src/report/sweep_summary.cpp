@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "tethercalc/report/json_results.hpp"
-#include "tethercalc/solve/ordered_chunks.hpp"
 
 namespace tethercalc {
 namespace {
@@ -22,84 +20,6 @@ constexpr std::array shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
 /// Half-width of a 95 % interval in standard errors of a normal distribution.
 constexpr double ci95_factor = 1.96;
-
-/// Outputs of some consecutive points.
-struct MixedChunk {
-  SensitivitySample area;
-  SensitivitySample power;
-  SensitivitySample feasible;
-};
-
-SensitivitySample empty_sample(std::size_t inputs) {
-  return {{}, {}, std::vector<std::vector<double>>(inputs)};
-}
-
-void append(std::vector<double>& to, const std::vector<double>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-void append(SensitivitySample& to, const SensitivitySample& from) {
-  append(to.a, from.a);
-  append(to.b, from.b);
-  for (std::size_t i = 0; i < to.mixed.size(); ++i) append(to.mixed[i], from.mixed[i]);
-}
-
-/// Computes the outputs at points of two samples and their mixtures.
-class MixedPoints {
- public:
-  MixedPoints(const SweepSpace& space, const Design& base, std::uint64_t points)
-      : axes_(space.axes()),
-        cursor_(space, base),
-        given_area_(varies_cross_section(space)),
-        points_({points, space.sample()->method, space.sample()->seed}, 2 * axes_.size()),
-        unit_(2 * axes_.size()) {}
-
-  void compute(std::uint64_t begin, std::uint64_t end, MixedChunk& chunk) {
-    chunk = {empty_sample(axes_.size()), empty_sample(axes_.size()), empty_sample(axes_.size())};
-    for (std::uint64_t j = begin; j < end; ++j) {
-      points_.at(j, unit_);
-      std::vector<double> a;
-      std::vector<double> b;
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        a.push_back(quantile(axes_[i], unit_[i]));
-        b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
-      }
-      add(a, chunk.area.a, chunk.power.a, chunk.feasible.a);
-      add(b, chunk.area.b, chunk.power.b, chunk.feasible.b);
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        std::vector<double> mixed = a;
-        mixed[i] = b[i];
-        add(mixed, chunk.area.mixed[i], chunk.power.mixed[i], chunk.feasible.mixed[i]);
-      }
-    }
-  }
-
- private:
-  void add(const std::vector<double>& values, std::vector<double>& area, std::vector<double>& power,
-           std::vector<double>& feasible) {
-    cursor_.set_values(values);
-    const SweepOutcome outcome = sweep_outcome(cursor_.design(), given_area_);
-    area.push_back(outcome.feasible ? outcome.area : nan);
-    power.push_back(outcome.feasible ? judged_power(outcome, cursor_.design()) : nan);
-    feasible.push_back(outcome.feasible ? 1 : 0);
-  }
-
-  std::span<const SweepAxis> axes_;
-  SweepCursor cursor_;
-  bool given_area_;
-  UnitPoints points_;
-  std::vector<double> unit_;
-};
-
-std::uint64_t incomplete_points(const SensitivitySample& feasible) {
-  std::uint64_t count = 0;
-  for (std::size_t j = 0; j < feasible.a.size(); ++j) {
-    bool complete = feasible.a[j] == 1 && feasible.b[j] == 1;
-    for (const auto& mixed : feasible.mixed) complete = complete && mixed[j] == 1;
-    if (!complete) ++count;
-  }
-  return count;
-}
 
 ordered_json estimate_json(const IndexEstimate& estimate) {
   const double half = ci95_factor * estimate.standard_error;
@@ -163,60 +83,6 @@ void add_spread(TextTable& table, const std::string& name, const Spread& spread,
 }
 
 }  // namespace
-
-void Spread::add(double value) {
-  histogram_.add(value);
-  const double deviation = value - mean_;
-  mean_ += deviation / static_cast<double>(histogram_.count());
-  squares_ += deviation * (value - mean_);
-}
-
-double Spread::standard_deviation() const {
-  if (histogram_.count() < 2) return nan;
-  return std::sqrt(squares_ / static_cast<double>(histogram_.count() - 1));
-}
-
-void SweepSummary::add(const JudgedRow& row) {
-  ++draws;
-  if (!row.feasible || std::isnan(row.power)) {
-    ++infeasible;
-    return;
-  }
-  area.add(row.area);
-  power.add(row.power);
-}
-
-SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base, unsigned threads) {
-  constexpr std::uint64_t points_per_chunk = 64;
-  const std::size_t axes = space.axes().size();
-  SweepSensitivity result;
-  result.points = std::min(space.rows(), most_sensitivity_points);
-  result.evaluations = result.points * (axes + 2);
-  MixedChunk all{empty_sample(axes), empty_sample(axes), empty_sample(axes)};
-  const auto make_worker = [&] {
-    return [&result, points = MixedPoints(space, base, result.points)](std::uint64_t index,
-                                                                       MixedChunk& chunk) mutable {
-      const std::uint64_t begin = index * points_per_chunk;
-      points.compute(begin, std::min(begin + points_per_chunk, result.points), chunk);
-    };
-  };
-  const std::uint64_t chunks = (result.points + points_per_chunk - 1) / points_per_chunk;
-  compute_in_order<MixedChunk>(0, chunks, threads, make_worker, [&](const MixedChunk& chunk) {
-    append(all.area, chunk.area);
-    append(all.power, chunk.power);
-    append(all.feasible, chunk.feasible);
-    return true;
-  });
-  const std::uint64_t seed = space.sample()->seed;
-  result.incomplete = incomplete_points(all.feasible);
-  result.area = sobol_indices(all.area, seed);
-  result.power = sobol_indices(all.power, seed);
-  if (result.incomplete > 0) {
-    result.feasible = sobol_indices(all.feasible, seed);
-    if (std::isnan(result.feasible.front().total.value)) result.feasible.clear();
-  }
-  return result;
-}
 
 std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
                          const TextStyle& style) {

@@ -56,24 +56,30 @@ TEST_CASE("an AWG wire has the diameter that its number stands for") {
 }
 
 TEST_CASE("the neighbours of an area enclose it") {
+  const std::vector<WireSize> sizes = wire_sizes();
   for (const double area_mm2 : {0.3, 1.0, 1.0886, 1.5, 7.0}) {
     const double area = area_mm2 * unit::square_millimetre;
-    for (const WireNeighbours& near : wire_sizes_near(area)) {
+    for (const WireNeighbours& near : wire_sizes_near(sizes, area)) {
       INFO(near.standard << " " << area_mm2);
       if (near.below) CHECK(near.below->area <= area);
       if (near.above) CHECK(near.above->area >= area);
     }
   }
-  const auto near = wire_sizes_near(1.0886e-6);
-  REQUIRE(near[0].below);
-  CHECK(near[0].below->name == "AWG 17");
-  CHECK(near[0].above->name == "AWG 16");
-  CHECK(near[1].below->name == "1 mm²");
-  CHECK(near[1].above->name == "1.5 mm²");
-  CHECK(wire_sizes_near(1.5e-6)[1].below->name == "1.5 mm²");
-  CHECK(wire_sizes_near(1.5e-6)[1].above->name == "1.5 mm²");
-  CHECK_FALSE(wire_sizes_near(1e-9)[1].below);
-  CHECK_FALSE(wire_sizes_near(1.0)[0].above);
+  const auto near = [&](const std::string& standard, double area) {
+    for (const WireNeighbours& found : wire_sizes_near(sizes, area)) {
+      if (found.standard == standard) return found;
+    }
+    return WireNeighbours{};
+  };
+  REQUIRE(near("AWG", 1.0886e-6).below);
+  CHECK(near("AWG", 1.0886e-6).below->name == "AWG 17");
+  CHECK(near("AWG", 1.0886e-6).above->name == "AWG 16");
+  CHECK(near("IEC 60228", 1.0886e-6).below->name == "1 mm²");
+  CHECK(near("IEC 60228", 1.0886e-6).above->name == "1.5 mm²");
+  CHECK(near("IEC 60228", 1.5e-6).below->name == "1.5 mm²");
+  CHECK(near("IEC 60228", 1.5e-6).above->name == "1.5 mm²");
+  CHECK_FALSE(near("IEC 60228", 1e-9).below);
+  CHECK_FALSE(near("AWG", 1.0).above);
 }
 
 TEST_CASE("an unknown name is refused with the closest one") {

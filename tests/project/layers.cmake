@@ -4,7 +4,7 @@
 #
 # cmake -DROOT=… -P layers.cmake
 cmake_minimum_required(VERSION 3.25)
-set(rooms model solve identify diagnose io report cli)
+set(rooms model solve identify diagnose study io report cli)
 set(json_rooms io report cli)
 set(problems "")
 set(cli11_files "")

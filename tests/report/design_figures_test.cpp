@@ -25,6 +25,11 @@ std::vector<std::string> reference_specs() {
   return files;
 }
 
+Figure figure_of(const DesignFile& file) {
+  const OptimumStudy study = study_optimum(file.design, wire_sizes());
+  return optimum_figure(file.name, study, area_curve(study));
+}
+
 void check_layout(const Figure& figure) {
   const std::string svg = render(figure, FigureFormat::svg);
   CHECK(text_boxes(svg).size() > 15);
@@ -35,8 +40,7 @@ void check_layout(const Figure& figure) {
 
 TEST_CASE("the curves of the optimum are the library's operating points") {
   const DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
-  const OptimizeStudy answer = study(file);
-  const auto rows = block_of(optimum_figure(answer).script, "curves");
+  const auto rows = block_of(figure_of(file).script, "curves");
   REQUIRE(rows.size() > 200);
   for (std::size_t i = 0; i < rows.size(); i += 29) {
     const double area = rows[i][0] * unit::square_millimetre;
@@ -57,8 +61,7 @@ TEST_CASE("the curves of the optimum are the library's operating points") {
 
 TEST_CASE("the published optimum is marked and said in words") {
   // Beffert and Zell 2025, section V-B and figure on cable optimisation.
-  const Figure figure =
-      optimum_figure(study(read_design(project_file("examples/holybro-x500.json"), {})));
+  const Figure figure = figure_of(read_design(project_file("examples/holybro-x500.json"), {}));
   CHECK_THAT(figure.description, Contains("1.09 mm²"));
   CHECK_THAT(figure.description, Contains("405.4 W in hover"));
   CHECK_THAT(figure.description, Contains("444.9 W in forward flight"));
@@ -94,7 +97,7 @@ TEST_CASE("no label covers another in the figures of any reference design") {
   for (const std::string& spec : reference_specs()) {
     INFO(spec);
     const DesignFile file = read_design(spec, {});
-    check_layout(optimum_figure(study(file)));
+    check_layout(figure_of(file));
     check_layout(motors_figure(file, compare_motors(file.design, motors)));
   }
 }
@@ -102,14 +105,14 @@ TEST_CASE("no label covers another in the figures of any reference design") {
 TEST_CASE("a design whose power cannot be delivered says so in its figure") {
   const DesignFile file =
       read_design(project_file("examples/reference/infeasible-power-hover.json"), {});
-  CHECK_THAT(optimum_figure(study(file)).script, Contains("'cannot be delivered'"));
+  CHECK_THAT(figure_of(file).script, Contains("'cannot be delivered'"));
 }
 
 TEST_CASE("a figure's legend and heading survive a name of 300 characters") {
   if (!gnuplot_is_there()) return;
   DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
   file.name = std::string(150, 'n') + std::string(150, '\'');
-  check_layout(optimum_figure(study(file)));
+  check_layout(figure_of(file));
 }
 
 TEST_CASE("the pictures of the documents are those that the program draws") {
@@ -125,7 +128,7 @@ TEST_CASE("the pictures of the documents are those that the program draws") {
     CHECK(texts(file_text(project_file(document))) == texts(render(figure, FigureFormat::svg)));
     CHECK(std::filesystem::file_size(project_file(document)) < 100000);
   };
-  check(optimum_figure(study(file)), "docs/figures/optimum.svg");
+  check(figure_of(file), "docs/figures/optimum.svg");
   check(motors_figure(file, compare_motors(file.design, library_motors())),
         "docs/figures/motors.svg");
 }

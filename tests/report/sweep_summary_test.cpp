@@ -21,8 +21,7 @@ DesignFile base() { return parse_design(starting_spec(), "starting spec"); }
 
 SweepSummary summary_of(const SweepSpace& space, const Design& design) {
   SweepSummary summary;
-  const SweepRows rows(space.axes(), RowFormat::csv);
-  compute_sweep({&space, &design, &rows, {0, space.rows()}, space.rows(), 2},
+  compute_sweep({&space, &design, {}, {0, space.rows()}, space.rows(), 2},
                 [&](const SweepChunk& chunk) {
                   for (const JudgedRow& row : chunk.judged) summary.add(row);
                   return true;

@@ -8,19 +8,9 @@
 #include <vector>
 
 #include "tethercalc/model/design.hpp"
+#include "tethercalc/study/wire_sizes.hpp"
 
 namespace tethercalc {
-
-/// A motor with its propeller. Texts are empty and numbers absent where the file gives none.
-struct MotorEntry {
-  std::string id;                      ///< what specs and options call it
-  std::string name;                    ///< what people call it
-  std::string source;                  ///< where its numbers come from
-  std::optional<double> voltage_V;     ///< at which the curve was measured
-  std::optional<double> propeller_in;  ///< diameter in inches
-  MotorCurve curve;                    ///< of one motor, at that voltage with that propeller
-  std::vector<std::string> warnings;   ///< what was done to noisy points, one sentence each
-};
 
 /// A conductor material. Texts are empty where the file gives none.
 struct ConductorEntry {
@@ -77,26 +67,8 @@ void put_entry(Design& design, const InsulationEntry& entry);
                                               const std::filesystem::path& folder = {},
                                               const std::string& where = "insulation");
 
-/// A size in which conductors are sold.
-struct WireSize {
-  std::string standard;  ///< "AWG", "IEC 60228" or "VDE 0295"
-  std::string name;      ///< "AWG 17", "1.5 mm²"
-  double area = 0;       ///< m²
-};
-
 /// All sizes, by rising area. AWG n has the diameter 0.127 mm · 92^((36 − n)/39) (ASTM B258); IEC
 /// 60228 lists aluminium from 10 mm² only, so smaller ones are sizes of copper.
 [[nodiscard]] std::vector<WireSize> wire_sizes();
-
-/// Neighbours of an area among the sizes of one standard. Both are the same where it is one of
-/// them.
-struct WireNeighbours {
-  std::string standard;           ///< as in WireSize
-  std::optional<WireSize> below;  ///< the largest not above the area
-  std::optional<WireSize> above;  ///< the smallest not below it
-};
-
-/// The neighbours of `area` in m² (finite, ≥ 0) in each standard.
-[[nodiscard]] std::vector<WireNeighbours> wire_sizes_near(double area);
 
 }  // namespace tethercalc

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace tethercalc {
@@ -99,6 +101,17 @@ class MotorCurve {
 
   explicit MotorCurve(std::shared_ptr<const Polyline> line);
   std::shared_ptr<const Polyline> line_;  ///< never null
+};
+
+/// A motor with its propeller. Texts are empty and numbers absent where the file gives none.
+struct MotorEntry {
+  std::string id;                      ///< what specs and options call it
+  std::string name;                    ///< what people call it
+  std::string source;                  ///< where its numbers come from
+  std::optional<double> voltage_V;     ///< at which the curve was measured
+  std::optional<double> propeller_in;  ///< diameter in inches
+  MotorCurve curve;                    ///< of one motor, at that voltage with that propeller
+  std::vector<std::string> warnings;   ///< what was done to noisy points, one sentence each
 };
 
 }  // namespace tethercalc

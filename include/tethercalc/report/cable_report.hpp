@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/model/operating_point.hpp"
 
 namespace tethercalc {
@@ -41,5 +42,8 @@ struct VoltageClass {
 
 /// What the heat balance of this design does not know and the user should, a sentence each.
 [[nodiscard]] std::vector<std::string> cable_warnings(const Design& design);
+
+/// What the reader of the spec noted, then these.
+[[nodiscard]] std::vector<std::string> all_warnings(const DesignFile& file);
 
 }  // namespace tethercalc

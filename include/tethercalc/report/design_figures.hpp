@@ -14,7 +14,8 @@ namespace tethercalc {
 /// bought, AWG over thrust and IEC 60228 over power. An infeasible design is drawn as well, with
 /// its best headroom marked. The axis is logarithmic where what matters spans more than a factor of
 /// eight.
-[[nodiscard]] Figure optimum_figure(const OptimizeStudy& study);
+[[nodiscard]] Figure optimum_figure(const std::string& name, const OptimumStudy& study,
+                                    const AreaCurve& curve);
 
 /// Efficiency over thrust of every motor in `ranking`, with the thrust that its optimum needs in
 /// hover (circle), the thrust demanded with headroom (dot) and, where the least power decides, the

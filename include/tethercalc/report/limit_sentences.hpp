@@ -3,25 +3,23 @@
 
 #include <string>
 
-#include "tethercalc/solve/headroom.hpp"
-#include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 
 /// "hover" or "forward flight".
 [[nodiscard]] std::string condition_words(Condition condition);
 
-/// What a design misses at `point`, in a few words.
-[[nodiscard]] std::string missed_words(const Design& design, const OperatingPoint& point,
-                                       const DemandMargin& missed);
+/// Why a cable cannot be used in this design, in a few words; empty where it can.
+[[nodiscard]] std::string shortcoming(const Design& design, const AreaPoints& points);
 
 /// Why the optimum is where it is. For a feasible result.
 [[nodiscard]] std::string limit_sentence(const Design& design, const Optimization& result);
 
-/// Why there is no optimum, with the best that can be reached. For an infeasible result.
-[[nodiscard]] std::string infeasible_sentence(const Design& design, const Optimization& result);
+/// Why there is no optimum, with the best that can be reached.
+[[nodiscard]] std::string refusal_sentence(const Design& design, const Refusal& refusal);
 
 /// The same in a few words, for a table.
-[[nodiscard]] std::string infeasible_words(const Design& design, const Optimization& result);
+[[nodiscard]] std::string refusal_words(const Design& design, const Refusal& refusal);
 
 }  // namespace tethercalc

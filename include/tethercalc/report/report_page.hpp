@@ -19,7 +19,9 @@ struct LogDiagnosis {
 
 /// Everything on the page.
 struct PageContent {
-  OptimizeStudy study;                  ///< the answer
+  DesignFile file;                      ///< the spec
+  OptimumStudy optimum;                 ///< the answer
+  AreaCurve curve;                      ///< that `area_curve` makes of it
   std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
   std::optional<DragFlights> drag;      ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told

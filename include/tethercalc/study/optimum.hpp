@@ -1,0 +1,73 @@
+// Which cross-section to fly, and what is told beside it; the same for a choice of motors.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tethercalc/solve/headroom.hpp"
+#include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/solve/remedies.hpp"
+#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/wire_sizes.hpp"
+
+namespace tethercalc {
+
+/// Why a design has no optimum.
+struct Refusal {
+  Limit limit = Limit::available_power;    ///< what no cross-section keeps
+  Condition condition = Condition::hover;  ///< where
+  BestHeadroom best;            ///< the most there, for limits of power, weight, thrust and tilt
+  bool converter_caps = false;  ///< whether the converter's rating, not the line, allows no more
+};
+
+/// Of a `result` that is infeasible.
+[[nodiscard]] Refusal refusal_of(const Design& design, const Optimization& result);
+
+/// A conductor that can be bought, or the one of the design.
+struct SizePoints {
+  std::string name;   ///< "AWG 17"; "as specified" for `tether.cross_section`
+  AreaPoints points;  ///< what it would give
+};
+
+/// The optimum of a design and what is told beside it.
+struct OptimumStudy {
+  Design design;                   ///< as asked about
+  Optimization result;             ///< the optimum, or what stands in its way
+  std::optional<Refusal> refusal;  ///< of an infeasible design
+  BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
+  std::vector<SizePoints> sizes;   ///< neighbours of the optimum in each standard, by rising area
+  std::vector<AreaPoints> table;   ///< by rising area; holds optimum, minimum and feasible edges
+  std::vector<Remedy> remedies;    ///< for an infeasible design
+};
+
+/// Optimises the design; `sizes` (rising) are those that can be bought.
+[[nodiscard]] OptimumStudy study_optimum(const Design& design, std::span<const WireSize> sizes);
+
+/// A design over the cross-sections of interest, for drawing.
+struct AreaCurve {
+  double lo = 1e-8;                ///< m², the least shown
+  double hi = 1e-5;                ///< m², the largest
+  bool logarithmic = true;         ///< what matters is spread too widely for a linear axis
+  std::vector<AreaPoints> points;  ///< rising, 240 and those at which something is marked
+};
+
+/// Around optimum, least power, edges and the cable of the design.
+[[nodiscard]] AreaCurve area_curve(const OptimumStudy& study);
+
+/// One motor's best tether.
+struct MotorOptimum {
+  MotorEntry motor;                ///< as given
+  Design design;                   ///< the design with this motor
+  Optimization result;             ///< its optimum
+  std::optional<Refusal> refusal;  ///< where it has none
+  BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
+};
+
+/// The design with each of `motors` in turn, feasible ones first by rising power, infeasible ones
+/// last by falling best headroom.
+[[nodiscard]] std::vector<MotorOptimum> compare_motors(const Design& design,
+                                                       std::vector<MotorEntry> motors);
+
+}  // namespace tethercalc

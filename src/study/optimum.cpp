@@ -1,0 +1,180 @@
+#include "tethercalc/study/optimum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace tethercalc {
+namespace {
+
+/// `value` rounded to two significant digits.
+double rounded(double value) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return std::round(value / step) * step;
+}
+
+/// The finite, positive ones of `areas`.
+std::vector<double> existing(std::vector<double> areas) {
+  std::erase_if(areas, [](double area) { return !(std::isfinite(area) && area > 0); });
+  return areas;
+}
+
+/// The optimum or, where there is none, the area that comes closest.
+double central_area(const OptimumStudy& study) {
+  return study.result.feasible ? study.result.area : study.best_headroom.area;
+}
+
+/// Round areas around what matters, and what matters itself, rising.
+std::vector<double> table_areas(const OptimumStudy& study) {
+  std::vector<double> areas{central_area(study), study.result.minimum_power.area};
+  for (const Interval& range : study.result.feasible_areas) {
+    areas.push_back(range.lo);
+    areas.push_back(range.hi);
+  }
+  areas = existing(std::move(areas));
+  if (areas.empty()) return areas;
+  const auto [least, most] = std::minmax_element(areas.begin(), areas.end());
+  const double from = 0.5 * *least;
+  const double to = 1.5 * *most;
+  constexpr int steps = 12;
+  for (int i = 0; i <= steps; ++i) {
+    const double area = from * std::pow(to / from, double(i) / steps);
+    areas.push_back(rounded(area / unit::square_millimetre) * unit::square_millimetre);
+  }
+  std::sort(areas.begin(), areas.end());
+  const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };
+  areas.erase(std::unique(areas.begin(), areas.end(), same), areas.end());
+  return areas;
+}
+
+/// The sizes below and above `area` in each standard, and the cable of the design.
+std::vector<SizePoints> sizes_near(const Design& design, double area,
+                                   std::span<const WireSize> sizes) {
+  std::vector<SizePoints> near;
+  const auto add = [&](const std::string& name, double size) {
+    near.push_back({name, evaluate_areas(design, std::span(&size, 1)).front()});
+  };
+  if (std::isfinite(area)) {
+    // The end of a short standard is no neighbour; it counts where no standard goes further.
+    std::vector<WireNeighbours> standards = wire_sizes_near(sizes, area);
+    const auto brackets = [](const WireNeighbours& s) { return s.below && s.above; };
+    if (std::any_of(standards.begin(), standards.end(), brackets)) {
+      std::erase_if(standards, std::not_fn(brackets));
+    }
+    for (const WireNeighbours& standard : standards) {
+      for (const auto& size : {standard.below, standard.above}) {
+        if (size) add(size->name, size->area);
+      }
+    }
+  }
+  if (design.tether.cross_section) add("as specified", *design.tether.cross_section);
+  std::stable_sort(near.begin(), near.end(), [](const SizePoints& a, const SizePoints& b) {
+    return a.points.area < b.points.area;
+  });
+  const auto same = [](const SizePoints& a, const SizePoints& b) { return a.name == b.name; };
+  near.erase(std::unique(near.begin(), near.end(), same), near.end());
+  return near;
+}
+
+/// Cross-sections that the reader of a curve looks for.
+std::vector<double> landmarks(const OptimumStudy& study) {
+  std::vector<double> areas{central_area(study), study.result.minimum_power.area};
+  for (const Interval& range : study.result.feasible_areas) areas.push_back(range.lo);
+  if (study.design.tether.cross_section) areas.push_back(*study.design.tether.cross_section);
+  return existing(std::move(areas));
+}
+
+/// What of the cross-sections is shown.
+AreaCurve curve_around(const std::vector<double>& areas, const IntervalSet& feasible) {
+  if (areas.empty()) return {};  // nothing flies: the sizes that tethers have
+  const auto [least, most] = std::minmax_element(areas.begin(), areas.end());
+  constexpr double most_on_a_linear_axis = 8;
+  if (*most > most_on_a_linear_axis * *least) return {*least / 2.5, *most * 2.5, true, {}};
+  double hi = 2.2 * *most;
+  // An upper edge of the feasible range is shown unless it would crowd the rest.
+  for (const Interval& range : feasible) {
+    if (range.hi < 4 * *most) hi = std::max(hi, 1.15 * range.hi);
+  }
+  return {0, hi, false, {}};
+}
+
+/// Whether the thrust available at `area` is what the converter's rating leaves of the line's.
+bool converter_caps(const Design& design, Condition condition, double area) {
+  const Converter& converter = design.supply.converter;
+  if (!converter.rated_output_power) return false;
+  const double arriving = evaluate(design, area, condition).available_power;
+  // At the best of all areas the line gives just as much, but for the refinement of that area.
+  return converter_output_power(converter, arriving - design.drone.auxiliary_power) >
+         *converter.rated_output_power * (1 - 1e-3);
+}
+
+}  // namespace
+
+Refusal refusal_of(const Design& design, const Optimization& result) {
+  Refusal refusal{result.limited_by, result.limiting_condition, {}, false};
+  switch (result.limited_by) {
+    case Limit::conductor_temperature:
+    case Limit::tether_strength:
+    case Limit::converter_rating:
+    case Limit::input_voltage:
+      return refusal;
+    default:
+      refusal.best = best_headroom(design, refusal.condition);
+  }
+  refusal.converter_caps =
+      refusal.best.value > 0 && converter_caps(design, refusal.condition, refusal.best.area);
+  return refusal;
+}
+
+OptimumStudy study_optimum(const Design& design, std::span<const WireSize> sizes) {
+  OptimumStudy study{design, optimize(design), {}, {}, {}, {}, {}};
+  study.best_headroom = best_headroom(design, design.requirements.headroom_at);
+  study.table = evaluate_areas(design, table_areas(study));
+  study.sizes = sizes_near(design, central_area(study), sizes);
+  if (!study.result.feasible) {
+    study.refusal = refusal_of(design, study.result);
+    study.remedies = remedies(design);
+  }
+  return study;
+}
+
+AreaCurve area_curve(const OptimumStudy& study) {
+  std::vector<double> areas = landmarks(study);
+  AreaCurve curve = curve_around(areas, study.result.feasible_areas);
+  constexpr int samples = 240;  // a point every third of a millimetre of a column
+  for (int i = 0; i <= samples; ++i) {
+    const double share = double(i) / samples;
+    const double area = curve.logarithmic ? curve.lo * std::pow(curve.hi / curve.lo, share)
+                                          : curve.lo + (curve.hi - curve.lo) * share;
+    if (area > 0) areas.push_back(area);
+  }
+  std::sort(areas.begin(), areas.end());
+  curve.points = evaluate_areas(study.design, areas);
+  return curve;
+}
+
+std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<MotorEntry> motors) {
+  std::vector<MotorOptimum> ranking;
+  for (MotorEntry& motor : motors) {
+    MotorOptimum entry{std::move(motor), design, {}, {}, {}};
+    entry.design.drone.motor = entry.motor.curve;
+    entry.result = optimize(entry.design);
+    if (!entry.result.feasible) entry.refusal = refusal_of(entry.design, entry.result);
+    entry.best_headroom = best_headroom(entry.design, design.requirements.headroom_at);
+    ranking.push_back(std::move(entry));
+  }
+  const bool by_hover = design.requirements.power_at == Condition::hover;
+  const auto power = [by_hover](const MotorOptimum& entry) {
+    return by_hover ? entry.result.hover.total_power : entry.result.forward.total_power;
+  };
+  std::stable_sort(ranking.begin(), ranking.end(),
+                   [&](const MotorOptimum& a, const MotorOptimum& b) {
+                     if (a.result.feasible != b.result.feasible) return a.result.feasible;
+                     return a.result.feasible ? power(a) < power(b)
+                                              : a.best_headroom.value > b.best_headroom.value;
+                   });
+  return ranking;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,217 @@
+#include "tethercalc/study/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tethercalc/solve/ordered_chunks.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+SweepOutcome given_cable(const Design& design) {
+  SweepOutcome outcome;
+  outcome.given_area = true;
+  const double area = design.tether.cross_section.value_or(nan);
+  outcome.points = evaluate_areas(design, std::span(&area, 1)).front();
+  const DemandMargin& worst = outcome.points.worst;
+  outcome.feasible = worst.met();
+  if (outcome.feasible) return outcome;
+  outcome.limited_by = missed_limit(design, outcome.points.in(worst.condition), worst.demand);
+  outcome.limiting_condition = worst.condition;
+  return outcome;
+}
+
+/// Outputs of some consecutive points.
+struct MixedChunk {
+  SensitivitySample area;
+  SensitivitySample power;
+  SensitivitySample feasible;
+};
+
+SensitivitySample empty_sample(std::size_t inputs) {
+  return {{}, {}, std::vector<std::vector<double>>(inputs)};
+}
+
+void append(std::vector<double>& to, const std::vector<double>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+void append(SensitivitySample& to, const SensitivitySample& from) {
+  append(to.a, from.a);
+  append(to.b, from.b);
+  for (std::size_t i = 0; i < to.mixed.size(); ++i) append(to.mixed[i], from.mixed[i]);
+}
+
+/// Computes the outputs at points of two samples and their mixtures.
+class MixedPoints {
+ public:
+  MixedPoints(const SweepSpace& space, const Design& base, std::uint64_t points)
+      : axes_(space.axes()),
+        cursor_(space, base),
+        given_area_(varies_cross_section(space)),
+        points_({points, space.sample()->method, space.sample()->seed}, 2 * axes_.size()),
+        unit_(2 * axes_.size()) {}
+
+  void compute(std::uint64_t begin, std::uint64_t end, MixedChunk& chunk) {
+    chunk = {empty_sample(axes_.size()), empty_sample(axes_.size()), empty_sample(axes_.size())};
+    for (std::uint64_t j = begin; j < end; ++j) {
+      points_.at(j, unit_);
+      std::vector<double> a;
+      std::vector<double> b;
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        a.push_back(quantile(axes_[i], unit_[i]));
+        b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
+      }
+      add(a, chunk.area.a, chunk.power.a, chunk.feasible.a);
+      add(b, chunk.area.b, chunk.power.b, chunk.feasible.b);
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        std::vector<double> mixed = a;
+        mixed[i] = b[i];
+        add(mixed, chunk.area.mixed[i], chunk.power.mixed[i], chunk.feasible.mixed[i]);
+      }
+    }
+  }
+
+ private:
+  void add(const std::vector<double>& values, std::vector<double>& area, std::vector<double>& power,
+           std::vector<double>& feasible) {
+    cursor_.set_values(values);
+    const SweepOutcome outcome = sweep_outcome(cursor_.design(), given_area_);
+    area.push_back(outcome.feasible ? outcome.area() : nan);
+    power.push_back(outcome.feasible ? judged_power(outcome, cursor_.design()) : nan);
+    feasible.push_back(outcome.feasible ? 1 : 0);
+  }
+
+  std::span<const SweepAxis> axes_;
+  SweepCursor cursor_;
+  bool given_area_;
+  UnitPoints points_;
+  std::vector<double> unit_;
+};
+
+std::uint64_t incomplete_points(const SensitivitySample& feasible) {
+  std::uint64_t count = 0;
+  for (std::size_t j = 0; j < feasible.a.size(); ++j) {
+    bool complete = feasible.a[j] == 1 && feasible.b[j] == 1;
+    for (const auto& mixed : feasible.mixed) complete = complete && mixed[j] == 1;
+    if (!complete) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+SweepOutcome sweep_outcome(const Design& design, bool given_area) {
+  if (given_area) return given_cable(design);
+  const Optimization result = optimize(design);
+  SweepOutcome outcome;
+  outcome.feasible = result.feasible;
+  outcome.limited_by = result.limited_by;
+  outcome.limiting_condition = result.limiting_condition;
+  if (result.feasible) {
+    outcome.points = {result.area, result.hover, result.forward, {}};
+  } else {
+    outcome.points.area = nan;
+    outcome.refusal = refusal_of(design, result);
+  }
+  return outcome;
+}
+
+double judged_power(const SweepOutcome& outcome, const Design& design) {
+  if (std::isnan(outcome.area())) return nan;
+  return outcome.points.in(design.requirements.power_at).total_power;
+}
+
+bool varies_cross_section(const SweepSpace& space) {
+  const auto axes = space.axes();
+  return std::any_of(axes.begin(), axes.end(),
+                     [](const SweepAxis& axis) { return axis.name == "tether.cross_section_mm2"; });
+}
+
+void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChunk&)>& consume) {
+  // About a millisecond of work and 100 kilobytes of text: long against the handing over, short
+  // enough to stay in a core's cache.
+  constexpr std::uint64_t rows_per_chunk = 256;
+  const RowRange all = job.range;
+  if (all.begin >= all.end) return;
+  const std::uint64_t chunks = (all.end - all.begin + rows_per_chunk - 1) / rows_per_chunk;
+  const bool given_area = varies_cross_section(*job.space);
+
+  const auto make_worker = [&] {
+    return [&, cursor = SweepCursor(*job.space, *job.base)](std::uint64_t index,
+                                                            SweepChunk& chunk) mutable {
+      chunk.range.begin = all.begin + index * rows_per_chunk;
+      chunk.range.end = std::min(chunk.range.begin + rows_per_chunk, all.end);
+      chunk.text.clear();
+      chunk.judged.clear();
+      for (std::uint64_t row = chunk.range.begin; row < chunk.range.end; ++row) {
+        cursor.move_to(row);
+        const SweepOutcome outcome = sweep_outcome(cursor.design(), given_area);
+        chunk.judged.push_back(
+            {outcome.area(), judged_power(outcome, cursor.design()), outcome.feasible});
+        if (row >= job.write_from)
+          job.write(chunk.text, {cursor.values(), cursor.design(), outcome});
+      }
+    };
+  };
+  compute_in_order<SweepChunk>(0, chunks, job.threads, make_worker, consume);
+}
+
+void Spread::add(double value) {
+  histogram_.add(value);
+  const double deviation = value - mean_;
+  mean_ += deviation / static_cast<double>(histogram_.count());
+  squares_ += deviation * (value - mean_);
+}
+
+double Spread::standard_deviation() const {
+  if (histogram_.count() < 2) return nan;
+  return std::sqrt(squares_ / static_cast<double>(histogram_.count() - 1));
+}
+
+void SweepSummary::add(const JudgedRow& row) {
+  ++draws;
+  if (!row.feasible || std::isnan(row.power)) {
+    ++infeasible;
+    return;
+  }
+  area.add(row.area);
+  power.add(row.power);
+}
+
+SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base, unsigned threads) {
+  constexpr std::uint64_t points_per_chunk = 64;
+  const std::size_t axes = space.axes().size();
+  SweepSensitivity result;
+  result.points = std::min(space.rows(), most_sensitivity_points);
+  result.evaluations = result.points * (axes + 2);
+  MixedChunk all{empty_sample(axes), empty_sample(axes), empty_sample(axes)};
+  const auto make_worker = [&] {
+    return [&result, points = MixedPoints(space, base, result.points)](std::uint64_t index,
+                                                                       MixedChunk& chunk) mutable {
+      const std::uint64_t begin = index * points_per_chunk;
+      points.compute(begin, std::min(begin + points_per_chunk, result.points), chunk);
+    };
+  };
+  const std::uint64_t chunks = (result.points + points_per_chunk - 1) / points_per_chunk;
+  compute_in_order<MixedChunk>(0, chunks, threads, make_worker, [&](const MixedChunk& chunk) {
+    append(all.area, chunk.area);
+    append(all.power, chunk.power);
+    append(all.feasible, chunk.feasible);
+    return true;
+  });
+  const std::uint64_t seed = space.sample()->seed;
+  result.incomplete = incomplete_points(all.feasible);
+  result.area = sobol_indices(all.area, seed);
+  result.power = sobol_indices(all.power, seed);
+  if (result.incomplete > 0) {
+    result.feasible = sobol_indices(all.feasible, seed);
+    if (std::isnan(result.feasible.front().total.value)) result.feasible.clear();
+  }
+  return result;
+}
+
+}  // namespace tethercalc
