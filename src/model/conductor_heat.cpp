@@ -142,21 +142,85 @@ double ConductorHeat::given_off(double surface_C) const {
 }
 
 std::optional<double> ConductorHeat::temperature(double current) const {
-  double surface = around_.temperature_C;
-  return temperature(current, surface);
+  const auto surface = steady_surface(current, cold_surface());
+  return surface ? std::optional(surface->inside_C) : std::nullopt;
 }
 
-std::optional<double> ConductorHeat::temperature(double current, double& surface_C) const {
+ConductorHeat::Surface ConductorHeat::cold_surface() const {
+  // A surface as warm as the air gives nothing off but what it takes from the sun.
+  const double from_sun = absorptivity * around_.sun * diameter_;
+  constexpr double rise = 20;
+  Surface surface;
+  surface.temperature_C = around_.temperature_C + rise;
+  surface.heat = given_off(surface.temperature_C);
+  surface.heat_slope = (surface.heat + from_sun) / rise;
+  return surface;
+}
+
+/// With what follows from the surface's temperature and heat at `current`.
+ConductorHeat::Surface ConductorHeat::balanced(Surface surface, double current) const {
+  surface.inside_C = surface.temperature_C + std::max(surface.heat, 0.0) * thermal_resistance_;
+  // Along q(T_s) = I²·R(T_c) with T_c = T_s + q·R_th, differentiated by I.
+  const double per_kelvin = surface.heat_slope * (surface.heat > 0 ? thermal_resistance_ : 0) + 1;
+  const double slope = resistance(1) - resistance(0);
+  surface.warming = 2 * current * resistance(surface.inside_C) * per_kelvin /
+                    (surface.heat_slope - current * current * slope * per_kelvin);
+  return surface;
+}
+
+std::optional<ConductorHeat::Surface> ConductorHeat::steady_surface(double current,
+                                                                    const Surface& near) const {
+  // The heat given off is nearly a line over the surface's temperature; the heat made is one. So
+  // the next surface is where the lines meet, the former through the last two surfaces.
+  const double square = current * current;
+  const double at_zero = resistance(0);
+  const double slope = resistance(1) - at_zero;
+  Surface at = near;
+  for (int step = 0; step < 15; ++step) {
+    // q₀ + q'·(T − T₀) = I²·(a + b·(T + q·R_th)), where q > 0; the sun's heat stays outside.
+    const double share = at.heat > 0 ? 1 - square * slope * thermal_resistance_ : 1;
+    const double rate = at.heat_slope * share - square * slope;
+    if (!(rate > 0)) break;
+    const double change = (square * (at_zero + slope * at.temperature_C) - at.heat * share) / rate;
+    const double rise = at.temperature_C - around_.temperature_C;
+    // Beyond that the line through the last two is as good as the balance to 1e-12.
+    if (std::abs(change) <= 1e-6 * std::abs(rise) + 1e-11) {
+      at.temperature_C += change;
+      at.heat += at.heat_slope * change;
+      at = balanced(at, current);
+      if (!(at.inside_C <= highest_conductor_temperature_C)) return std::nullopt;
+      return at;
+    }
+    const double next = at.temperature_C + change;
+    if (!(next > around_.temperature_C - 1 && next < highest_conductor_temperature_C)) break;
+    const double heat = given_off(next);
+    at.heat_slope = (heat - at.heat) / change;
+    at.temperature_C = next;
+    at.heat = heat;
+  }
+  return search_surface(current);
+}
+
+/// The same step by step, where runaway is near or certain. The heat given off rises ever more
+/// steeply with the surface's temperature, the heat made does not: what is made at the highest
+/// temperature and not given off was not given off below, either.
+std::optional<ConductorHeat::Surface> ConductorHeat::search_surface(double current) const {
   const double square = current * current;
   const auto surplus = [&](double surface) {
     const double heat = given_off(surface);
     return heat - square * resistance(surface + std::max(heat, 0.0) * thermal_resistance_);
   };
-  const auto surface = first_root(surplus, surface_C, highest_conductor_temperature_C);
-  if (!surface) return std::nullopt;
-  surface_C = *surface;
-  const double inside = *surface + std::max(given_off(*surface), 0.0) * thermal_resistance_;
-  return inside <= highest_conductor_temperature_C ? std::optional(inside) : std::nullopt;
+  if (surplus(highest_conductor_temperature_C) < 0) return std::nullopt;
+  const auto found = first_root(surplus, around_.temperature_C, highest_conductor_temperature_C);
+  if (!found) return std::nullopt;
+  constexpr double step = 1e-3;
+  Surface surface;
+  surface.temperature_C = *found;
+  surface.heat = given_off(*found);
+  surface.heat_slope = (given_off(*found + step) - surface.heat) / step;
+  surface = balanced(surface, current);
+  return surface.inside_C <= highest_conductor_temperature_C ? std::optional(surface)
+                                                             : std::nullopt;
 }
 
 double ConductorHeat::current_at(double temperature_C) const {

@@ -9,12 +9,6 @@
 namespace tethercalc {
 namespace {
 
-/// Efficiency η = offset + slope·P_out of one piece of the curve.
-struct EfficiencyPiece {
-  double offset = 1;
-  double slope = 0;
-};
-
 EfficiencyPiece between(const EfficiencyPoint& a, const EfficiencyPoint& b) {
   const double slope = (b.efficiency - a.efficiency) / (b.output_power - a.output_power);
   return {a.efficiency - slope * a.output_power, slope};
@@ -104,18 +98,16 @@ double lowest_input_voltage(const Converter& converter) {
                   converter.min_output_voltage / *converter.fixed_ratio);
 }
 
-double input_with_losses(const ConverterLosses& losses, double output_power) {
-  // 0·∞ has no value.
-  if (std::isinf(output_power)) return output_power;
-  return output_power + losses.fixed + losses.square * output_power * output_power;
+EfficiencyPiece efficiency_piece(const Converter& converter, double output_power) {
+  if (has_losses(converter)) return {1, 0, converter.losses};
+  return piece_at(converter, output_power, [](const EfficiencyPoint& p) { return p.output_power; });
 }
 
 double efficiency_at(const Converter& converter, double output_power) {
   if (has_losses(converter)) {
     return output_power / input_with_losses(converter.losses, output_power);
   }
-  const EfficiencyPiece piece =
-      piece_at(converter, output_power, [](const EfficiencyPoint& p) { return p.output_power; });
+  const EfficiencyPiece piece = efficiency_piece(converter, output_power);
   return piece.slope == 0 ? piece.offset : piece.offset + piece.slope * output_power;
 }
 

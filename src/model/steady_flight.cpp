@@ -48,12 +48,20 @@ double SteadyFlight::sized_battery(double radius) const {
                               gravity_);
 }
 
+double SteadyFlight::landed_mass(double radius) const {
+  return fixed_mass_ + tether_.mass_of(design_->tether.length, radius) + sized_battery(radius);
+}
+
+std::size_t SteadyFlight::battery_piece(double radius) const {
+  if (!has_battery_) return 0;
+  return design_->drone.motor.piece(landed_mass(radius) * gravity_ * per_motor_);
+}
+
 double SteadyFlight::weight_slope(double radius) const {
   const double slope = tether_.mass_slope(radius) * gravity_;
   if (!has_battery_) return slope;
-  const double length = design_->tether.length;
-  const double landed = fixed_mass_ + tether_.mass_of(length, radius) + sized_battery(radius);
-  return slope * (1 + reserve_battery_growth(design_->drone, landed, length, gravity_));
+  return slope * (1 + reserve_battery_growth(design_->drone, landed_mass(radius),
+                                             design_->tether.length, gravity_));
 }
 
 double SteadyFlight::radius_of_weight(double weight) const {

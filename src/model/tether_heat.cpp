@@ -14,98 +14,125 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Relative. Temperatures are exact to 1e-11 K, and a kelvin is 0.4 % of the resistance.
 constexpr double same_current = 1e-12;
 
-Surroundings around_airborne(const SteadyFlight& flight) {
+/// `width` of what the sun shines on, over that of the cable.
+Surroundings around_airborne(const SteadyFlight& flight, double width) {
   const Design& design = flight.design();
   Surroundings around;
   around.temperature_C = flight.state().ambient_temperature_C;
   around.air_density = design.flight.air_density;
   around.wind = std::abs(flight.state().airspeed);
-  around.sun = design.tether.sun;
+  around.sun = design.tether.sun * width;
   around.gravity = design.flight.gravity;
   return around;
 }
 
 Surroundings around_wound(const SteadyFlight& flight) {
-  Surroundings around = around_airborne(flight);
+  Surroundings around = around_airborne(flight, 0);
   const double derating = drum_derating(flight.design().tether.drum).value_or(1);
   around.wind = 0;
-  around.sun = 0;
   around.cooling = derating * derating;
   return around;
 }
 
 }  // namespace
 
-TetherHeat::TetherHeat(const SteadyFlight& flight, double radius)
+TetherHeat::TetherHeat(const SteadyFlight& flight, double radius, double sunlit_radius)
     : flight_(flight),
       radius_(radius),
       measured_(flight.design().tether.heating.rise_per_loss > 0),
       wound_(flight.state().on_drum > 0 && drum_derating(flight.design().tether.drum).has_value()),
-      in_air_(flight.design().tether, radius, flight.wall(), around_airborne(flight)),
+      in_air_(flight.design().tether, radius, flight.wall(),
+              around_airborne(flight, (sunlit_radius + flight.wall()) / (radius + flight.wall()))),
       on_drum_(flight.design().tether, radius, flight.wall(), around_wound(flight)) {}
 
-std::optional<TetherTemperatures> TetherHeat::temperatures(double current) const {
-  const double ambient = flight_.state().ambient_temperature_C;
-  Surfaces surfaces{ambient, ambient};
-  return temperatures(current, surfaces);
+TetherHeat::Surfaces TetherHeat::cold_surfaces() const {
+  Surfaces surfaces;
+  if (measured_) return surfaces;
+  surfaces.in_air = in_air_.cold_surface();
+  if (wound_) surfaces.on_drum = on_drum_.cold_surface();
+  return surfaces;
 }
 
-std::optional<TetherTemperatures> TetherHeat::temperatures(double current,
-                                                           Surfaces& surfaces) const {
+std::optional<TetherTemperatures> TetherHeat::temperatures(double current) const {
+  Surfaces surfaces = cold_surfaces();
+  const auto warm = warmed(current, surfaces);
+  return warm ? std::optional(warm->temperatures) : std::nullopt;
+}
+
+std::optional<TetherHeat::Warm> TetherHeat::warmed(double current, Surfaces& surfaces) const {
   const Tether& tether = flight_.design().tether;
+  Warm warm;
+  double growth_on_drum = 0;
+  double growth_in_air = 0;
   if (measured_) {
     const double area = std::numbers::pi * radius_ * radius_;
-    const double temperature = flight_.state().ambient_temperature_C +
-                               settled_rise(tether, area, current, flight_.state().airspeed);
-    if (!(temperature <= highest_conductor_temperature_C)) return std::nullopt;
-    return TetherTemperatures{temperature, std::nullopt};
+    const double rise = settled_rise(tether, area, current, flight_.state().airspeed);
+    warm.temperatures.in_air = flight_.state().ambient_temperature_C + rise;
+    if (!(warm.temperatures.in_air <= highest_conductor_temperature_C)) return std::nullopt;
+    growth_in_air = 2 * rise / current;
+  } else {
+    const auto in_air = in_air_.steady_surface(current, surfaces.in_air);
+    if (!in_air) return std::nullopt;
+    surfaces.in_air = *in_air;
+    warm.temperatures.in_air = in_air->inside_C;
+    growth_in_air = in_air->warming;
   }
-  TetherTemperatures steady;
-  const auto in_air = in_air_.temperature(current, surfaces.in_air_C);
-  if (!in_air) return std::nullopt;
-  steady.in_air = *in_air;
-  if (!wound_) return steady;
-  steady.on_drum = on_drum_.temperature(current, surfaces.on_drum_C);
-  return steady.on_drum ? std::optional(steady) : std::nullopt;
+  growth_on_drum = growth_in_air;
+  if (wound_ && !measured_) {
+    const auto on_drum = on_drum_.steady_surface(current, surfaces.on_drum);
+    if (!on_drum) return std::nullopt;
+    surfaces.on_drum = *on_drum;
+    warm.temperatures.on_drum = on_drum->inside_C;
+    growth_on_drum = on_drum->warming;
+  }
+  // The resistance is linear in both temperatures.
+  const StraightTether& loop = flight_.tether();
+  warm.resistance_growth =
+      loop.resistance(radius_, growth_in_air, growth_on_drum) - loop.resistance(radius_, 0, 0);
+  return warm;
 }
 
 double TetherHeat::resistance(const TetherTemperatures& t) const {
   return flight_.tether().resistance(radius_, t.in_air, t.on_drum.value_or(t.in_air));
 }
 
+double TetherHeat::resistance_slope(const TetherHeatState& state) const {
+  const double step = 1e-5 * radius_;
+  const TetherHeat thicker(flight_, radius_ + step);
+  const auto cooler = thicker.temperatures(state.current);
+  return cooler ? (thicker.resistance(*cooler) - state.resistance) / step
+                : flight_.tether().resistance_slope(radius_);
+}
+
 TetherHeatState TetherHeat::carrying(double load_power) const {
   const double voltage = flight_.design().supply.voltage;
-  const double ambient = flight_.state().ambient_temperature_C;
-  TetherHeatState state;
-  Surfaces surfaces{ambient, ambient};
   const auto demanded_current = [&](double resistance) {
     const double power = supplied_power(voltage, resistance, load_power);
     return power >= 0 ? power / voltage : infinity;
   };
-  /// Current that the power asks for over the cable as warm as `current` makes it.
-  const auto next = [&](double current) {
-    const auto warm = temperatures(current, surfaces);
-    if (!warm) return infinity;
-    state.temperatures = *warm;
-    state.resistance = resistance(*warm);
-    return demanded_current(state.resistance);
-  };
-
-  double current = demanded_current(resistance({ambient, std::nullopt}));
-  for (int step = 0; step < 100 && current < infinity; ++step) {
-    const double after = next(current);
-    state.current = after;
-    if (std::abs(after - current) <= same_current * current) {
+  TetherHeatState state;
+  double current =
+      demanded_current(resistance({flight_.state().ambient_temperature_C, std::nullopt}));
+  if (!(current < infinity)) return state;
+  Surfaces surfaces = cold_surfaces();
+  for (int step = 0; step < 100; ++step) {
+    const auto warm = warmed(current, surfaces);
+    if (!warm) return {};
+    state.temperatures = warm->temperatures;
+    state.resistance = resistance(warm->temperatures);
+    state.current = demanded_current(state.resistance);
+    if (!(state.current < infinity)) return {};
+    const double change = state.current - current;
+    // dI/dR = I²/(U − 2RI) of U·I − R·I² = P.
+    const double slope = state.current * state.current /
+                         (voltage - 2 * state.resistance * state.current) * warm->resistance_growth;
+    if (std::abs(change) <= same_current * current) {
       state.steady = true;
       return state;
     }
-    if (!(after < infinity)) break;
-    const double beyond = next(after);
-    const double slope = (beyond - after) / (after - current);
-    if (!(slope < 1)) break;
-    current = after + (beyond - after) / (1 - slope);
-    // A secant is blind where rounding is all that is left of the differences.
-    if (std::abs(beyond - after) <= same_current * after) current = beyond;
+    if (!(slope < 1)) return {};
+    current += change / (1 - slope);
+    if (!(current > 0 && current < infinity)) return {};
   }
   return {};
 }

@@ -29,8 +29,9 @@ StraightTether::StraightTether(const Tether& tether, double wall, const FlightSt
   mass_0_ = insulation * wall + deployed_ * member.mass_per_metre;
   mass_1_ = 2 * insulation;
   mass_2_ = 2 * deployed_ * tether.conductor.density * pi;
-  resistance_area_ = 2 * (deployed_ + on_drum_) *
-                     resistivity(tether.conductor, tether.conductor_temperature_C) / pi;
+  const double coldest_C =
+      is_heated(tether) ? state.ambient_temperature_C : tether.conductor_temperature_C;
+  resistance_area_ = 2 * (deployed_ + on_drum_) * resistivity(tether.conductor, coldest_C) / pi;
   width_ = wall + 0.25 * member.diameter;
   set_airspeed(state.airspeed);
 }

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <span>
 
-#include "solve/cable_limits.hpp"
 #include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 

@@ -1,22 +1,22 @@
-// Notation: r conductor radius; TA available, TN necessary thrust per motor; k required headroom.
-// TA(r) and TN(r) both rise with r. TA has a kink at each radius where the available power feeds
-// the motors at exactly one of the motor curve's points ("vertex radius"), and a closed form for
-// it; from the last of them on TA stays the same.
-// Φ(r) is the radius that would make k·TN(r) available. It rises with r, and r is feasible exactly
-// where Φ(r) ≤ r. So if r is infeasible, everything in [r, Φ(r)) is; if r is feasible, everything
-// in [Φ(r), r] is: steps r → Φ(r) cannot jump over an edge.
+// Notation: r conductor radius; TN necessary thrust per motor; k headroom asked for; V²/R the power
+// that a loop of resistance R makes available.
+// What is asked for rises with r: mass, drag, tension, TN, the power for k·TN. What there is rises
+// with r too: V²/R and the breaking load. So between two radii a < b no margin is more than what
+// there is at b over what is asked for at a, and none is less than what there is at a over what is
+// asked for at b. Where these bounds decide nothing, the stretch is split.
 
 #include "tethercalc/solve/headroom.hpp"
 
 #include <algorithm>
-#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "solve/thrust_at.hpp"
+#include "tethercalc/model/operating_point.hpp"
+#include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
@@ -25,317 +25,366 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
-struct Sample {
-  double radius = 0;
-  double available = 0;
-  double necessary = 0;  ///< times the required headroom
-  double tan_pitch = 0;  ///< start for the next tilt nearby
-
-  [[nodiscard]] double margin() const { return available - necessary; }
-  [[nodiscard]] double ratio() const { return available / necessary; }
+struct Range {
+  double least = infinity;
+  double most = 0;
 };
 
-/// Thrust margin over the radius between two radii, sampled at will or at the vertex radii.
-class MarginCurve {
+/// What is demanded of one flight.
+class FlightDemands {
  public:
-  MarginCurve(const SteadyFlight& flight, double required, double lo, double hi)
-      : flight_(flight), required_(required), lo_(lo), hi_(hi) {}
-
-  /// Sample indices are those of the motor curve's vertices; the last stands for the last radius.
-  [[nodiscard]] std::size_t last_index() const {
-    return flight_.design().drone.motor.vertices().size() - 1;
-  }
-
-  [[nodiscard]] Sample at_vertex(std::size_t index, double tan_guess) const {
-    if (index == last_index()) return at_radius(hi_, tan_guess);
-    const MotorPoint& vertex = flight_.design().drone.motor.vertices()[index];
-    const double radius = flight_.radius_of_available_power(flight_.input_power(vertex.power));
-    if (!(radius > lo_)) return at_radius(lo_, tan_guess);
-    if (!(radius < hi_)) return at_radius(hi_, tan_guess);
-    return with_available(radius, vertex.thrust, tan_guess);
-  }
-
-  [[nodiscard]] Sample at_radius(double radius, double tan_guess) const {
-    const double power = flight_.available_power(flight_.tether().resistance(radius));
-    return with_available(radius, flight_.available_thrust(power), tan_guess);
-  }
-
-  /// Φ: the radius that would make what is necessary at `sample` available; +infinity where no
-  /// radius does.
-  [[nodiscard]] double needed_radius(const Sample& sample) const {
-    return flight_.radius_of_available_power(flight_.drone_power(sample.necessary));
-  }
-
-  /// A sample without its available thrust.
-  [[nodiscard]] Sample necessary_at(double radius, double tan_guess) const {
-    return with_available(radius, 0, tan_guess);
-  }
+  FlightDemands(const SteadyFlight& flight, double headroom, bool of_cable)
+      : flight_(flight),
+        headroom_(headroom),
+        heated_(is_heated(flight.design().tether)),
+        with_battery_(flight.design().drone.reserve_battery.specific_energy > 0),
+        of_cable_(of_cable),
+        strength_factor_(of_cable ? flight.design().requirements.strength_safety_factor : 0) {}
 
   [[nodiscard]] const SteadyFlight& flight() const { return flight_; }
+  [[nodiscard]] double headroom() const { return headroom_; }
 
-  /// Radii of the converter's efficiency points strictly between two samples, rising.
-  [[nodiscard]] std::vector<double> converter_radii(const Sample& a, const Sample& b) const {
-    std::vector<double> radii;
-    const Converter& converter = flight_.design().supply.converter;
-    if (converter.efficiency.size() == 1) return radii;
-    for (const EfficiencyPoint& point : converter.efficiency) {
-      const double input =
-          point.output_power / point.efficiency + flight_.design().drone.auxiliary_power;
-      const double radius = flight_.radius_of_available_power(input);
-      if (radius > a.radius && radius < b.radius) radii.push_back(radius);
-    }
-    return radii;
+  /// N, the most that may be necessary, whatever the cable.
+  [[nodiscard]] double most_thrust() const { return flight_.most_thrust() / headroom_; }
+
+  /// The least margin, relative, at a radius at which there is what there is at `supply` while what
+  /// is asked for is that at `need`.
+  [[nodiscard]] double margin(const ThrustAt& need, const ThrustAt& supply) const {
+    double least = infinity;
+    if (strength_factor_ > 0) least = strength_margin(need.radius, supply.radius);
+    const double asked = power_for_headroom(need);
+    const double cold = flight_.tether().resistance(supply.radius);
+    least = std::min(least, flight_.available_power(cold) / asked - 1);
+    if (!heated_ || least < 0) return least;
+    const TetherHeat heat(flight_, supply.radius, need.radius);
+    const TetherHeatState state = heat.carrying(flight_.drone_power(need.thrust.value));
+    if (!state.steady) return -1;
+    least = std::min(least, flight_.available_power(state.resistance) / asked - 1);
+    const auto rated = flight_.design().tether.insulation.rated_temperature_C;
+    if (!of_cable_ || !rated) return least;
+    const TetherTemperatures& warm = state.temperatures;
+    return std::min(least,
+                    (*rated - std::max(warm.in_air, warm.on_drum.value_or(-infinity))) / 100);
+  }
+
+  /// The radius that would make the power asked for at `need` available over a cold cable.
+  [[nodiscard]] double needed_radius(const ThrustAt& need) const {
+    return flight_.radius_of_available_power(power_for_headroom(need));
+  }
+
+  /// Whether only the available power is to be looked at, and is known in closed form.
+  [[nodiscard]] bool only_power() const {
+    return !heated_ && !with_battery_ && strength_factor_ == 0;
+  }
+
+  /// −1 or 1 where the margin is certain to fall or to rise all the way from a to b, else 0.
+  [[nodiscard]] int trend(const ThrustAt& a, const ThrustAt& b) const {
+    if (!only_power()) return 0;
+    const Range price = price_of_thrust(a, b);
+    const StraightTether& tether = flight_.tether();
+    // V²/R = V²/(c + k/r²) rises with V²·2k·r/(c·r² + k)².
+    const double per_square = 2 * flight_.available_power(1) * tether.resistance_area();
+    const auto bend = [&](double r) {
+      const double root = tether.contact_resistance() * r * r + tether.resistance_area();
+      return root * root;
+    };
+    const double least = per_square * a.radius / bend(b.radius);
+    const double most = per_square * b.radius / bend(a.radius);
+    if (least > headroom_ * price.most * b.thrust.slope) return 1;
+    return most < headroom_ * price.least * a.thrust.slope ? -1 : 0;
   }
 
  private:
-  [[nodiscard]] Sample with_available(double radius, double available, double tan_guess) const {
-    const double tangent = flight_.tan_pitch(radius, infinity, tan_guess);
-    return {radius, available, required_ * flight_.necessary_thrust(radius, tangent), tangent};
+  [[nodiscard]] double power_for_headroom(const ThrustAt& need) const {
+    return flight_.drone_power(headroom_ * need.thrust.value);
+  }
+
+  [[nodiscard]] double strength_margin(double need, double supply) const {
+    const Tether& tether = flight_.design().tether;
+    return breaking_load(tether, area_of(supply)) /
+               (strength_factor_ * flight_.tether().load(need).greatest_tension()) -
+           1;
+  }
+
+  /// W at the converter's input for one more N of one motor, between a and b.
+  [[nodiscard]] Range price_of_thrust(const ThrustAt& a, const ThrustAt& b) const {
+    constexpr std::size_t most_pieces = 16;
+    const MotorCurve& motor = flight_.design().drone.motor;
+    if (!is_proportional(flight_.design().supply.converter)) return {0, infinity};
+    const std::size_t first = motor.piece(headroom_ * a.thrust.value);
+    const std::size_t last = motor.piece(headroom_ * b.thrust.value);
+    if (last - first > most_pieces) return {0, infinity};
+    Range price;
+    for (std::size_t i = first; i <= last; ++i) {
+      price.least = std::min(price.least, motor.slope(i));
+      price.most = std::max(price.most, motor.slope(i));
+    }
+    const double per_watt = flight_.input_power(1) - flight_.input_power(0);
+    return {price.least * per_watt, price.most * per_watt};
   }
 
   const SteadyFlight& flight_;
-  double required_;
-  double lo_;
-  double hi_;
+  double headroom_;
+  bool heated_;
+  bool with_battery_;
+  bool of_cable_;  ///< strength and rated temperatures as well
+  double strength_factor_;
 };
 
-/// About the radius between two samples of opposite margin, on a smooth piece, at which the margin
-/// vanishes, and about dΦ/dr there.
-struct CrossingGuess {
-  double radius = 0;
-  double needed_slope = 0;
-};
+/// The radii at which demands on one flight are met.
+class RadiiSearch {
+ public:
+  explicit RadiiSearch(const FlightDemands& demands) : demands_(demands) {}
 
-/// Exact where the tilt is that of `a` all the way and contacts have no resistance: then available
-/// thrust is linear in r², and necessary thrust proportional to the weight.
-CrossingGuess guess_crossing(const SteadyFlight& flight, const Sample& a, const Sample& b) {
-  const double width = b.radius - a.radius;
-  const double per_square = (b.available - a.available) / (width * (b.radius + a.radius));
-  const double per_weight = a.necessary / flight.weight(a.radius);
-  // Margin over x = r − a.radius: a.margin + slope·x + curvature·x².
-  const double slope = 2 * per_square * a.radius - per_weight * flight.weight_slope(a.radius);
-  const double curvature = per_square - 0.5 * per_weight * flight.tether().mass_curvature() *
-                                            flight.design().flight.gravity;
-  const double root = std::sqrt(slope * slope - 4 * curvature * a.margin());
-  const double x = -2 * a.margin() / (slope + (a.margin() < 0 ? root : -root));
-  const double share = a.margin() / (a.margin() - b.margin());
-  const double radius = a.radius + (x > 0 && x < width ? x : width * share);
-  const double needed_slope = per_weight * flight.weight_slope(radius) / (2 * per_square * radius);
-  return {radius,
-          needed_slope < 1 ? needed_slope : 0};  // 1 and more only where there are two edges
-}
-
-/// The radius between two samples of opposite margin, on a smooth piece, at which the margin
-/// vanishes: the root of Φ(r) − r by secants, which Φ's small slope makes quick.
-double crossing(const MarginCurve& curve, const Sample& a, const Sample& b) {
-  if (a.margin() == 0) return a.radius;
-  if (b.margin() == 0) return b.radius;
-  const bool enters = a.margin() < 0;
-  // A secant's error is less than the product of its two points' errors: 1e-17 relative. That is
-  // not so of a step without a secant, the first and those to the middle, which end the search only
-  // where they are as short as the accuracy asked for.
-  constexpr double last_secant = 1e-10;
-  constexpr double last_other = 1e-14;
-  double lo = a.radius;
-  double hi = b.radius;
-  double previous = 0;
-  double previous_gap = std::numeric_limits<double>::quiet_NaN();
-  double tangent = a.tan_pitch;
-  const CrossingGuess guess = guess_crossing(curve.flight(), a, b);
-  double radius = guess.radius;
-  for (int step = 0; step < 100; ++step) {
-    const Sample sample = curve.necessary_at(radius, tangent);
-    tangent = sample.tan_pitch;
-    const double gap = curve.needed_radius(sample) - radius;
-    if (gap == 0) return radius;
-    ((gap > 0) == enters ? lo : hi) = radius;
-    const double slope = (gap - previous_gap) / (radius - previous);
-    // Where the motors could not make the thrust, there was no gap to draw a secant through.
-    const bool secant = std::isfinite(slope);
-    const double next = radius - gap / (secant ? slope : guess.needed_slope - 1);
-    // Rounding may take the last one out of the bracket, the end of which is then the root.
-    const double last_step = secant ? last_secant : last_other;
-    if (std::abs(next - radius) <= last_step * radius) return std::clamp(next, lo, hi);
-    previous = radius;
-    previous_gap = gap;
-    radius = next > lo && next < hi ? next : 0.5 * (lo + hi);
-    if (!(lo < radius && radius < hi)) break;  // no number is left between them
-  }
-  return radius;
-}
-
-/// Sample of largest `score` between a and b, where score is smooth and has one hump at most.
-template <typename Score>
-Sample highest(const MarginCurve& curve, const Sample& a, const Sample& b, Score score) {
-  // Half of the digits: at a smooth maximum the value is then exact to all of them.
-  constexpr int bits = std::numeric_limits<double>::digits / 2;
-  const auto [radius, negative] = boost::math::tools::brent_find_minima(
-      [&](double r) { return -score(curve.at_radius(r, a.tan_pitch)); }, a.radius, b.radius, bits);
-  (void)negative;
-  return curve.at_radius(radius, a.tan_pitch);
-}
-
-/// Where the margin keeps its sign at both ends of a smooth piece, a sample between them at which
-/// it has the other sign, if there is one: steps to Φ(r), from the left through what is infeasible
-/// or from the right through what is feasible, until they leave the piece or find it. Steps become
-/// short where an edge is close; what is left is then searched for one hump or dip.
-std::optional<Sample> opposite_between(const MarginCurve& curve, Sample a, Sample b) {
-  const bool feasible = a.margin() >= 0;
-  Sample& from = feasible ? b : a;
-  for (int step = 0; step < 8; ++step) {
-    const double next = curve.needed_radius(from);
-    if (feasible ? next <= a.radius : next >= b.radius) return std::nullopt;
-    from = curve.at_radius(next, from.tan_pitch);
-    if ((from.margin() >= 0) != feasible) return from;
-  }
-  const double sign = feasible ? -1 : 1;
-  const Sample extreme =
-      highest(curve, a, b, [sign](const Sample& s) { return sign * s.margin(); });
-  return (extreme.margin() >= 0) != feasible ? std::optional(extreme) : std::nullopt;
-}
-
-void append_radii(IntervalSet& radii, double lo, double hi) { append(radii, {lo, hi}); }
-
-void collect_from_smooth_piece(const MarginCurve& curve, const Sample& a, const Sample& b,
-                               IntervalSet& feasible) {
-  const bool starts = a.margin() >= 0;
-  const bool ends = b.margin() >= 0;
-  if (starts != ends) {
-    const double edge = crossing(curve, a, b);
-    starts ? append_radii(feasible, a.radius, edge) : append_radii(feasible, edge, b.radius);
-    return;
-  }
-  const std::optional<Sample> opposite = opposite_between(curve, a, b);
-  if (!opposite) {
-    if (starts) append_radii(feasible, a.radius, b.radius);
-    return;
-  }
-  const double first = crossing(curve, a, *opposite);
-  const double second = crossing(curve, *opposite, b);
-  if (starts) {
-    append_radii(feasible, a.radius, first);
-    append_radii(feasible, second, b.radius);
-  } else {
-    append_radii(feasible, first, second);
-  }
-}
-
-void collect_feasible(const MarginCurve& curve, std::size_t first, const Sample& a,
-                      std::size_t last, const Sample& b, IntervalSet& feasible) {
-  if (!(b.radius > a.radius)) return;
-  // Both thrusts rise, so these two tests hold for everything between a and b.
-  if (b.available < a.necessary) return;
-  if (a.available >= b.necessary) return append_radii(feasible, a.radius, b.radius);
-  if (last - first > 1) {
-    const std::size_t middle = first + (last - first) / 2;
-    const Sample m = curve.at_vertex(middle, a.tan_pitch);
-    collect_feasible(curve, first, a, middle, m, feasible);
-    collect_feasible(curve, middle, m, last, b, feasible);
-    return;
-  }
-  Sample from = a;
-  for (const double radius : curve.converter_radii(a, b)) {
-    const Sample to = curve.at_radius(radius, a.tan_pitch);
-    collect_from_smooth_piece(curve, from, to, feasible);
-    from = to;
-  }
-  collect_from_smooth_piece(curve, from, b, feasible);
-}
-
-void improve_best(const MarginCurve& curve, std::size_t first, const Sample& a, std::size_t last,
-                  const Sample& b, Sample& best) {
-  if (!(b.radius > a.radius) || b.available / a.necessary <= best.ratio()) return;
-  if (last - first > 1) {
-    const std::size_t middle = first + (last - first) / 2;
-    const Sample m = curve.at_vertex(middle, a.tan_pitch);
-    if (m.ratio() > best.ratio()) best = m;
-    improve_best(curve, middle, m, last, b, best);
-    improve_best(curve, first, a, middle, m, best);
-    return;
-  }
-  std::vector<double> ends = curve.converter_radii(a, b);
-  ends.push_back(b.radius);
-  Sample from = a;
-  for (const double radius : ends) {
-    const Sample to = curve.at_radius(radius, a.tan_pitch);
-    const Sample top = highest(curve, from, to, [](const Sample& s) { return s.ratio(); });
-    for (const Sample& candidate : {to, top}) {
-      if (candidate.ratio() > best.ratio()) best = candidate;
+  /// Those from lo to hi.
+  void search(double lo, double hi) {
+    const SteadyFlight& flight = demands_.flight();
+    if (!(lo < hi)) return;
+    ThrustAt first = thrust_at(flight, lo, 0);
+    const double most = demands_.most_thrust();
+    // A hair's breadth more is what rounding makes of it.
+    if (!(first.thrust.value <= most * (1 + 1e-12))) return;
+    for (int step = 0; step < 8; ++step) {  // nothing is met up to the radius that would suffice
+      const double needed = demands_.needed_radius(first);
+      if (!(needed < hi)) return;
+      if (needed <= first.radius) break;
+      const bool close = needed <= 1.1 * first.radius;
+      first = thrust_at(flight, needed, first.tan_guess(needed));
+      if (close) break;
     }
-    from = to;
+    ThrustAt last = thrust_at(flight, hi, first.tan_guess(hi));
+    if (first.thrust.value > most) return;
+    if (last.thrust.value > most) last = at_thrust(flight, most, first.radius, hi, last);
+    if (first.radius < last.radius) collect(end_at(first), end_at(last));
   }
-}
 
-/// The two ranges of radii up to `hi` at which the tilt is within its limit; empty ones have hi ≤
-/// lo.
-std::array<Interval, 2> radii_within_tilt(const SteadyFlight& flight, double hi) {
-  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(beyond.lo < beyond.hi)) return {{{0, hi}, {hi, hi}}};
-  return {{{0, std::min(beyond.lo, hi)}, {std::min(beyond.hi, hi), hi}}};
-}
+  [[nodiscard]] const IntervalSet& radii() const { return radii_; }
 
-/// Radius from which on the available power is more than the motors can use; +infinity where
-/// contacts keep it below.
-double saturation_radius(const SteadyFlight& flight) {
-  return flight.radius_of_available_power(
-      flight.input_power(flight.design().drone.motor.max_power()));
-}
+ private:
+  struct End {
+    ThrustAt at;
+    double margin = 0;
 
-/// Radius above which the necessary thrust, even in still air, exceeds 1/`headroom` of the most the
-/// motors can make. Not positive where that holds for the thinnest tether.
-double heaviest_radius(const SteadyFlight& flight, double headroom) {
+    [[nodiscard]] bool met() const { return margin >= 0; }
+    /// About the logarithm of what there is over what is asked for, in (−2, 2).
+    [[nodiscard]] double excess() const { return 2 * margin / (2 + margin); }
+  };
+
+  [[nodiscard]] End end_at(const ThrustAt& at) const { return {at, demands_.margin(at, at)}; }
+  [[nodiscard]] End between(const End& a, double radius) const {
+    return end_at(thrust_at(demands_.flight(), radius, a.at.tan_guess(radius)));
+  }
+
+  /// Ratio of radii at which a smooth stretch is so narrow that its margin has one hump at most.
+  static constexpr double narrow = 1.05;
+  /// More than any design has been seen to take by a factor of 100; then only ends are compared.
+  static constexpr int most_stretches = 5000;
+
+  void collect(const End& a, const End& b) {
+    const int trend = demands_.trend(a.at, b.at);
+    if (trend != 0) return collect_monotone(a, b);
+    if (demands_.margin(a.at, b.at) < 0) return;
+    if (demands_.margin(b.at, a.at) >= 0) return append(radii_, {a.at.radius, b.at.radius});
+    const double ratio = b.at.radius / a.at.radius;
+    if (++stretches_ > most_stretches || ratio < 1 + 1e-12) return collect_monotone(a, b);
+    // Where the cable runs away there is no margin that could point to what lies between.
+    const bool runs_away = !a.met() && !b.met() && std::min(a.margin, b.margin) == -1;
+    if (ratio < narrow && !runs_away &&
+        on_one_piece(demands_.flight(), a.at, b.at, demands_.headroom())) {
+      return collect_narrow(a, b);
+    }
+    const End middle = between(a, std::sqrt(a.at.radius * b.at.radius));
+    collect(a, middle);
+    collect(middle, b);
+  }
+
+  /// From a to b the margin only rises or only falls.
+  void collect_monotone(const End& a, const End& b) {
+    if (a.met() && b.met()) return append(radii_, {a.at.radius, b.at.radius});
+    if (!a.met() && !b.met()) return;
+    const double edge = crossing(a, b);
+    append(radii_, a.met() ? Interval{a.at.radius, edge} : Interval{edge, b.at.radius});
+  }
+
+  /// A stretch on which the margin has one hump at most.
+  void collect_narrow(const End& a, const End& b) {
+    if (a.met() != b.met()) return collect_monotone(a, b);
+    // Towards the other sign from both ends, or there is nothing between them.
+    constexpr double nearby = 1e-6;
+    const double sign = a.met() ? 1 : -1;
+    const auto approaches = [&](const End& end, double radius) {
+      return sign * between(a, radius).margin < sign * end.margin;
+    };
+    if (!approaches(a, a.at.radius * (1 + nearby)) || !approaches(b, b.at.radius * (1 - nearby))) {
+      return collect_monotone(a, b);
+    }
+    // Half of the digits: at a smooth extreme the value is then exact to all of them.
+    constexpr int bits = std::numeric_limits<double>::digits / 2;
+    const double radius =
+        boost::math::tools::brent_find_minima([&](double r) { return sign * between(a, r).margin; },
+                                              a.at.radius, b.at.radius, bits)
+            .first;
+    const End extreme = between(a, radius);
+    collect_monotone(a, extreme);
+    collect_monotone(extreme, b);
+  }
+
+  /// The radius between two at which the margin passes 0, to 1e-12, by secants in a bracket.
+  [[nodiscard]] double crossing(End a, End b) const {
+    // The error of a secant through two radii is about the product of theirs.
+    constexpr double last_step = 1e-9;
+    double lo = a.at.radius;
+    double hi = b.at.radius;
+    const bool enters = b.met();
+    End before = a;
+    End now = b;
+    if (std::abs(a.margin) < std::abs(b.margin)) std::swap(before, now);
+    for (int step = 1; step < 200 && now.margin != 0; ++step) {
+      const double change =
+          now.excess() * (now.at.radius - before.at.radius) / (now.excess() - before.excess());
+      double next = now.at.radius - change;
+      const bool inside = next > lo && next < hi && step % 6 != 0;
+      if (inside && step > 2 && std::abs(change) <= last_step * next) return next;
+      if (!inside) next = 0.5 * (lo + hi);
+      if (!(lo < next && next < hi)) return enters ? hi : lo;
+      before = now;
+      now = between(a, next);
+      (now.met() == enters ? hi : lo) = next;
+    }
+    return now.at.radius;
+  }
+
+  const FlightDemands& demands_;
+  IntervalSet radii_;
+  int stretches_ = 0;
+};
+
+IntervalSet areas_meeting(const FlightDemands& demands) {
+  const SteadyFlight& flight = demands.flight();
   const Design& design = flight.design();
-  return flight.radius_of_weight(design.drone.motor_count * design.drone.motor.max_thrust() /
-                                 headroom);
+  // The necessary thrust, even in still air, exceeds what may be necessary from here on.
+  const double heaviest = flight.radius_of_weight(design.drone.motor_count * demands.most_thrust());
+  RadiiSearch search(demands);
+  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+    search.search(range.lo, range.hi);
+  }
+  IntervalSet areas = search.radii();
+  for (Interval& range : areas) range = {area_of(range.lo), area_of(range.hi)};
+  return areas;
 }
 
 }  // namespace
 
 IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
-  const MotorCurve& motor = flight.design().drone.motor;
-  const double heaviest = heaviest_radius(flight, required);
-  IntervalSet radii;
-  if (!(heaviest > 0)) return radii;
-  const double saturated = saturation_radius(flight);
-  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
-    if (!(range.lo < range.hi)) continue;
-    const double hi = std::clamp(saturated, range.lo, range.hi);
-    const MarginCurve curve(flight, required, range.lo, hi);
-    const Sample a = curve.at_vertex(0, 0);
-    const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
-    collect_feasible(curve, 0, a, curve.last_index(), b, radii);
-    if (hi < range.hi && b.margin() >= 0) {  // from here on only the weight grows
-      const ThrustAt end = at_thrust(flight, motor.max_thrust() / required,
-                                     thrust_at(flight, range.hi, b.tan_pitch));
-      append_radii(radii, hi, std::min(end.radius, range.hi));
-    }
-  }
-  for (Interval& range : radii) range = {area_of(range.lo), area_of(range.hi)};
-  return radii;
+  return areas_meeting({flight, required, false});
 }
 
+IntervalSet areas_meeting_demands(const SteadyFlight& flight, double required) {
+  return areas_meeting({flight, required, true});
+}
+
+namespace {
+
+/// The most headroom along the radius, by the bound that between two radii it is no more than what
+/// is available at the upper over what is necessary at the lower.
+class BestHeadroomSearch {
+ public:
+  explicit BestHeadroomSearch(const SteadyFlight& flight) : flight_(flight) {}
+
+  void search(double lo, double hi) {
+    // Below, not even a millionth of what is necessary is available.
+    const double necessary = flight_.necessary_thrust(lo, 0);
+    lo = std::max(lo, flight_.radius_of_available_power(flight_.drone_power(1e-6 * necessary)));
+    if (lo < hi) improve(look(lo), look(hi));
+  }
+
+  [[nodiscard]] const BestHeadroom& best() const { return best_; }
+
+ private:
+  struct Look {
+    double radius = 0;
+    double necessary = 0;  ///< N, whatever the tilt limit
+    double available = 0;  ///< N
+    double headroom = 0;
+    bool warm = false;  ///< there is a steady state of a heated cable
+  };
+
+  Look look(double radius) {
+    const OperatingPoint point = evaluate(flight_, area_of(radius));
+    if (point.headroom > best_.value) best_ = {point.headroom, area_of(radius)};
+    return {radius, flight_.necessary_thrust(radius, flight_.tan_pitch(radius, infinity)),
+            point.available_thrust, point.headroom > 0 ? point.headroom : 0,
+            !std::isnan(point.conductor_temperature)};
+  }
+
+  void improve(const Look& a, const Look& b) {
+    constexpr int most_stretches = 5000;  // a hundred times more than usual
+    // Warm cables may run away within rounding of where the load can still be delivered.
+    const double rounding = is_heated(flight_.design().tether) ? 1e-9 : 1e-13;
+    if (!(most_headroom(a, b) > best_.value * (1 + 0.1 * rounding))) return;
+    if (b.radius < a.radius * (1 + rounding)) return;
+    if (++stretches_ > most_stretches) return;
+    if (b.radius < 1.2 * a.radius && smooth(a, b)) {
+      // Half of the digits: at a smooth maximum the value is then exact to all of them.
+      constexpr int bits = std::numeric_limits<double>::digits / 2;
+      (void)boost::math::tools::brent_find_minima([&](double r) { return -look(r).headroom; },
+                                                  a.radius, b.radius, bits);
+      return;
+    }
+    const Look middle = look(std::sqrt(a.radius * b.radius));
+    // The more promising side first.
+    if (a.headroom > b.headroom) improve(a, middle);
+    improve(middle, b);
+    if (a.headroom <= b.headroom) improve(a, middle);
+  }
+
+  /// No less than the headroom between a and b: that of the conductor at b with the load at a, or
+  /// of a cold one, but less than 1, where the load cannot be delivered at all.
+  [[nodiscard]] double most_headroom(const Look& a, const Look& b) const {
+    const auto over = [&](double resistance) {
+      return flight_.available_thrust(flight_.available_power(resistance)) / a.necessary;
+    };
+    const double warm = over(least_resistance(flight_, a.radius, a.necessary, b.radius));
+    const bool delivered =
+        supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(a.radius),
+                       flight_.drone_power(b.necessary)) > 0;
+    return delivered ? warm
+                     : std::max(warm, std::min(1.0, over(flight_.tether().resistance(b.radius))));
+  }
+
+  /// Whether motors, converter and reserve battery follow one piece of their curves, at the thrust
+  /// available and, where its power heats the cable, at the necessary one.
+  [[nodiscard]] bool smooth(const Look& a, const Look& b) const {
+    const auto one_piece = [&](double from, double to) {
+      return on_one_piece(flight_, {a.radius, 0, {from}}, {b.radius, 0, {to}});
+    };
+    return a.available > 0 && b.available > 0 && b.available < flight_.most_thrust() &&
+           a.warm == b.warm && one_piece(a.available, b.available) &&
+           (!a.warm || one_piece(a.necessary, b.necessary));
+  }
+
+  const SteadyFlight& flight_;
+  BestHeadroom best_{0, std::numeric_limits<double>::quiet_NaN()};
+  int stretches_ = 0;
+};
+
+}  // namespace
+
 BestHeadroom best_headroom(const SteadyFlight& flight) {
-  const BestHeadroom none{0, std::numeric_limits<double>::quiet_NaN()};
-  const double saturated = saturation_radius(flight);
   // Where contacts keep the motors from saturating, the search ends where the tether is so heavy
   // that not even a millionth is left.
-  const double heaviest = heaviest_radius(flight, 1e-6);
-  if (!(heaviest > 0)) return none;
-  Sample best;
-  best.necessary = 1;
+  const Design& design = flight.design();
+  const double heaviest =
+      flight.radius_of_weight(1e6 * design.drone.motor_count * design.drone.motor.max_thrust());
+  BestHeadroomSearch search(flight);
   for (const Interval& range : radii_within_tilt(flight, heaviest)) {
-    if (!(range.lo < range.hi)) continue;
-    // Beyond saturation the headroom only falls.
-    const double hi = std::clamp(saturated, range.lo, range.hi);
-    const MarginCurve curve(flight, 1, range.lo, hi);
-    const Sample a = curve.at_vertex(0, 0);
-    const Sample b = curve.at_vertex(curve.last_index(), a.tan_pitch);
-    for (const Sample& end : {a, b}) {
-      if (end.ratio() > best.ratio()) best = end;
-    }
-    improve_best(curve, 0, a, curve.last_index(), b, best);
+    search.search(range.lo, range.hi);
   }
-  return best.available > 0 ? BestHeadroom{best.ratio(), area_of(best.radius)} : none;
+  return search.best();
+}
+
+BestHeadroom best_headroom(const Design& design, Condition condition) {
+  return best_headroom(SteadyFlight(design, condition));
 }
 
 }  // namespace tethercalc

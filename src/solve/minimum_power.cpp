@@ -10,6 +10,7 @@
 
 #include "solve/valley_search.hpp"
 #include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
@@ -20,117 +21,115 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
-double total_power(const SteadyFlight& flight, const MotorCurve& motor, const ThrustAt& at) {
-  const double total =
-      supplied_power(flight.design().supply.voltage, flight.tether().resistance(at.radius),
-                     flight.input_power(motor.power(at.thrust.value)));
+double total_power(const SteadyFlight& flight, const ThrustAt& at) {
+  const double voltage = flight.design().supply.voltage;
+  const double power = flight.drone_power(at.thrust.value);
+  if (is_heated(flight.design().tether)) {
+    const TetherHeatState state = TetherHeat(flight, at.radius).carrying(power);
+    return state.steady ? state.current * voltage : infinity;
+  }
+  const double total = supplied_power(voltage, flight.tether().resistance(at.radius), power);
   return total > 0 ? total : infinity;
 }
 
-/// The least power on the pieces of the measured curve between lo and hi on which the convex
-/// curve's power, a lower bound with one valley at `start`, is below the best known.
-ThrustAt search_outwards(const SteadyFlight& flight, const MotorCurve& measured,
-                         const MotorCurve& convex, const ThrustAt& lo, const ThrustAt& hi,
-                         const ThrustAt& start) {
-  ThrustAt best = start;
-  double least = total_power(flight, measured, start);
-  const auto consider = [&](const ThrustAt& candidate) {
-    const double power = total_power(flight, measured, candidate);
-    if (power < least) {
-      least = power;
-      best = candidate;
-    }
-  };
-  const std::size_t first = measured.piece(lo.thrust.value);
-  const std::size_t last = measured.piece(hi.thrust.value);
-  const std::size_t home = measured.piece(start.thrust.value);
-
-  // Away from the valley's bottom a piece's own bottom is mostly at its nearer end: look there
-  // first.
-  const auto search_piece = [&](std::size_t piece, const ThrustAt& near, const ThrustAt& far) {
-    const auto [from, to] = std::minmax(near.radius, far.radius);
-    if (from < to) consider(valley_bottom(flight, measured, {piece, piece}, {from, to}, near));
-    consider(far);
-  };
-
-  ThrustAt near = start;
-  for (std::size_t i = home;; ++i) {  // to the right
-    const ThrustAt far = i < last ? at_thrust(flight, measured.vertices()[i + 1].thrust, near) : hi;
-    search_piece(i, near, far);
-    near = far;
-    if (i == last || total_power(flight, convex, far) >= least) break;
+/// The least power between two radii, by the bound that it is no less than that of the drone at the
+/// lower over the cold resistance at the upper. Stretches on which that may be less than the best
+/// known are split until they are one valley.
+class LeastPowerSearch {
+ public:
+  LeastPowerSearch(const SteadyFlight& flight, const ThrustAt& first) : flight_(flight) {
+    consider(first);
   }
-  near = start;
-  for (std::size_t i = home;; --i) {  // to the left
-    const ThrustAt far = i > first ? at_thrust(flight, measured.vertices()[i].thrust, near) : lo;
-    search_piece(i, near, far);
-    near = far;
-    if (i == first || total_power(flight, convex, far) >= least) break;
+
+  void search(const ThrustAt& a, const ThrustAt& b) {
+    consider(a);
+    consider(b);
+    improve(a, b);
   }
-  return best;
-}
 
-/// `at`, or the radius below it at which the motors end.
-ThrustAt within_motors(const SteadyFlight& flight, const ThrustAt& at) {
-  const double most = flight.design().drone.motor.max_thrust();
-  return at.thrust.value > most ? at_thrust(flight, most, at) : at;
-}
-
-/// For a converter whose efficiency varies: the smooth pieces between all kinks, one by one.
-ThrustAt search_every_piece(const SteadyFlight& flight, const ThrustAt& lo, const ThrustAt& hi) {
-  const Design& design = flight.design();
-  const MotorCurve& motor = design.drone.motor;
-  std::vector<double> kinks;
-  for (const MotorPoint& vertex : motor.vertices()) kinks.push_back(vertex.thrust);
-  const double motor_power_per_output = 1 / (flight.output_power(1));
-  for (const EfficiencyPoint& point : design.supply.converter.efficiency) {
-    kinks.push_back(motor.thrust(point.output_power * motor_power_per_output));
-  }
-  std::sort(kinks.begin(), kinks.end());
-
-  const auto power_at = [&](const ThrustAt& at) { return total_power(flight, motor, at); };
-  ThrustAt best = lo;
-  double least = infinity;
-  const auto consider = [&](const ThrustAt& candidate) {
-    const double power = power_at(candidate);
-    if (power < least) {
-      least = power;
-      best = candidate;
-    }
-  };
-  // Efficiency that rises with load bends a piece the wrong way; parts of it are still one valley.
-  constexpr int parts = 4;
-  // Half of the digits: at a smooth minimum the value is then exact to all of them.
-  constexpr int bits = std::numeric_limits<double>::digits / 2;
-  ThrustAt from = lo;
-  const auto search_up_to = [&](const ThrustAt& to) {
-    const double width = (to.radius - from.radius) / parts;
-    for (int part = 0; part < parts && width > 0; ++part) {
-      const double start = from.radius + part * width;
-      const auto [radius, power] = boost::math::tools::brent_find_minima(
-          [&](double r) {
-            const double y = power_at(thrust_at(flight, r, from.tan_pitch));
-            // Far above any power, and falling towards the radii that can deliver.
-            return y < infinity ? y
-                                : 1e300 * flight.tether().resistance(r) /
-                                      flight.tether().resistance(lo.radius);
-          },
-          start, start + width, bits);
-      (void)power;
-      consider(thrust_at(flight, radius, from.tan_pitch));
-    }
-    consider(to);
-    from = to;
-  };
-  consider(lo);
-  for (const double kink : kinks) {
-    if (kink > from.thrust.value && kink < hi.thrust.value) {
-      search_up_to(at_thrust(flight, kink, from));
+  void consider(const ThrustAt& candidate) {
+    const double power = total_power(flight_, candidate);
+    if (power < power_) {
+      power_ = power;
+      best_ = candidate;
     }
   }
-  search_up_to(hi);
-  return best;
-}
+
+  [[nodiscard]] const ThrustAt& best() const { return best_; }
+  [[nodiscard]] double power() const { return power_; }
+
+ private:
+  void improve(const ThrustAt& a, const ThrustAt& b) {
+    constexpr int most_stretches = 5000;  // a hundred times more than usual
+    constexpr double same_radius = 1 + 1e-13;
+    const MotorCurve& motor = flight_.design().drone.motor;
+    if (!(b.radius > a.radius * same_radius) || ++stretches_ > most_stretches) return;
+    const auto power_over = [&](double resistance) {
+      return supplied_power(flight_.design().supply.voltage, resistance,
+                            flight_.drone_power(a.thrust.value));
+    };
+    if (!(power_over(flight_.tether().resistance(b.radius)) < power_)) return;
+    if (!(power_over(least_resistance(flight_, a.radius, a.thrust.value, b.radius)) < power_)) {
+      return;
+    }
+    if (one_valley(a, b)) {
+      const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
+      return consider(valley_bottom(flight_, motor, pieces, {a.radius, b.radius}, a));
+    }
+    const ThrustAt middle = split(a, b);
+    consider(middle);
+    // The more promising side first.
+    const bool right = best_.radius > middle.radius;
+    if (right) improve(middle, b);
+    improve(a, middle);
+    if (!right) improve(middle, b);
+  }
+
+  /// At a kink between a and b, if there is one, else half-way.
+  [[nodiscard]] ThrustAt split(const ThrustAt& a, const ThrustAt& b) const {
+    const MotorCurve& motor = flight_.design().drone.motor;
+    const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
+    double thrust = motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
+    if (pieces.first == pieces.last) {
+      const double per_output = 1 / flight_.output_power(1);
+      thrust = motor.thrust(per_output *
+                            converter_kink(flight_.design().supply.converter,
+                                           flight_.output_power(motor.power(a.thrust.value)),
+                                           flight_.output_power(motor.power(b.thrust.value))));
+    }
+    if (a.thrust.value < thrust && thrust < b.thrust.value) {
+      const ThrustAt kink = at_thrust(flight_, thrust, a.radius, b.radius, a);
+      if (a.radius < kink.radius && kink.radius < b.radius) return kink;
+    }
+    const double radius = std::sqrt(a.radius * b.radius);
+    return thrust_at(flight_, radius, a.tan_guess(radius));
+  }
+
+  [[nodiscard]] bool one_valley(const ThrustAt& a, const ThrustAt& b) const {
+    if (!on_one_piece(flight_, a, b)) return false;
+    // Nothing is proved of warm cables, but their power bends no more sharply than its parts.
+    constexpr double narrow = 1.3;
+    if (is_heated(flight_.design().tether)) return b.radius < narrow * a.radius;
+    if (is_proportional(flight_.design().supply.converter)) return true;
+    // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
+    // efficiency gains twice over where it rises with the load.
+    const MotorCurve& motor = flight_.design().drone.motor;
+    const double lo = motor.power(a.thrust.value);
+    const double hi = motor.power(b.thrust.value);
+    const Converter& converter = flight_.design().supply.converter;
+    const double low = efficiency_at(converter, flight_.output_power(lo));
+    const double high = efficiency_at(converter, flight_.output_power(hi));
+    const double gain = std::max(0.0, (high - low) / (hi - lo));
+    const double more_power =
+        motor.slope(pieces_between(motor, a.thrust.value, b.thrust.value).first) * b.thrust.slope;
+    return b.radius < narrow * a.radius || !(3 * low < 2 * gain * more_power * b.radius);
+  }
+
+  const SteadyFlight& flight_;
+  ThrustAt best_;
+  double power_ = infinity;
+  int stretches_ = 0;
+};
 
 /// About the radius at which the loss saved by more conductor, I²·2(R − R_contact)/r, equals the
 /// power spent on carrying it. `thrust` and `power` are about those at the radius `lightest`.
@@ -158,6 +157,12 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
   return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
 
+/// Whether the power over the convex hull of the motor curve is one valley, all along the radius.
+bool hull_is_one_valley(const Design& design) {
+  return is_proportional(design.supply.converter) && !is_heated(design.tether) &&
+         design.drone.reserve_battery.specific_energy == 0;
+}
+
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
@@ -165,36 +170,50 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   // Thick enough to deliver what the lightest tether needs in still air, light enough for the
   // motors there.
   const double lightest = radii.lo;
+  radii.hi =
+      std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
+  if (!(lightest <= radii.hi)) return none;
   const double hover_power = flight.drone_power(flight.necessary_thrust(lightest, 0));
   if (!(hover_power < infinity)) return none;
   const double voltage = design.supply.voltage;
   radii.lo = std::max(lightest,
                       flight.tether().radius_of_resistance(voltage * voltage / (4 * hover_power)));
-  radii.hi =
-      std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
   if (!(radii.lo <= radii.hi)) return none;
+  const ThrustAt first = thrust_at(flight, radii.lo, 0);
+  if (!(first.thrust.value <= motor.max_thrust() * (1 + 1e-12))) return none;
 
-  const auto at_radius = [&](double radius) {
-    return within_motors(flight, thrust_at(flight, radius, 0));
-  };
-  ThrustAt best;
-  if (!is_proportional(design.supply.converter)) {
-    best = search_every_piece(flight, at_radius(radii.lo), at_radius(radii.hi));
-  } else {
-    const double thrust =
-        std::min(motor.max_thrust(),
-                 flight.necessary_thrust(lightest, flight.level_drag_tan_pitch(lightest)));
-    const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
-    const MotorCurve& convex = motor.convex_hull();
-    best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2}, radii,
-                         at_radius(std::clamp(guess, radii.lo, radii.hi)));
-    if (!motor.is_convex() && motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
-      best = search_outwards(flight, motor, convex, at_radius(radii.lo), at_radius(radii.hi), best);
-    }
+  const double thrust = std::min(
+      motor.max_thrust(), flight.necessary_thrust(lightest, flight.level_drag_tan_pitch(lightest)));
+  const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
+  const double start = guess > radii.lo && guess < radii.hi ? guess : 0.5 * (radii.lo + radii.hi);
+  const MotorCurve& convex = motor.convex_hull();
+  ThrustAt best = thrust_at(flight, start, first.tan_pitch);
+  const bool one_valley = hull_is_one_valley(design);
+  if (one_valley) {
+    best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2, 0}, radii, best);
+  } else if (best.thrust.value > motor.max_thrust()) {
+    best = first;
   }
-  if (best.radius < radii.lo * (1 - 1e-12)) return none;  // the motors end before the range begins
-  const double power = total_power(flight, motor, best);
-  return power < infinity ? MinimumPower{area_of(best.radius), power} : none;
+  LeastPowerSearch search(flight, best);
+  if (!(search.power() < infinity) || !one_valley ||
+      motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
+    ThrustAt last = thrust_at(flight, radii.hi, best.tan_pitch);
+    if (last.thrust.value > motor.max_thrust()) {
+      last = at_thrust(flight, motor.max_thrust(), radii.lo, radii.hi, last);
+    }
+    search.search(first, last);
+  }
+  if (!(search.power() < infinity)) return none;
+  // The root of a square may miss its end by rounding, beyond which a warm cable runs away or a
+  // reserve battery grows by leaps.
+  const double area = area_of(search.best().radius);
+  for (const double inside : {area, std::nextafter(area, 0), std::nextafter(area, 1),
+                              area * (1 - 1e-15), area * (1 + 1e-15)}) {
+    if (one_valley) break;
+    const ThrustAt there = thrust_at(flight, conductor_radius(inside), search.best().tan_pitch);
+    if (total_power(flight, there) <= search.power() * (1 + 1e-9)) return {inside, search.power()};
+  }
+  return {area, search.power()};
 }
 
 }  // namespace
@@ -204,11 +223,10 @@ MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
 }
 
 bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
-  const Design& design = flight.design();
-  if (!is_proportional(design.supply.converter)) return false;
+  if (!hull_is_one_valley(flight.design())) return false;
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
   if (beyond.lo < beyond.hi) return false;
-  const MotorCurve& motor = design.drone.motor;
+  const MotorCurve& motor = flight.design().drone.motor;
   if (motor.is_convex()) return true;
   const double radius = conductor_radius(area);
   const double thrust = flight.necessary_thrust(radius, flight.tan_pitch(radius, infinity));
@@ -217,15 +235,12 @@ bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
 }
 
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
+  const double heaviest = flight.radius_of_weight(flight.design().drone.motor_count *
+                                                  flight.design().drone.motor.max_thrust());
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
-  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
   MinimumPower best{nan, nan};
-  if (!(beyond.lo < beyond.hi)) {
-    best = minimum_within_tilt(flight, radii);
-  } else {
-    for (const Interval& part : intersection({radii}, {{0, beyond.lo}, {beyond.hi, infinity}})) {
-      best = lesser(best, minimum_within_tilt(flight, part));
-    }
+  for (const Interval& part : intersection({radii}, radii_within_tilt(flight, heaviest))) {
+    best = lesser(best, minimum_within_tilt(flight, part));
   }
   // Squaring the root of an end of the range may miss it by rounding.
   if (best.power > 0) best.area = std::clamp(best.area, within.lo, within.hi);

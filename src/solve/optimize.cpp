@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solve/cable_limits.hpp"
 #include "tethercalc/solve/headroom.hpp"
 
 namespace tethercalc {
@@ -12,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Relative distance at which two areas are the same edge: a thousand times the accuracy of edges.
+/// Relative distance at which a tilt is at its limit: a thousand times the accuracy of edges.
 constexpr double same_edge = 1e-9;
 
 struct Flights {
@@ -47,7 +46,22 @@ void take(Optimization& result, const Flights& flights, double area) {
   result.feasible = demand_margins(design, result.hover, result.forward).met();
 }
 
-bool on_edge(double area, double edge) { return std::abs(area - edge) <= same_edge * area; }
+/// The same at `area`, or a hair's breadth inside where it is an edge beyond which a warm cable
+/// runs away or a reserve battery leaps, so that rounding may take it out.
+void take_within(Optimization& result, const Flights& flights, const IntervalSet& areas,
+                 double area) {
+  take(result, flights, area);
+  const Design& design = flights.hover.design();
+  const bool steep = is_heated(design.tether) || design.drone.reserve_battery.specific_energy > 0;
+  if (result.feasible || !steep) return;
+  for (const Interval& range : areas) {
+    if (area != range.lo && area != range.hi) continue;
+    for (double share = 1e-15; share < 1e-6 && !result.feasible; share *= 10) {
+      const double inside = area * (area == range.lo ? 1 + share : 1 - share);
+      if (range.contains(inside)) take(result, flights, inside);
+    }
+  }
+}
 
 bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
   return std::abs(point.pitch) >= design.requirements.max_pitch * (1 - same_edge);
@@ -65,7 +79,7 @@ double edge_towards_minimum_power(const Optimization& result) {
 
 /// Names the edge of the feasible set that keeps the optimum from the minimum-power area.
 void name_limit(Optimization& result, const Flights& flights) {
-  const Requirements& need = flights.hover.design().requirements;
+  const Design& design = flights.hover.design();
   const bool at_minimum = result.area == result.minimum_power.area;
   const double edge = at_minimum ? result.area : edge_towards_minimum_power(result);
   const bool here = edge == result.area;
@@ -73,7 +87,7 @@ void name_limit(Optimization& result, const Flights& flights) {
   const OperatingPoint forward = here ? result.forward : evaluate(flights.forward, edge);
   // Before the least power, which is looked for within the tilt limit and may lie on it.
   for (const OperatingPoint* point : {&hover, &forward}) {
-    if (at_tilt_limit(*point, flights.hover.design())) {
+    if (at_tilt_limit(*point, design)) {
       result.limited_by = Limit::max_pitch;
       result.limiting_condition = point == &hover ? Condition::hover : Condition::forward;
       return;
@@ -81,18 +95,15 @@ void name_limit(Optimization& result, const Flights& flights) {
   }
   if (at_minimum) {
     result.limited_by = Limit::minimum_power;
-    result.limiting_condition = need.power_at;
+    result.limiting_condition = design.requirements.power_at;
     return;
   }
-  const bool by_headroom =
-      !need.buffer_battery &&
-      std::any_of(result.headroom_areas.begin(), result.headroom_areas.end(),
-                  [edge](const Interval& i) { return on_edge(edge, i.lo) || on_edge(edge, i.hi); });
-  result.limiting_condition = by_headroom                         ? need.headroom_at
-                              : hover.headroom < forward.headroom ? Condition::hover
-                                                                  : Condition::forward;
-  result.limited_by =
-      result.area > result.minimum_power.area ? Limit::available_power : Limit::takeoff_mass;
+  const Margins margins = demand_margins(design, hover, forward);
+  result.limited_by = limit_of(margins.worst().demand);
+  result.limiting_condition = margins.worst().condition;
+  if (result.limited_by == Limit::available_power && !(result.area > result.minimum_power.area)) {
+    result.limited_by = Limit::takeoff_mass;
+  }
 }
 
 /// What keeps the best reachable headroom of one condition below `demanded`.
@@ -109,10 +120,43 @@ Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double dema
              : Limit::available_power;
 }
 
+/// Where each flight can be flown, with the headroom that is asked for, whatever the cable stands.
+IntervalSet flyable_areas(const Flights& flights) {
+  const Requirements& need = flights.hover.design().requirements;
+  return intersection(headroom_areas(flights.hover, demanded_headroom(need, Condition::hover)),
+                      headroom_areas(flights.forward, demanded_headroom(need, Condition::forward)));
+}
+
+/// The demand that is missed by least, tried at the ends and in the middle of `areas`.
+DemandMargin least_missed(const Flights& flights, const IntervalSet& areas) {
+  DemandMargin least{Demand::thrust_headroom, Condition::hover, -infinity};
+  for (const Interval& range : areas) {
+    for (const double area : {range.lo, std::sqrt(range.lo * range.hi), range.hi}) {
+      const Margins margins = demand_margins(flights.hover.design(), evaluate(flights.hover, area),
+                                             evaluate(flights.forward, area));
+      if (margins.worst().value > least.value) least = margins.worst();
+    }
+  }
+  return least;
+}
+
 /// Names what an infeasible design lacks: the first demand that no area meets; where each is met by
-/// some area but no area meets all, the demand for headroom.
+/// some area but no area meets all, the demand on the cable that is missed by least, or the
+/// headroom.
 void name_obstacle(Optimization& result, const Flights& flights) {
   const Requirements& need = flights.hover.design().requirements;
+  for (const DemandMargin& margin :
+       demand_margins(flights.hover.design(), OperatingPoint{}, Condition::hover)) {
+    if (margin.demand != Demand::input_voltage || margin.met()) continue;
+    result.limited_by = Limit::input_voltage;
+    return;
+  }
+  if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
+    const DemandMargin missed = least_missed(flights, flyable);
+    result.limited_by = limit_of(missed.demand);
+    result.limiting_condition = missed.condition;
+    return;
+  }
   struct Wanted {
     Condition condition;
     double headroom;
@@ -124,12 +168,6 @@ void name_obstacle(Optimization& result, const Flights& flights) {
       missed = demand;
       break;
     }
-  }
-  for (const DemandMargin& margin :
-       demand_margins(flights.hover.design(), OperatingPoint{}, Condition::hover)) {
-    if (margin.demand != Demand::input_voltage || margin.met()) continue;
-    result.limited_by = Limit::input_voltage;
-    return;
   }
   const SteadyFlight& flight = flights.in(missed.condition);
   result.limiting_condition = missed.condition;
@@ -165,11 +203,6 @@ Limit missed_limit(const Design& design, const OperatingPoint& point, Demand dem
 }
 
 Optimization optimize(const Design& design) {
-  if (has_cable_limits(design)) return optimize_within_cable_limits(design);
-  return optimize_without_cable_limits(design);
-}
-
-Optimization optimize_without_cable_limits(const Design& design) {
   const SteadyFlight hover(design, Condition::hover);
   const Flights flights{hover, hover.in(Condition::forward)};
   const Requirements& need = design.requirements;
@@ -180,16 +213,16 @@ Optimization optimize_without_cable_limits(const Design& design) {
   result.minimum_power = minimum_power(priced);
   result.feasible_areas = need.buffer_battery ? IntervalSet{{0, infinity}} : result.headroom_areas;
 
+  // The cheapest of more areas than are feasible is the optimum if it is feasible, as it mostly is
+  // where the headroom is met.
   const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-  if (area > 0) take(result, flights, area);
+  if (area > 0) take_within(result, flights, result.feasible_areas, area);
   if (!result.feasible) {
-    // Few designs come here: where the headroom is met, both conditions can usually be flown.
-    result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.hover, 1));
-    result.feasible_areas = intersection(result.feasible_areas, headroom_areas(flights.forward, 1));
-    const double flyable = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-    if (flyable > 0) {
-      take(result, flights, flyable);
-    }
+    result.feasible_areas = intersection(
+        areas_meeting_demands(hover, demanded_headroom(need, Condition::hover)),
+        areas_meeting_demands(flights.forward, demanded_headroom(need, Condition::forward)));
+    const double met = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+    if (met > 0) take_within(result, flights, result.feasible_areas, met);
   }
   if (result.feasible) {
     name_limit(result, flights);

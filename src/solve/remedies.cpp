@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "solve/cable_limits.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
 namespace tethercalc {
@@ -30,9 +29,7 @@ double bound_of(Quantity quantity, double present) {
 }
 
 bool feasible_at(const Design& design, Quantity quantity, double value) {
-  const Design changed = remedied(design, {quantity, value});
-  return has_cable_limits(changed) ? feasible_within_cable_limits(changed)
-                                   : optimize_without_cable_limits(changed).feasible;
+  return optimize(remedied(design, {quantity, value})).feasible;
 }
 
 /// `value` to `digits` significant digits, up or down.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tethercalc/model/tether_heat.hpp"
+
 namespace tethercalc {
 
 ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
@@ -12,17 +14,94 @@ ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) 
   return {radius, tangent, flight.necessary_thrust_with_slope(radius, tangent)};
 }
 
-ThrustAt at_thrust(const SteadyFlight& flight, double thrust, ThrustAt from) {
-  for (int step = 0; step < 50; ++step) {
+ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double hi, ThrustAt from) {
+  // Newton's method takes 2 to 5 steps; halving alone would take 60 for a factor of two and 10 more
+  // for the decades between the ends.
+  for (int step = 0; step < 200; ++step) {
+    (from.thrust.value > thrust ? hi : lo) = from.radius;
     if (from.thrust.value == thrust) break;
-    const double change = (thrust - from.thrust.value) / from.thrust.slope;
-    const double radius = std::max(from.radius + change, 0.25 * from.radius);
+    const double newton = from.radius + (thrust - from.thrust.value) / from.thrust.slope;
+    const double middle = lo > 0 && hi > 4 * lo ? std::sqrt(lo * hi) : 0.5 * (lo + hi);
+    const bool inside = newton > lo && newton < hi && step % 8 != 7;
+    const double radius = inside ? newton : middle;
+    if (!(lo < radius && radius < hi)) break;  // no number is left between them
     // Quadratic convergence: the thrust is then within 1e-16 of the one asked for.
-    const bool last = std::abs(change) <= 1e-8 * radius;
+    const bool last = inside && std::abs(radius - from.radius) <= 1e-8 * radius;
     from = thrust_at(flight, radius, from.tan_guess(radius));
-    if (last) break;
+    if (last) return from;
   }
-  return from;
+  return from.thrust.value > thrust && lo > 0 ? thrust_at(flight, lo, from.tan_pitch) : from;
+}
+
+namespace {
+
+/// What was solved for to lie on a kink may miss it by this much, relative.
+constexpr double rounding = 1e-12;
+
+/// Collects where the tilt is within its limit with a reserve battery, whose mass is no closed form
+/// of the radius. Weight and drag both rise with it, which bounds the tilt between two radii.
+void collect_within_tilt(const SteadyFlight& flight, double a, double b, IntervalSet& radii) {
+  const auto within = [&](double light, double wide) {
+    return flight.weight(light) * flight.tan_pitch_limit() >=
+           flight.airframe_drag_at_pitch_limit() + flight.tether().drag(wide);
+  };
+  if (!within(b, a)) return;
+  if (within(a, b)) return append(radii, {a, b});
+  const double middle = std::sqrt(a * b);
+  if (!(middle > a * (1 + rounding))) return;
+  collect_within_tilt(flight, a, middle, radii);
+  collect_within_tilt(flight, middle, b, radii);
+}
+
+}  // namespace
+
+Pieces pieces_between(const MotorCurve& motor, double lo, double hi) {
+  const std::size_t first = motor.piece(lo * (1 + rounding));
+  return {first, std::max(first, motor.piece(hi * (1 - rounding))), 0.5 * (lo + hi)};
+}
+
+double converter_kink(const Converter& converter, double lo, double hi) {
+  for (const EfficiencyPoint& point : converter.efficiency) {
+    const double output = point.output_power;
+    if (lo * (1 + rounding) < output && output < hi * (1 - rounding)) return output;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
+                  double headroom) {
+  const MotorCurve& motor = flight.design().drone.motor;
+  const double lo = headroom * a.thrust.value;
+  const double hi = headroom * b.thrust.value;
+  const Pieces pieces = pieces_between(motor, lo, hi);
+  return pieces.first == pieces.last &&
+         std::isnan(converter_kink(flight.design().supply.converter,
+                                   flight.output_power(motor.power(lo)),
+                                   flight.output_power(motor.power(hi)))) &&
+         flight.battery_piece(a.radius) == flight.battery_piece(b.radius);
+}
+
+double least_resistance(const SteadyFlight& flight, double thinner, double thrust, double thicker) {
+  const double cold = flight.tether().resistance(thicker);
+  const double power = flight.drone_power(thrust);
+  if (!is_heated(flight.design().tether) || !(power < std::numeric_limits<double>::infinity())) {
+    return cold;
+  }
+  const TetherHeatState state = TetherHeat(flight, thicker, thinner).carrying(power);
+  return state.steady ? state.resistance : std::numeric_limits<double>::infinity();
+}
+
+IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
+  if (!(hi > 0)) return {};
+  if (flight.design().drone.reserve_battery.specific_energy == 0) {
+    const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+    if (!(beyond.lo < beyond.hi)) return {{0, hi}};
+    return intersection({{0, beyond.lo}, {beyond.hi, std::max(hi, beyond.hi)}}, {{0, hi}});
+  }
+  IntervalSet radii;
+  constexpr double thinnest = 1e-8;  // 3e-10 mm²
+  if (hi > thinnest) collect_within_tilt(flight, thinnest, hi, radii);
+  return radii;
 }
 
 }  // namespace tethercalc

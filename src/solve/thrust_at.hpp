@@ -1,7 +1,10 @@
 // The necessary thrust along the conductor's radius, with what makes the next one cheap.
 #pragma once
 
+#include <cstddef>
+
 #include "tethercalc/model/steady_flight.hpp"
+#include "tethercalc/solve/interval.hpp"
 
 namespace tethercalc {
 
@@ -19,8 +22,39 @@ struct ThrustAt {
 
 [[nodiscard]] ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess);
 
-/// The radius at which `thrust` is necessary; `from` starts Newton's method. The necessary thrust
-/// rises ever more steeply with the radius, so that it converges from either side.
-[[nodiscard]] ThrustAt at_thrust(const SteadyFlight& flight, double thrust, ThrustAt from);
+/// The largest radius between `lo` and `hi` at which `thrust`, which lies between those necessary
+/// there, suffices. The necessary thrust never falls with the radius, and mostly rises ever more
+/// steeply, so that Newton's method, which `from` starts, is quick; where it is flat or, with the
+/// reserve battery, jumps, the bracket is halved.
+[[nodiscard]] ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double hi,
+                                 ThrustAt from);
+
+/// Pieces of a motor curve, both included, and N somewhere on them.
+struct Pieces {
+  std::size_t first = 0;
+  std::size_t last = 0;
+  double within = 0;
+};
+
+/// The pieces that hold the thrusts strictly between `lo` and `hi`.
+[[nodiscard]] Pieces pieces_between(const MotorCurve& motor, double lo, double hi);
+
+/// Whether the power for `headroom` times the thrust is smooth between two radii: motors, converter
+/// and reserve battery follow one piece of their curves.
+[[nodiscard]] bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
+                                double headroom = 1);
+
+/// The converter's output in W at which its efficiency has a kink, strictly between two outputs;
+/// NaN where there is none.
+[[nodiscard]] double converter_kink(const Converter& converter, double lo, double hi);
+
+/// No more than the loop's resistance, Ω, at any radius between a `thinner` one, where `thrust` N
+/// per motor are necessary, and a `thicker` one; +infinity where the current heats the cable
+/// without end at all of them.
+[[nodiscard]] double least_resistance(const SteadyFlight& flight, double thinner, double thrust,
+                                      double thicker);
+
+/// The radii up to `hi` at which the tilt is within its limit.
+[[nodiscard]] IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi);
 
 }  // namespace tethercalc

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
@@ -30,10 +31,27 @@ class ValleySearch {
         per_voltage_(1 / flight.design().supply.voltage),
         idle_(flight.input_power(0)),
         input_slope_(flight.input_power(1) - idle_),
+        constant_efficiency_(is_proportional(flight.design().supply.converter)),
+        efficiency_(efficiency_piece(flight.design().supply.converter,
+                                     flight.output_power(motor.power(pieces.within)))),
+        heated_(is_heated(flight.design().tether)),
         left_{radii.lo, false},
         right_{radii.hi, false} {}
 
-  ThrustAt bottom(ThrustAt at) {
+  ThrustAt bottom(ThrustAt start) {
+    const ThrustAt found = descend(start);
+    // Where a cable begins to run away the power ends, and may be least just before.
+    const bool ends = heated_ && right_.known && runs_away(found);
+    return ends ? thrust_at(flight_, right_.radius, found.tan_pitch) : found;
+  }
+
+ private:
+  [[nodiscard]] bool runs_away(const ThrustAt& at) const {
+    const double power = flight_.input_power(motor_.power(at.thrust.value));
+    return !TetherHeat(flight_, at.radius).carrying(power).steady;
+  }
+
+  ThrustAt descend(ThrustAt at) {
     // Relative to the radius. The end of such a step is a hundred times closer to the bottom, where
     // the power is flat to the square of that; and the thrust is straight to the square of the
     // step.
@@ -54,7 +72,8 @@ class ValleySearch {
         next = at.radius * near_exp((excess + jump_at(vertex, falls)) * growth);
         const bool tiny = std::abs(next - at.radius) <= 1e-3 * at.radius;
         if (tiny || !passes(at, next, vertex, falls)) {
-          const ThrustAt kink = at_thrust(flight_, vertices_[vertex].thrust, at);
+          const ThrustAt kink =
+              at_thrust(flight_, vertices_[vertex].thrust, left_.radius, right_.radius, at);
           if (left_.radius < kink.radius && kink.radius < right_.radius) {
             const bool falls_up_to = trade_at(kink, vertex - 1).pays();
             const bool rises_from = vertex > pieces_.last || !trade_at(kink, vertex).pays();
@@ -74,7 +93,6 @@ class ValleySearch {
     return at;
   }
 
- private:
   struct Side {
     double radius = 0;
     bool known = false;  ///< else the end of the range, not looked at yet
@@ -90,10 +108,24 @@ class ValleySearch {
   /// The trade, were the motor curve to follow `piece` everywhere.
   [[nodiscard]] Trade trade_at(const ThrustAt& at, std::size_t piece) const {
     const MotorPoint& start = vertices_[piece];
-    const double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
-    const double power =
-        idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
+    double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
+    double power = idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
+    if (!constant_efficiency_) {
+      const double per_newton = flight_.output_power(motor_.slope(piece));
+      const double output =
+          flight_.output_power(start.power) + per_newton * (at.thrust.value - start.thrust);
+      power = flight_.design().drone.auxiliary_power + efficiency_.input_power(output);
+      slope = per_newton * efficiency_.input_slope(output);
+    }
     const double resistance = flight_.tether().resistance(at.radius);
+    if (heated_) {
+      const TetherHeat heat(flight_, at.radius);
+      const TetherHeatState state = heat.carrying(power);
+      const double saved = state.steady
+                               ? -state.current * state.current * heat.resistance_slope(state)
+                               : -power / resistance * flight_.tether().resistance_slope(at.radius);
+      return {saved, slope * at.thrust.slope};
+    }
     const double least_current = power * per_voltage_;
     const double discriminant = 1 - 4 * resistance * least_current * per_voltage_;
     // I = 2·least_current/share, and times share² both sides are without a division.
@@ -152,7 +184,7 @@ class ValleySearch {
 
   void stay_within_motors(ThrustAt& at) {
     if (at.thrust.value <= motor_.max_thrust()) return;
-    at = at_thrust(flight_, motor_.max_thrust(), at);
+    at = at_thrust(flight_, motor_.max_thrust(), left_.radius, at.radius, at);
     right_.radius = std::min(right_.radius, at.radius);
   }
 
@@ -162,7 +194,8 @@ class ValleySearch {
     const double middle = 0.5 * (left_.radius + right_.radius);
     if (next <= left_.radius) return left_.known ? middle : left_.radius;
     if (next >= right_.radius) return right_.known ? middle : right_.radius;
-    return step % 8 == 0 && left_.known && right_.known ? middle : next;
+    return (step % 8 == 0 || (step > 30 && step % 2 == 0)) && left_.known && right_.known ? middle
+                                                                                          : next;
   }
 
   const SteadyFlight& flight_;
@@ -172,8 +205,11 @@ class ValleySearch {
   double per_voltage_;
   double idle_;         ///< W at the converter's input without thrust
   double input_slope_;  ///< W at the converter's input per W of one motor
-  Side left_;           ///< the power falls here
-  Side right_;          ///< and rises here
+  bool constant_efficiency_;
+  EfficiencyPiece efficiency_;
+  bool heated_;
+  Side left_;   ///< the power falls here
+  Side right_;  ///< and rises here
   Side before_;
   double before_excess_ = 0;
   std::size_t before_piece_ = 0;

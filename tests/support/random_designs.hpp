@@ -124,4 +124,126 @@ inline Design random_design(Random& random) {
   return d;
 }
 
+/// A motor curve with steps of nearly no thrust, nearly no power, and plain ones, up to `most` N.
+inline MotorCurve random_jagged_motor(Random& random, double most) {
+  const int count = random.integer(2, 50);
+  std::vector<double> thrusts;
+  std::vector<double> powers;
+  const double watts_per_newton = random.magnitude(2, 40);
+  for (int i = 0; i < count; ++i) {
+    thrusts.push_back(random.chance(0.2) ? 1e-3 : random.uniform(0.05, 1));
+    powers.push_back(random.chance(0.2) ? 1e-6 : random.uniform(0.05, 1) * (1 + 2.0 * i / count));
+  }
+  double thrust_sum = 0;
+  double power_sum = 0;
+  for (int i = 0; i < count; ++i) {
+    thrust_sum += thrusts[static_cast<std::size_t>(i)];
+    power_sum += powers[static_cast<std::size_t>(i)];
+  }
+  std::vector<MotorPoint> points;
+  MotorPoint last;
+  for (std::size_t i = 0; i < thrusts.size(); ++i) {
+    last.thrust += most * thrusts[i] / thrust_sum;
+    last.power += most * watts_per_newton * powers[i] / power_sum;
+    points.push_back(last);
+  }
+  return MotorCurve(points);
+}
+
+/// Anything that a spec may say: every field over about all of its range, zeros and extremes
+/// included. Drone and motors match often enough for some half of them to fly.
+inline Design random_extreme_design(Random& random) {
+  const auto sometimes = [&](double probability, double lo, double hi, double otherwise) {
+    return random.chance(probability) ? random.magnitude(lo, hi) : otherwise;
+  };
+  Design d;
+  d.drone.mass = random.magnitude(0.01, 500);
+  d.drone.motor_count = random.chance(0.2) ? 64 : random.integer(1, 8);
+  d.flight.gravity = random.chance(0.8) ? standard_gravity : random.magnitude(0.1, 100);
+  const double most = d.drone.mass * d.flight.gravity / d.drone.motor_count *
+                      (random.chance(0.9) ? random.uniform(1.05, 8) : random.uniform(0.5, 40));
+  if (random.chance(0.5)) {
+    d.drone.motor = random_jagged_motor(random, most);
+  } else {
+    const MotorCurve motor = random_motor(random, random.chance(0.5) ? 0 : 0.9);
+    std::vector<MotorPoint> points(motor.vertices().begin() + 1, motor.vertices().end());
+    const double scale = most / motor.max_thrust();
+    for (MotorPoint& point : points) point = {point.thrust * scale, point.power * scale};
+    d.drone.motor = MotorCurve(points);
+  }
+  const double all_power = d.drone.motor.max_power() * d.drone.motor_count;
+  d.drone.motor_power_factor = sometimes(0.3, 0.5, 2, 1);
+  d.drone.auxiliary_power = random.chance(0.5) ? all_power * random.magnitude(1e-4, 0.3) : 0;
+  const double size = std::pow(d.drone.mass, 2.0 / 3);
+  d.drone.drag = {size * sometimes(0.7, 1e-4, 0.3, 0), size * sometimes(0.7, 1e-4, 0.3, 0),
+                  sometimes(0.5, 0.1, 100, 0),
+                  random.chance(0.2) ? random.uniform(-0.99, 0.99) : 0};
+  if (random.chance(0.2)) {
+    d.drone.translational_lift = {random.uniform(0, 0.95), random.magnitude(0.5, 50)};
+  }
+  if (random.chance(0.25)) {
+    d.drone.reserve_battery = {random.magnitude(10, 400) * 3600, random.uniform(0.2, 1),
+                               random.magnitude(1, 200) / 3600, random.magnitude(0.2, 10)};
+  }
+  d.tether.length = random.magnitude(0.5, 1000);
+  d.tether.spooled_length = sometimes(0.3, 0.1, 1000, 0);
+  d.tether.conductor = {random.chance(0.8) ? 0.0278e-6 : random.magnitude(1e-9, 1e-6),
+                        random.chance(0.8) ? 0.004 : 0, random.chance(0.8) ? 2700.0 : 8900.0,
+                        random.chance(0.8) ? random.magnitude(1e7, 5e8) : 0};
+  d.tether.conductor_temperature_C = random.chance(0.3) ? random.uniform(-50, 150) : 20;
+  d.tether.insulation = {random.magnitude(10, 3000), sometimes(0.8, 1e-5, 3e-3, 0),
+                         random.chance(0.5) ? random.magnitude(0.05, 1) : 0};
+  if (random.chance(0.5)) d.tether.insulation.rated_temperature_C = random.uniform(40, 250);
+  if (random.chance(0.3)) {
+    d.tether.insulation.breakdown_strength = random.magnitude(1e6, 1e8);
+    d.tether.insulation.dielectric_safety_factor = random.uniform(0, 20);
+  }
+  d.tether.drag_coefficient = random.chance(0.7) ? 1 : random.uniform(0, 10);
+  d.tether.projection_factor = random.chance(0.7) ? 0.75 : random.chance(0.5) ? 0 : 1;
+  if (random.chance(0.4)) {
+    d.tether.ambient_temperature_C = random.uniform(-60, 60);
+    if (random.chance(0.5)) d.tether.sun = random.uniform(0, 1500);
+    if (random.chance(0.7)) d.tether.drum.layers = random.integer(1, 4);
+  } else if (random.chance(0.1)) {
+    d.tether.heating = {random.magnitude(0.01, 30), 200, random.uniform(0, 2)};
+  }
+  if (random.chance(0.3)) {
+    d.tether.strength_member = {StrengthMaterial::aramid, random.magnitude(1e-9, 1e-5)};
+  }
+  if (random.chance(0.2)) {
+    d.tether.winch_pull = d.drone.mass * d.flight.gravity * random.magnitude(1e-3, 0.5);
+  }
+  // About the voltage at which a millimetre squared carries what the drone needs, or any at all.
+  const double handy = std::sqrt(all_power * d.tether.length * 0.05);
+  d.supply.voltage = random.chance(0.7) ? std::clamp(handy * random.magnitude(0.1, 10), 1.0, 1e4)
+                                        : random.magnitude(1, 1e4);
+  if (random.chance(0.4)) {
+    d.tether.contact_resistance =
+        d.supply.voltage * d.supply.voltage / all_power * random.magnitude(1e-4, 0.5);
+  }
+  Converter& converter = d.supply.converter;
+  converter = random_converter(random, d.supply.voltage);
+  for (EfficiencyPoint& point : converter.efficiency) point.output_power *= all_power / 1000;
+  if (random.chance(0.3)) {
+    converter.rated_output_power = all_power * random.magnitude(0.05, 2);
+    converter.specific_mass = d.drone.mass / all_power * random.magnitude(1e-3, 0.5);
+  }
+  if (random.chance(0.1)) converter.max_input_voltage = d.supply.voltage * random.uniform(0.9, 5);
+  if (random.chance(0.1)) {
+    converter.fixed_ratio = random.uniform(0.05, 1);
+    converter.min_output_voltage = d.supply.voltage * *converter.fixed_ratio * random.uniform(0, 1);
+  }
+  d.flight.airspeed = random.chance(0.8) ? random.magnitude(0.5, 100) : 0;
+  d.flight.headwind = random.chance(0.3) ? random.uniform(-30, 30) : 0;
+  d.flight.air_density = random.chance(0.8) ? random.uniform(0.9, 1.4) : random.magnitude(0.01, 10);
+  d.requirements.thrust_headroom = random.chance(0.3) ? 1 : random.uniform(1, 4);
+  if (random.chance(0.5)) d.requirements.headroom_at = Condition::forward;
+  if (random.chance(0.5)) d.requirements.power_at = Condition::hover;
+  d.requirements.max_pitch =
+      (random.chance(0.8) ? random.uniform(20, 80) : random.magnitude(0.1, 89.9)) * unit::degree;
+  d.requirements.buffer_battery = random.chance(0.2);
+  if (random.chance(0.3)) d.requirements.strength_safety_factor = random.magnitude(1, 50);
+  return d;
+}
+
 }  // namespace tethercalc::test

@@ -83,9 +83,23 @@ class ConductorHeat {
   /// `highest_conductor_temperature_C` is steady. Exact to 1e-9 K.
   [[nodiscard]] std::optional<double> temperature(double current) const;
 
-  /// The same where the surface is known to be at `surface_C` at least, which is set to its
-  /// temperature: for currents that rise from call to call.
-  [[nodiscard]] std::optional<double> temperature(double current, double& surface_C) const;
+  /// A surface whose heat balance was struck, and how its heat changes about there: where the next
+  /// search begins.
+  struct Surface {
+    double temperature_C = 0;
+    double heat = 0;        ///< W/m given off
+    double heat_slope = 0;  ///< W/(m·K)
+    double inside_C = 0;    ///< °C of the conductor
+    /// K/A, how much warmer the conductor gets with more current.
+    double warming = 0;
+  };
+
+  /// Where a search begins of which nothing is known.
+  [[nodiscard]] Surface cold_surface() const;
+
+  /// The steady surface at `current` A; nothing where there is none, as above. `near` only saves
+  /// time.
+  [[nodiscard]] std::optional<Surface> steady_surface(double current, const Surface& near) const;
 
   /// Largest current in A with the conductor at most at `temperature_C`; 0 where the sun alone
   /// heats it beyond. Exact to 1e-9 relative.
@@ -97,6 +111,8 @@ class ConductorHeat {
  private:
   /// Resistance in Ω/m of one conductor.
   [[nodiscard]] double resistance(double temperature_C) const;
+  [[nodiscard]] std::optional<Surface> search_surface(double current) const;
+  [[nodiscard]] Surface balanced(Surface surface, double current) const;
 
   Conductor conductor_;
   Surroundings around_;

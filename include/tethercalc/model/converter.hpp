@@ -1,6 +1,7 @@
 // The step-down converter on the drone, between the tether and the motors.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -80,7 +81,12 @@ void validate(const std::vector<ConverterMassPoint>& masses);
 [[nodiscard]] double efficiency_at(const Converter& converter, double output_power);
 
 /// Input power in W that yields `output_power` in W, where the converter has losses.
-[[nodiscard]] double input_with_losses(const ConverterLosses& losses, double output_power);
+[[nodiscard]] inline double input_with_losses(const ConverterLosses& losses, double output_power) {
+  // 0·∞ has no value.
+  return output_power < std::numeric_limits<double>::infinity()
+             ? output_power + losses.fixed + losses.square * output_power * output_power
+             : output_power;
+}
 
 /// Input power in W that yields `output_power` in W (≥ 0). +infinity stays +infinity.
 [[nodiscard]] inline double converter_input_power(const Converter& converter, double output_power) {
@@ -88,6 +94,26 @@ void validate(const std::vector<ConverterMassPoint>& masses);
   return has_losses(converter) ? input_with_losses(converter.losses, output_power)
                                : output_power / efficiency_at(converter, output_power);
 }
+
+/// Efficiency η = offset + slope·P_out on one piece of the curve, or the losses.
+struct EfficiencyPiece {
+  double offset = 1;         ///< of a load of 0
+  double slope = 0;          ///< 1/W
+  ConverterLosses losses{};  ///< beside what the efficiency loses
+
+  /// Input power in W for `output` W.
+  [[nodiscard]] double input_power(double output) const {
+    return output / (offset + slope * output) + losses.fixed + losses.square * output * output;
+  }
+  /// Its derivative.
+  [[nodiscard]] double input_slope(double output) const {
+    const double efficiency = offset + slope * output;
+    return offset / (efficiency * efficiency) + 2 * losses.square * output;
+  }
+};
+
+/// The piece that holds `output_power`.
+[[nodiscard]] EfficiencyPiece efficiency_piece(const Converter& converter, double output_power);
 
 /// Output power in W made of `input_power` in W: the inverse of `converter_input_power`. 0 where
 /// that is not more than the converter takes for itself.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "tethercalc/model/design.hpp"
@@ -65,6 +66,10 @@ class SteadyFlight {
   /// thinnest tether is heavier. For a design in one of its conditions.
   [[nodiscard]] double radius_of_weight(double weight) const;
 
+  /// The piece of the motor curve that the landing from the reserve battery decides its mass on; 0
+  /// without a battery.
+  [[nodiscard]] std::size_t battery_piece(double radius) const;
+
   // --- Balance of forces ---
 
   /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
@@ -119,6 +124,9 @@ class SteadyFlight {
   /// its rated output.
   [[nodiscard]] double available_thrust(double available_power) const;
 
+  /// The most thrust of one motor that converter and motors have, whatever arrives.
+  [[nodiscard]] double most_thrust() const { return available_thrust(1e300); }
+
   /// Radius at which the available power is exactly `power`: 0 for power ≤ 0, +infinity where
   /// contacts alone keep it lower.
   [[nodiscard]] double radius_of_available_power(double power) const {
@@ -144,6 +152,7 @@ class SteadyFlight {
  private:
   void set_airspeed(double speed);
   [[nodiscard]] double sized_battery(double radius) const;
+  [[nodiscard]] double landed_mass(double radius) const;
   [[nodiscard]] double balanced_tan_pitch(double radius, double tan_limit, double guess) const;
 
   const Design* design_;

@@ -69,8 +69,9 @@ class StraightTether {
   /// N downwards at the ground end.
   [[nodiscard]] double winch_pull() const { return tether_->winch_pull; }
 
-  /// Resistance of the loop in Ω, at the tether's `conductor_temperature_C`: both conductors, the
-  /// part on the drum, and the contacts.
+  /// Resistance of the loop in Ω without current: both conductors, the part on the drum, and the
+  /// contacts, at the temperature of the air where the current warms the tether, else at its
+  /// `conductor_temperature_C`.
   [[nodiscard]] double resistance(double radius) const {
     return contact_resistance() + resistance_area_ / (radius * radius);
   }

@@ -55,8 +55,8 @@ struct Optimization {
 /// - do not ask more of the converter than its rated output.
 ///
 /// This is the paper's larger-of-two rule (section IV-A) where the headroom has only a lower edge;
-/// where it has an upper edge too, the area stays below it. Takes about a microsecond; with any of
-/// the last three demands, which are searched on a grid of areas, some milliseconds.
+/// where it has an upper edge too, the area stays below it. Takes about a microsecond, with every
+/// demand and heat about ten.
 [[nodiscard]] Optimization optimize(const Design& design);
 
 }  // namespace tethercalc

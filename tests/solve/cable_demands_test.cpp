@@ -20,21 +20,30 @@ Design warm_design() {
 
 }  // namespace
 
-TEST_CASE("a demand that nothing reaches leaves the optimum where the fast search finds it") {
-  for (unsigned i = 0; i < 40; ++i) {
-    test::Random random(test::run_seed() + i);
-    INFO("TETHERCALC_TEST_SEED=" << test::run_seed() << ", case " << i);
+TEST_CASE("a demand that nothing reaches changes nothing") {
+  test::each_random(200, [](test::Random& random) {
     Design design = test::random_design(random);
     const Optimization plain = optimize(design);
+    const BestHeadroom best = best_headroom(design, Condition::hover);
     design.supply.converter.rated_output_power = 1e9;
+    design.tether.strength_member = {StrengthMaterial::uhmwpe, 0};
+    design.tether.conductor.tensile_strength = 1e12;
+    design.requirements.strength_safety_factor = 1;
     const Optimization limited = optimize(design);
+    CHECK(best_headroom(design, Condition::hover).value == Approx(best.value).epsilon(1e-12));
+    // The set keeps its meaning, too.
+    REQUIRE(limited.headroom_areas.size() == plain.headroom_areas.size());
+    for (std::size_t i = 0; i < plain.headroom_areas.size(); ++i) {
+      CHECK(limited.headroom_areas[i].lo == Approx(plain.headroom_areas[i].lo).epsilon(1e-10));
+      CHECK(limited.headroom_areas[i].hi == Approx(plain.headroom_areas[i].hi).epsilon(1e-10));
+    }
     REQUIRE(limited.feasible == plain.feasible);
-    if (!plain.feasible) continue;
+    if (!plain.feasible) return;
     const bool hover = design.requirements.power_at == Condition::hover;
     const double power = (hover ? plain.hover : plain.forward).total_power;
-    if (std::isnan(power)) continue;  // on the tilt limit, which rounding passes
-    CHECK((hover ? limited.hover : limited.forward).total_power == Approx(power).epsilon(1e-6));
-  }
+    if (std::isnan(power)) return;  // on the tilt limit, which rounding passes
+    CHECK((hover ? limited.hover : limited.forward).total_power == Approx(power).epsilon(1e-9));
+  });
 }
 
 TEST_CASE("the rated temperature binds where it is named, and nothing cheaper keeps it") {
@@ -98,6 +107,40 @@ TEST_CASE("with a reserve battery no cross-section that meets the demands is che
     REQUIRE(result.feasible);
     CHECK((hover_priced ? result.hover : result.forward).total_power <= cheapest * (1 + 1e-9));
   });
+}
+
+TEST_CASE("a converter's rating caps the best headroom") {
+  Design design = test::published_design();
+  design.supply.converter.specific_mass = 0.4e-3;
+  for (const double rated : {450.0, 700.0}) {
+    design.supply.converter.rated_output_power = rated;
+    const BestHeadroom best = best_headroom(design, Condition::hover);
+    CHECK(evaluate(design, best.area, Condition::hover).headroom == best.value);
+    double most = 0;
+    for (double area = 0.05e-6; area < 50e-6; area *= 1.001) {
+      most = std::max(most, evaluate(design, area, Condition::hover).headroom);
+    }
+    CHECK(best.value >= most * (1 - 1e-12));
+    CHECK(best.value == Approx(most).epsilon(2e-3));
+    CHECK((optimize(design).headroom_areas.empty()) == (best.value < 2));
+  }
+}
+
+TEST_CASE("a cable in thermal runaway has no headroom") {
+  Design design = warm_design();
+  design.tether.insulation.rated_temperature_C.reset();
+  design.tether.conductor.temperature_coefficient = 0.01;
+  design.tether.spooled_length = 200;
+  design.tether.drum.layers = 4;
+  bool ran_away = false;
+  const IntervalSet set = headroom_areas(SteadyFlight(design, Condition::hover), 1);
+  for (double area = 0.05e-6; area < 10e-6; area *= 1.02) {
+    const OperatingPoint point = evaluate(design, area, Condition::hover);
+    ran_away = ran_away || point.thermal_runaway;
+    if (point.thermal_runaway) CHECK(std::isnan(point.headroom));
+    CHECK(contains(set, area) == (point.headroom >= 1));
+  }
+  CHECK(ran_away);
 }
 
 TEST_CASE("the best headroom of a warm or a battery-laden cable is the best of its areas") {
