@@ -3,21 +3,23 @@
 #include <nlohmann/json.hpp>
 
 #include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/envelope_report.hpp"
 
 namespace tethercalc::cli {
 
 int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output) {
-  const DesignStudy answer = study_design(read_design(spec.file, spec.overrides), request);
+  const DesignFile file = read_design(spec.file, spec.overrides);
+  const DesignStudy answer = study_design(read_design_request(file, request));
   switch (output.format) {
     case Format::table:
-      emit(output, design_text(answer, style_for(output)));
+      emit(output, design_text(file, request, answer, style_for(output)));
       break;
     case Format::json:
-      emit(output, json_text(design_json(answer)));
+      emit(output, json_text(design_json(file, request, answer)));
       break;
     case Format::csv:
-      emit(output, design_csv(answer));
+      emit(output, design_csv(request, answer));
       break;
   }
   return answer.answer.feasible ? done : answer_is_no;

@@ -74,7 +74,7 @@ Figure drag(const PlotOptions& options) {
   const std::string name = logs.size() == 1 ? base_name(options.files.front())
                                             : std::to_string(logs.size()) + " flights";
   try {
-    const DragFlights fitted = fit_drag_flights(heading(options, name), logs, how);
+    const DragStudy fitted = study_drag(heading(options, name), logs, how);
     return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
   } catch (const UnsuitableFlight& error) {
     throw InputError(logs.size() == 1 ? options.files.front() : "drag", error.what());

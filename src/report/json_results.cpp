@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tethercalc/report/operating_point_fields.hpp"
+#include "tethercalc/io/operating_point_fields.hpp"
 
 namespace tethercalc {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tethercalc/io/operating_point_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/report/operating_point_fields.hpp"
 
 namespace tethercalc {
 namespace {

@@ -1,4 +1,4 @@
-#include "tethercalc/report/operating_point_fields.hpp"
+#include "tethercalc/io/operating_point_fields.hpp"
 
 #include <array>
 #include <cmath>
