@@ -11,12 +11,13 @@
 #include <stdexcept>
 
 #include "diagnose/power_effects.hpp"
+#include "diagnose/power_residuals.hpp"
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
 #include "diagnose/told_selection.hpp"
 #include "diagnose/unit_checks.hpp"
 #include "tethercalc/diagnose/channels.hpp"
-#include "tethercalc/diagnose/power_residuals.hpp"
+#include "tethercalc/model/flight_state.hpp"
 
 namespace tethercalc {
 namespace {
@@ -105,7 +106,7 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
         fmt::format("ambient_temperature_C is missing: the cable is taken to be at the spec's {:g} "
                     "°C before it "
                     "heats, so its resistivity may stand for the weather",
-                    design.tether.conductor_temperature_C));
+                    flight_state_at(design, 0, 0).ambient_temperature_C));
   }
   for (const auto& [name, values] :
        {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
@@ -127,29 +128,27 @@ bool acts_on(const Effect& effect, Stage compared) {
   }
 }
 
-ModelParameter in_SI(const EffectParameter& p, double start, bool shape_only) {
+ModelParameter in_SI(const EffectParameter& p, const Design& design) {
   ModelParameter m;
-  m.neutral = p.neutral * p.unit_SI;
-  m.lower = p.lower * p.unit_SI;
-  m.upper = p.upper * p.unit_SI;
+  m.neutral = p.in_design != nullptr ? p.in_design(design) : p.neutral * p.unit_SI;
+  m.lower = std::min(m.neutral, p.lower * p.unit_SI);
+  m.upper = std::max(m.neutral, p.upper * p.unit_SI);
   m.scale = p.scale * p.unit_SI;
-  m.start = std::clamp(start, m.lower, m.upper);
-  m.shape_only = shape_only;
+  m.start = m.neutral;
   return m;
 }
 
-ParameterGroup group_of(const Effect& effect, bool in_base) {
+ParameterGroup group_of(const Effect& effect, const Design& design, bool in_base) {
   ParameterGroup group;
   group.id = effect.id;
   group.role = in_base ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
-  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
-    const EffectParameter& p = effect.parameters[k];
-    const bool first = k == 0;
-    // The size of an effect starts one scale from neutral, what shapes it at its typical value.
-    const double start = first ? p.neutral + p.scale : p.neutral;
-    const bool shapes = !first && effect.id != "converter_efficiency_curve";
-    group.parameters.push_back(in_SI(p, start * p.unit_SI, shapes));
+  for (const EffectParameter& p : effect.parameters) {
+    group.parameters.push_back(in_SI(p, design));
+    group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
   }
+  // The size of an effect starts one scale from neutral, what shapes it at its typical value.
+  ModelParameter& size = group.parameters.front();
+  size.start = std::min(size.neutral + size.scale, size.upper);
   return group;
 }
 
@@ -220,11 +219,9 @@ class PowerProblem {
   void forget() { cache_.assign(cache_.size(), {}); }
 
  private:
-  static bool is_neutral(const Effect& effect, std::span<const double> own) {
-    // The first parameters are sizes; with them neutral the others change nothing.
-    const std::size_t sizes = effect.id == "converter_efficiency_curve" ? 2 : 1;
-    for (std::size_t k = 0; k < sizes; ++k) {
-      if (own[k] != effect.parameters[k].neutral * effect.parameters[k].unit_SI) return false;
+  [[nodiscard]] bool is_neutral(const Effect& effect, std::span<const double> own) const {
+    for (std::size_t k = 0; k < effect.sizes; ++k) {
+      if (own[k] != in_SI(effect.parameters[k], base_.design).neutral) return false;
     }
     return true;
   }
@@ -320,8 +317,8 @@ std::vector<ParameterEstimate> estimates(const Effect& effect, std::size_t first
     const EffectParameter& p = effect.parameters[k];
     const double value = fit.values[first + k] / p.unit_SI;
     const double half = student_factor * fit.standard_error[first + k] / p.unit_SI;
-    result.push_back(
-        {p.name, value, p.unit, std::max(value - half, p.lower), std::min(value + half, p.upper)});
+    result.push_back({p.name, value, p.unit, std::max(value - half, std::min(value, p.lower)),
+                      std::min(value + half, std::max(value, p.upper))});
   }
   return result;
 }
@@ -404,30 +401,6 @@ std::vector<double> left_by(const PowerResiduals& residuals, std::size_t k,
     left[i] = stage.usable[i] ? measured[i] - left[i] : std::numeric_limits<double>::quiet_NaN();
   }
   return left;
-}
-
-FlownRange flown_range(const PowerLog& log, const Design& design) {
-  FlownRange range;
-  range.airspeed = airspeed(design, design.requirements.power_at);
-  const auto n = static_cast<double>(log.time.size());
-  double square = 0;
-  for (const double i : log.supply_current) square += i * i;
-  range.current = std::sqrt(square / n);
-  range.ambient_temperature_C = design.tether.conductor_temperature_C;
-  if (!log.ambient_temperature_C.empty()) {
-    range.ambient_temperature_C = 0;
-    for (const double t : log.ambient_temperature_C) range.ambient_temperature_C += t / n;
-  }
-  if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
-    std::vector<double> power;
-    for (std::size_t i = 0; i < log.time.size(); ++i) {
-      power.push_back(log.bus_voltage[i] * log.bus_current[i]);
-    }
-    std::sort(power.begin(), power.end());
-    range.lowest_output = power[power.size() / 100];
-    range.highest_output = power[power.size() - 1 - power.size() / 100];
-  }
-  return range;
 }
 
 /// The effects of `catalogue` that the log can show; the others go to `diagnosis.not_testable`.
@@ -608,7 +581,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
-  const PowerModel base{design, {}, {}, 1};
+  const PowerModel base{design};
   ScreenedPowerLog screened = screen_power_log(base, log);
   const std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
   diagnosis.notes = screened.notes;
@@ -623,7 +596,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   for (const Effect* effect : effects) {
     const bool in_base =
         std::find(base_effects.begin(), base_effects.end(), effect->id) != base_effects.end();
-    problem.groups.push_back(group_of(*effect, in_base));
+    problem.groups.push_back(group_of(*effect, design, in_base));
   }
   problem.predict = [&view](std::span<const double> values, std::span<double> out) {
     view.predict(values, out);
@@ -643,8 +616,9 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   tell_aliased(searched, diagnosis);
   tell_unnamed(searched, diagnosis);
   compare_stages(searched, diagnosis);
-  result.extended =
-      lasting_design(model(selection.extended.values), flown_range(residuals.log(), design));
+  result.extended = model(selection.extended.values).design;
+  // What the payload draws less than nothing is another's error; a spec cannot hold it.
+  result.extended.drone.auxiliary_power = std::max(0.0, result.extended.drone.auxiliary_power);
   return result;
 }
 

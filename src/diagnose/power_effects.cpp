@@ -1,6 +1,6 @@
 #include "diagnose/power_effects.hpp"
 
-#include "tethercalc/diagnose/power_chain.hpp"
+#include "diagnose/power_chain.hpp"
 
 namespace tethercalc {
 namespace {
@@ -46,18 +46,20 @@ Effect conductor_heating() {
       "The cable warms above ambient by its own I²R, within minutes and less in the wind, and its "
       "resistance rises with the temperature.";
   e.stage = Stage::tether;
-  e.parameters = {{"heating_K_m_per_W", "K·m/W", 1, 0, 0, 200, 5, "tether.conductor_temperature_C"},
-                  {"time_constant_s", "s", 1, 200, 5, 3000, 100, ""},
-                  {"wind_cooling_sqrt_s_per_m", "(s/m)^0.5", 1, 0, 0, 3, 0.2, ""}};
+  e.parameters = {{"heating_K_m_per_W", "K·m/W", 1, 0, 0, 200, 5, "tether.heating.rise_K_m_per_W",
+                   [](const Design& d) { return d.tether.heating.rise_per_loss; }},
+                  {"time_constant_s", "s", 1, 200, 5, 3000, 100, "tether.heating.time_constant_s",
+                   [](const Design& d) { return d.tether.heating.time_constant; }},
+                  {"wind_cooling_sqrt_s_per_m", "(s/m)^0.5", 1, 0, 0, 3, 0.2,
+                   "tether.heating.wind_cooling_sqrt_s_per_m",
+                   [](const Design& d) { return d.tether.heating.wind_cooling; }}};
   e.needs = {"drone_voltage_V"};
   e.to_separate =
       "Hover at one height for ten minutes from a cold start: heating shows as a drift of the "
       "resistance, everything else does not.";
   e.change = "R = 2hρ(T)/A, τ·dT/dt = T_ambient + k·I²R′/(1 + c·√v) − T";
   e.channel = "time";
-  e.on_power = [](PowerModel& m, Values x) {
-    if (x[0] > 0) m.heating = ConductorHeating{x[0], x[1], x[2]};
-  };
+  e.on_power = [](PowerModel& m, Values x) { m.design.tether.heating = {x[0], x[1], x[2]}; };
   return e;
 }
 
@@ -102,15 +104,17 @@ Effect converter_efficiency_curve() {
       "A converter loses a fixed power and one that grows with the square of its output, so it is "
       "best at one load and worse below and above.";
   e.stage = Stage::converter;
-  e.parameters = {{"fixed_loss_W", "W", 1, 0, 0, 1000, 5, "supply.converter.efficiency"},
-                  {"square_loss_per_W", "1/W", 1, 0, 0, 0.02, 1e-5, "supply.converter.efficiency"}};
+  e.sizes = 2;
+  e.parameters = {
+      {"fixed_loss_W", "W", 1, 0, 0, 1000, 5, "supply.converter.losses.fixed_W",
+       [](const Design& d) { return d.supply.converter.losses.fixed; }},
+      {"square_loss_per_W", "1/W", 1, 0, 0, 0.02, 1e-5, "supply.converter.losses.square_per_W",
+       [](const Design& d) { return d.supply.converter.losses.square; }}};
   e.needs = {"drone_voltage_V", "bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_converter;
   e.change = "P_in = P_out + P_0 + c·P_out²";
   e.channel = "bus_power";
-  e.on_power = [](PowerModel& m, Values x) {
-    if (x[0] > 0 || x[1] > 0) m.converter_losses = ConverterLosses{x[0], x[1]};
-  };
+  e.on_power = [](PowerModel& m, Values x) { m.design.supply.converter.losses = {x[0], x[1]}; };
   return e;
 }
 
@@ -171,9 +175,11 @@ Effect translational_lift() {
       "airspeed.";
   e.stage = Stage::motors;
   e.parameters = {
-      {"induced_share", "1", 1, 0, 0, 0.95, 0.05, "drone.translational_lift.induced_share"},
+      {"induced_share", "1", 1, 0, 0, 0.95, 0.05, "drone.translational_lift.induced_share",
+       [](const Design& d) { return d.drone.translational_lift.induced_share; }},
       {"hover_induced_speed_m_s", "m/s", 1, 6, 3, 10, 2,
-       "drone.translational_lift.hover_induced_speed_m_s"}};
+       "drone.translational_lift.hover_induced_speed_m_s",
+       [](const Design& d) { return d.drone.translational_lift.hover_induced_speed; }}};
   e.needs = {"bus_voltage_V", "bus_current_A"};
   e.to_separate = to_separate_airspeed;
   e.change = "P·(1 − s·(1 − ν(v/v_h))), ν√((v/v_h)² + ν²) = 1";

@@ -1,4 +1,4 @@
-#include "tethercalc/diagnose/power_residuals.hpp"
+#include "diagnose/power_residuals.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -31,6 +31,13 @@ double robust_deviation(const std::vector<double>& x, const std::vector<char>& u
 /// vanish in them.
 double third_difference(const std::vector<double>& x, std::size_t i) {
   return (x[i + 3] - 3 * x[i + 2] + 3 * x[i + 1] - x[i]) / std::sqrt(20.0);
+}
+
+/// Input power in W per W of output. The curve is piecewise smooth: a difference over 1 W is its
+/// slope wherever it matters.
+double input_slope(const Converter& converter, double output) {
+  return converter_input_power(converter, output + 0.5) -
+         converter_input_power(converter, output - 0.5);
 }
 
 /// Height with its noise averaged out where the drone keeps it: over 81 samples, wherever both
@@ -300,7 +307,7 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
       in += a * a;
       out += b * b;
       both += a * b;
-      slope += converter_input(base, bus_power_[i]).slope;
+      slope += input_slope(base.design.supply.converter, bus_power_[i]);
       ++count;
     }
     if (count > 0) {
@@ -357,10 +364,11 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
     case Stage::converter:
       for (std::size_t i = 0; i < out.size(); ++i) {
         const double input = log.drone_voltage[i] * log.supply_current[i] / gain;
-        const ConverterInput needed = converter_input(model, bus_power_[i]);
-        const double variance =
-            input_variance_ / (gain * gain) + needed.slope * needed.slope * output_variance_;
-        out[i] = (input - model.design.drone.auxiliary_power - needed.power) /
+        const Converter& converter = model.design.supply.converter;
+        const double needed = converter_input_power(converter, bus_power_[i]);
+        const double slope = input_slope(converter, bus_power_[i]);
+        const double variance = input_variance_ / (gain * gain) + slope * slope * output_variance_;
+        out[i] = (input - model.design.drone.auxiliary_power - needed) /
                  (std::sqrt(variance) * stage.noise);
       }
       break;

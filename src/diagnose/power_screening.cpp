@@ -1,4 +1,4 @@
-#include "tethercalc/diagnose/power_screening.hpp"
+#include "diagnose/power_screening.hpp"
 
 #include <fmt/format.h>
 
@@ -140,8 +140,11 @@ double change_correlation(const std::vector<double>& a, const std::vector<double
   std::vector<double> da, db;
   for (std::size_t i = 1; i < a.size(); ++i) {
     if (!usable[i] || !usable[i - 1]) continue;
-    da.push_back(a[i] - a[i - 1]);
-    db.push_back(b[i] - b[i - 1]);
+    const double change_a = a[i] - a[i - 1];
+    const double change_b = b[i] - b[i - 1];
+    if (!std::isfinite(change_a + change_b)) continue;
+    da.push_back(change_a);
+    db.push_back(change_b);
   }
   if (da.size() < 8) return 0;
   const auto cut = [](std::vector<double>& d) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tethercalc/diagnose/power_residuals.hpp"
+#include "diagnose/power_residuals.hpp"
 #include "tethercalc/diagnose/selection.hpp"
 
 namespace tethercalc {

@@ -130,6 +130,17 @@ const std::array all_spec_fields{
         1,
         static_cast<std::optional<double>& (*)(Design&)>(
             [](Design& d) -> std::optional<double>& { return d.tether.ambient_temperature_C; })},
+    SpecField{"/tether/heating/rise_K_m_per_W", FieldKind::number, "K·m/W", between(0, 1000), "0",
+              "Measured rise of the conductor's temperature over that of the air, per loss of the "
+              "loop in still air; takes the place of the heat balance. 0: not measured.",
+              1, Number([](Design& d) -> double& { return d.tether.heating.rise_per_loss; })},
+    SpecField{"/tether/heating/time_constant_s", FieldKind::number, "s", above(0, 1e5), "200",
+              "Time in which the rise follows the loss; steady flight does not depend on it.", 1,
+              Number([](Design& d) -> double& { return d.tether.heating.time_constant; })},
+    SpecField{"/tether/heating/wind_cooling_sqrt_s_per_m", FieldKind::number, "(s/m)^0.5",
+              between(0, 100), "0",
+              "The rise is divided by 1 + this times the square root of the airspeed.", 1,
+              Number([](Design& d) -> double& { return d.tether.heating.wind_cooling; })},
     SpecField{"/tether/sun_W_m2", FieldKind::number, "W/m²", between(0, 1500), "0",
               "Sunlight across the tether in the air; matters with ambient_temperature_C.", 1,
               Number([](Design& d) -> double& { return d.tether.sun; })},
@@ -164,6 +175,13 @@ const std::array all_spec_fields{
               1, static_cast<Converter& (*)(Design&)>([](Design& d) -> Converter& {
                 return d.supply.converter;
               })},
+    SpecField{"/supply/converter/losses/fixed_W", FieldKind::number, "W", between(0, 1e5), "0",
+              "Power that the converter loses at any load. Where this or square_per_W is given, "
+              "input = output + fixed_W + square_per_W * output², and efficiency is not used.",
+              1, Number([](Design& d) -> double& { return d.supply.converter.losses.fixed; })},
+    SpecField{"/supply/converter/losses/square_per_W", FieldKind::number, "1/W", between(0, 1), "0",
+              "Loss that grows with the square of the output, over that square.", 1,
+              Number([](Design& d) -> double& { return d.supply.converter.losses.square; })},
     SpecField{"/supply/converter/min_input_voltage_V", FieldKind::number, "V", between(0, 1e4), "",
               "Voltage at its input below which the converter cuts off.", 1,
               Number([](Design& d) -> double& { return d.supply.converter.min_input_voltage; })},

@@ -104,14 +104,27 @@ double lowest_input_voltage(const Converter& converter) {
                   converter.min_output_voltage / *converter.fixed_ratio);
 }
 
+double input_with_losses(const ConverterLosses& losses, double output_power) {
+  // 0·∞ has no value.
+  if (std::isinf(output_power)) return output_power;
+  return output_power + losses.fixed + losses.square * output_power * output_power;
+}
+
 double efficiency_at(const Converter& converter, double output_power) {
+  if (has_losses(converter)) {
+    return output_power / input_with_losses(converter.losses, output_power);
+  }
   const EfficiencyPiece piece =
       piece_at(converter, output_power, [](const EfficiencyPoint& p) { return p.output_power; });
   return piece.slope == 0 ? piece.offset : piece.offset + piece.slope * output_power;
 }
 
 double converter_output_power(const Converter& converter, double input_power) {
-  if (!(input_power > 0)) return 0;
+  if (!(input_power > converter.losses.fixed)) return 0;
+  if (has_losses(converter)) {
+    const double rest = input_power - converter.losses.fixed;
+    return 2 * rest / (1 + std::sqrt(1 + 4 * converter.losses.square * rest));
+  }
   if (converter.efficiency.size() == 1) return input_power * converter.efficiency[0].efficiency;
   const EfficiencyPiece piece = piece_at(converter, input_power, input_at);
   // P_in = P_out/(offset + slope·P_out), solved for P_out.

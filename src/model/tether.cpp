@@ -16,7 +16,17 @@ bool is_heated(const Tether& tether) {
   return tether.ambient_temperature_C.has_value() || tether.heating.rise_per_loss > 0;
 }
 
-double settled_rise(const MeasuredHeating& heating, double loss, double airspeed) {
+Tether without_heat(Tether tether) {
+  tether.conductor_temperature_C =
+      tether.ambient_temperature_C.value_or(tether.conductor_temperature_C);
+  tether.ambient_temperature_C.reset();
+  tether.heating.rise_per_loss = 0;
+  return tether;
+}
+
+double settled_rise(const Tether& tether, double area, double current, double airspeed) {
+  const MeasuredHeating& heating = tether.heating;
+  const double loss = current * current * 2 * resistivity(tether.conductor, 20) / area;
   return heating.rise_per_loss * loss / (1 + heating.wind_cooling * std::sqrt(std::abs(airspeed)));
 }
 

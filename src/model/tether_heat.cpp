@@ -54,10 +54,9 @@ std::optional<TetherTemperatures> TetherHeat::temperatures(double current,
                                                            Surfaces& surfaces) const {
   const Tether& tether = flight_.design().tether;
   if (measured_) {
-    const double loss = current * current * 2 * resistivity(tether.conductor, 20) /
-                        (std::numbers::pi * radius_ * radius_);
+    const double area = std::numbers::pi * radius_ * radius_;
     const double temperature = flight_.state().ambient_temperature_C +
-                               settled_rise(tether.heating, loss, flight_.state().airspeed);
+                               settled_rise(tether, area, current, flight_.state().airspeed);
     if (!(temperature <= highest_conductor_temperature_C)) return std::nullopt;
     return TetherTemperatures{temperature, std::nullopt};
   }

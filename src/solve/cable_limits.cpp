@@ -126,11 +126,7 @@ IntervalSet in_square_metres(IntervalSet logarithms) {
 /// feasible here, since resistance only rises with temperature and thrust with mass. (Tilt falls
 /// with mass, so that its limit is not the light design's to judge.)
 Design without_limits(Design design) {
-  Tether& tether = design.tether;
-  if (tether.ambient_temperature_C) {
-    tether.conductor_temperature_C = *tether.ambient_temperature_C;
-    tether.ambient_temperature_C.reset();
-  }
+  design.tether = without_heat(design.tether);
   design.requirements.strength_safety_factor = 0;
   if (design.drone.reserve_battery.specific_energy > 0) {
     design.drone.reserve_battery.specific_energy = 0;
@@ -155,8 +151,7 @@ IntervalSet areas_without_limits(const Design& design, const Design& cold) {
 }  // namespace
 
 bool has_cable_limits(const Design& design) {
-  return design.tether.ambient_temperature_C.has_value() ||
-         design.requirements.strength_safety_factor > 0 ||
+  return is_heated(design.tether) || design.requirements.strength_safety_factor > 0 ||
          design.drone.reserve_battery.specific_energy > 0 ||
          design.supply.converter.rated_output_power.has_value();
 }
@@ -165,7 +160,7 @@ BestHeadroom best_headroom(const Design& design, Condition condition) {
   const SteadyFlight flight(design, condition);
   const BestHeadroom bare = best_headroom(flight);
   const bool depends_on_area =
-      design.tether.ambient_temperature_C || design.drone.reserve_battery.specific_energy > 0;
+      is_heated(design.tether) || design.drone.reserve_battery.specific_energy > 0;
   if (!depends_on_area || !(bare.value > 0)) return bare;
   const auto headroom = [&](double log_area) {
     const double value = evaluate(flight, std::exp(log_area)).headroom;

@@ -178,7 +178,7 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
     return within_motors(flight, thrust_at(flight, radius, 0));
   };
   ThrustAt best;
-  if (design.supply.converter.efficiency.size() > 1) {
+  if (!is_proportional(design.supply.converter)) {
     best = search_every_piece(flight, at_radius(radii.lo), at_radius(radii.hi));
   } else {
     const double thrust =
@@ -205,7 +205,7 @@ MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
 
 bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
   const Design& design = flight.design();
-  if (design.supply.converter.efficiency.size() > 1) return false;
+  if (!is_proportional(design.supply.converter)) return false;
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
   if (beyond.lo < beyond.hi) return false;
   const MotorCurve& motor = design.drone.motor;

@@ -89,12 +89,10 @@ bool has_lower_bound(const DesignProblem& problem) {
 double lower_bound(Design design, const PointQuantity& objective) {
   const Condition condition = condition_of(objective, design.requirements);
   design.requirements.max_pitch = 89.99 * unit::degree;
-  Tether& tether = design.tether;
+  Tether& tether = design.tether = without_heat(design.tether);
   tether.length = 1e-6;
   tether.spooled_length = 0;
   tether.winch_pull = 0;
-  tether.ambient_temperature_C.reset();
-  tether.heating = {};
   const OperatingPoint bare = evaluate(design, 1e-9, condition);
   constexpr double rounding = 1e-6;
   if (std::isfinite(bare.drone_power)) return bare.drone_power * (1 - rounding);

@@ -72,3 +72,18 @@ TEST_CASE("a converter weighs what its table says, between and beyond the points
                   std::invalid_argument);
   CHECK_THROWS_AS(validate(std::vector<ConverterMassPoint>{{0, 0.2}}), std::invalid_argument);
 }
+
+TEST_CASE(
+    "a converter known by its losses draws output, fixed part and square, and gives them back") {
+  Converter converter{{{0.0, 0.5}}};
+  converter.losses = {15, 1.5e-4};
+  // 400 W: 15 W fixed and 1.5e-4·160 000 W = 24 W in the windings.
+  CHECK(converter_input_power(converter, 400) == Approx(439).epsilon(1e-14));
+  CHECK(efficiency_at(converter, 400) == Approx(400.0 / 439).epsilon(1e-14));
+  CHECK(converter_output_power(converter, 439) == Approx(400).epsilon(1e-14));
+  CHECK(converter_output_power(converter, 14.9) == 0);
+  CHECK(std::isinf(converter_input_power(converter, std::numeric_limits<double>::infinity())));
+  converter.losses = {15, 0};
+  CHECK(converter_output_power(converter, 115) == Approx(100).epsilon(1e-14));
+  CHECK(std::isinf(converter_input_power(converter, std::numeric_limits<double>::infinity())));
+}

@@ -10,6 +10,7 @@
 
 namespace tethercalc {
 
+struct Design;            // model/design.hpp
 struct FlightPrediction;  // diagnose/flight_prediction.hpp
 struct PowerModel;        // diagnose/power_chain.hpp
 
@@ -37,6 +38,8 @@ struct EffectParameter {
   double scale = 1;    ///< a change that matters
   std::string
       spec_field{};  ///< JSON path in the design spec that takes it; empty: ends with the flight
+  /// The neutral value, in SI, where a design has one of its own; null: `neutral` for every design.
+  double (*in_design)(const Design&) = nullptr;
 };
 
 /// One entry.
@@ -47,6 +50,7 @@ struct Effect {
   LogKind log = LogKind::flight;              ///< which log can show it
   Stage stage = Stage::airframe;              ///< where it acts
   std::vector<EffectParameter> parameters{};  ///< its size first
+  std::size_t sizes = 1;  ///< so many; with them neutral the other parameters change nothing
   std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as
                                      ///< in the log
   std::string to_separate{};         ///< what flight or channel tells it from its like

@@ -18,6 +18,14 @@ struct ConverterMassPoint {
   double mass = 0;                ///< kg, ≥ 0
 };
 
+/// A converter by its losses: input = output + fixed + square·output². The fixed part drives the
+/// switches, the square one heats the windings (Erickson and Maksimović, Fundamentals of Power
+/// Electronics, 3rd ed., section 4.3).
+struct ConverterLosses {
+  double fixed = 0;   ///< W, ≥ 0
+  double square = 0;  ///< 1/W, ≥ 0
+};
+
 /// A converter by its efficiency over load and the input voltage at which it cuts off.
 ///
 /// Efficiency is linear between the points and constant outside them; a single point is a constant
@@ -33,6 +41,8 @@ struct Converter {
   std::vector<ConverterMassPoint> masses{};    ///< by rising power; where given, instead of that
   std::optional<double> fixed_ratio{};  ///< output over input voltage, where that does not vary
   double min_output_voltage = 0;        ///< V that the motors need of a fixed-ratio converter
+
+  ConverterLosses losses{};  ///< take the place of the efficiency where they are not both 0
 };
 
 /// Mass in kg for the rated output: from the table `masses`, linear between its points, that of the
@@ -56,17 +66,31 @@ void validate(const std::vector<ConverterMassPoint>& masses);
 /// regulate it.
 [[nodiscard]] double converter_output_voltage(const Converter& converter, double input_voltage);
 
+/// Whether the converter is known by its losses.
+[[nodiscard]] inline bool has_losses(const Converter& converter) {
+  return converter.losses.fixed > 0 || converter.losses.square > 0;
+}
+
+/// Whether its input is proportional to its output.
+[[nodiscard]] inline bool is_proportional(const Converter& converter) {
+  return converter.efficiency.size() == 1 && !has_losses(converter);
+}
+
 /// Efficiency at `output_power` in W (≥ 0).
 [[nodiscard]] double efficiency_at(const Converter& converter, double output_power);
 
+/// Input power in W that yields `output_power` in W, where the converter has losses.
+[[nodiscard]] double input_with_losses(const ConverterLosses& losses, double output_power);
+
 /// Input power in W that yields `output_power` in W (≥ 0). +infinity stays +infinity.
 [[nodiscard]] inline double converter_input_power(const Converter& converter, double output_power) {
-  return output_power / (converter.efficiency.size() == 1 ? converter.efficiency[0].efficiency
-                                                          : efficiency_at(converter, output_power));
+  if (is_proportional(converter)) return output_power / converter.efficiency[0].efficiency;
+  return has_losses(converter) ? input_with_losses(converter.losses, output_power)
+                               : output_power / efficiency_at(converter, output_power);
 }
 
 /// Output power in W made of `input_power` in W: the inverse of `converter_input_power`. 0 where
-/// input_power ≤ 0.
+/// that is not more than the converter takes for itself.
 [[nodiscard]] double converter_output_power(const Converter& converter, double input_power);
 
 }  // namespace tethercalc

@@ -79,10 +79,6 @@ struct MeasuredHeating {
   double wind_cooling = 0;     ///< (s/m)^½, ≥ 0
 };
 
-/// Settled rise over the air in K: rise_per_loss·`loss`/(1 + wind_cooling·√|v|), `loss` in W per
-/// metre of loop with its conductors at 20 °C, v = `airspeed` in m/s.
-[[nodiscard]] double settled_rise(const MeasuredHeating& heating, double loss, double airspeed);
-
 /// The cable as bought and laid, but for its cross-section where that is still to be found.
 struct Tether {
   double length = 0;          ///< m in the air, h; also the flight height
@@ -108,6 +104,15 @@ struct Tether {
 
 /// Whether the current warms the tether: an ambient temperature or a measured heating is set.
 [[nodiscard]] bool is_heated(const Tether& tether);
+
+/// The tether with its conductors as warm as the air, whatever current they carry.
+[[nodiscard]] Tether without_heat(Tether tether);
+
+/// Measured rise over the air in K that settles at `current` A in conductors of `area` m²:
+/// rise_per_loss·loss/(1 + wind_cooling·√|v|), the loss in W per metre of loop with its conductors
+/// at 20 °C, v = `airspeed` in m/s.
+[[nodiscard]] double settled_rise(const Tether& tether, double area, double current,
+                                  double airspeed);
 
 /// Resistivity in Ω·m at `temperature` in °C: ρ = ρ20·(1 + α(T − 20 °C)) (IEC 60287-1-1, 2.1.1).
 [[nodiscard]] double resistivity(const Conductor& conductor, double temperature_C);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/power_chain.hpp"
+#include "diagnose/power_screening.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
-#include "tethercalc/diagnose/power_chain.hpp"
-#include "tethercalc/diagnose/power_screening.hpp"
 
 namespace tethercalc {
 

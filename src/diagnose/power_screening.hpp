@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tethercalc/diagnose/power_chain.hpp"
+#include "diagnose/power_chain.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 
 namespace tethercalc {

@@ -1,0 +1,29 @@
+// What the instruments of a power log should have read: the one simulation in the flight state of
+// every sample, stage by stage, each stage from the quantities that were measured before it.
+#pragma once
+
+#include <vector>
+
+#include "tethercalc/diagnose/power_log.hpp"
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// A design as it flew, and what its instruments made of it.
+struct PowerModel {
+  Design design;                   ///< with a cable cross-section
+  double supply_current_gain = 1;  ///< the ground ammeter's reading over the truth
+};
+
+/// Loop resistance in Ω at every sample, the deployed length being the height; see
+/// `flight_state_at` for the cable on a drum and the temperature of the air. A heated cable is as
+/// warm as the current of the log makes it: where its heating was measured it follows with its time
+/// constant from a cold start, otherwise at once. NaN where it would be too hot for any insulation.
+[[nodiscard]] std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log);
+
+/// Power in W at the bus in steady flight at every sample's height and airspeed. Above the motors'
+/// largest thrust their curve is continued straight, and the design's limit of the tilt does not
+/// count, so that the value stays finite: a log shows what was flown. NaN beyond a tilt of 80°.
+[[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
+
+}  // namespace tethercalc
