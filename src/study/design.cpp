@@ -217,7 +217,8 @@ std::vector<FrontPoint> pareto_front(DesignProblem problem,
                                      const std::array<CandidateQuantity, 2>& wanted,
                                      const MinimumOptions& search) {
   std::vector<FrontPoint> front;
-  const auto& [first, second] = wanted;
+  const CandidateQuantity& first = wanted[0];
+  const CandidateQuantity& second = wanted[1];
   problem.objective = first;
   const DesignAnswer best_first = search_design(problem, search);
   problem.objective = second;
