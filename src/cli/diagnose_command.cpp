@@ -65,13 +65,7 @@ void check_base(const DiagnoseOptions& options) {
 
 LoggedFlight read_flight(const DiagnoseOptions& options, std::vector<std::string>& notes) {
   LoggedFlight flight;
-  if (options.flight.mass_g) {
-    if (!(*options.flight.mass_g >= 1 && *options.flight.mass_g <= 1e6)) {
-      throw InputError("--mass-g", fmt::format("{} is out of range; allowed is 1 to 1000000 g",
-                                               *options.flight.mass_g));
-    }
-    flight.mass = *options.flight.mass_g * unit::gram;
-  }
+  flight.mass = flown_mass(options.flight);
   flight.air_density = air_density(options.flight);
   flight.options.base = base_effects(options, LogKind::flight);
   flight.options.pitch_offset = pitch_offset(options.flight);
@@ -101,25 +95,26 @@ DiagnosisStudy studied(const DiagnoseOptions& options, const DiagnosisQuestion& 
   }
 }
 
-std::string answer(const ToldDiagnosis& told, const Output& output) {
+void tell(const ToldDiagnosis& told, const Output& output) {
   const Diagnosis& only = told.power ? *told.power : *told.flight;
   const bool both = told.flight && told.power;
-  switch (output.format) {
-    case Format::json:
-      return json_text(both ? joint_diagnosis_json(*told.flight, *told.power, told.extended)
-                            : diagnosis_json(only, told.extended));
-    case Format::csv: {
-      std::vector<Finding> findings = only.findings;
-      if (both) {
-        findings.insert(findings.begin(), told.flight->findings.begin(),
-                        told.flight->findings.end());
-      }
-      return diagnosis_csv(findings);
-    }
-    default:
-      return both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
-                  : diagnosis_text(only, style_for(output));
-  }
+  emit(
+      output,
+      [&] {
+        return both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
+                    : diagnosis_text(only, style_for(output));
+      },
+      [&] {
+        return both ? joint_diagnosis_json(*told.flight, *told.power, told.extended)
+                    : diagnosis_json(only, told.extended);
+      },
+      [&] {
+        std::vector<Finding> findings = told.flight ? told.flight->findings : only.findings;
+        if (both) {
+          findings.insert(findings.end(), told.power->findings.begin(), told.power->findings.end());
+        }
+        return diagnosis_csv(findings);
+      });
 }
 
 /// Refuses to write the extended spec over what it is made from.
@@ -166,7 +161,7 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
     return done;
   }
   if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.extended));
-  emit(output, answer(told, output));
+  tell(told, output);
   return done;
 }
 

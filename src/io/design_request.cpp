@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "io/closest_name.hpp"
-#include "tethercalc/io/operating_point_fields.hpp"
+#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tethercalc/io/operating_point_fields.hpp"
+#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"

@@ -17,13 +17,6 @@ void record(const Design& design, std::optional<double>& area, std::optional<dou
   power = (hover ? result.hover : result.forward).total_power;
 }
 
-DesignImpact design_impact(const Design& before, const Design& after) {
-  DesignImpact impact;
-  record(before, impact.cross_section_mm2.before, impact.total_power_W.before);
-  record(after, impact.cross_section_mm2.after, impact.total_power_W.after);
-  return impact;
-}
-
 Diagnosis flight_diagnosis(Design design, const LoggedFlight& flight,
                            const SelectionProgress& progress) {
   if (flight.mass) design.drone.mass = *flight.mass;
@@ -60,6 +53,13 @@ AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& chan
 }
 
 }  // namespace
+
+DesignImpact design_impact(const Design& before, const Design& after) {
+  DesignImpact impact;
+  record(before, impact.cross_section_mm2.before, impact.total_power_W.before);
+  record(after, impact.cross_section_mm2.after, impact.total_power_W.after);
+  return impact;
+}
 
 DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
                                const SelectionProgress& progress) {

@@ -7,7 +7,7 @@
 #include "support/gnuplot.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/operating_point_fields.hpp"
+#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 

@@ -90,3 +90,16 @@ TEST_CASE("a price lets everything that is free adapt, choices too") {
   }
   FAIL("no price of mass");
 }
+
+TEST_CASE("the condition in which power is judged may be free") {
+  DesignQuestion question;
+  question.problem.base = test::published_design();
+  question.problem.free = {
+      {"requirements.power_at", NamedChoices{{"forward", "hover"}}, [](Design& d, double which) {
+         d.requirements.power_at = which == 0 ? Condition::forward : Condition::hover;
+       }}};
+  // Both are limited by the headroom at 1.0886 mm², where hover takes the published 405.4 W.
+  const DesignAnswer answer = study_design(question).answer;
+  CHECK(answer.values == std::vector<double>{1});
+  CHECK(answer.minimum.value == Approx(405.4).margin(0.1));
+}

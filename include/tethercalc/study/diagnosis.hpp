@@ -53,6 +53,10 @@ class UnsuitableLog : public std::invalid_argument {
   LogKind kind_;
 };
 
+/// Optimum cross-section and the supply power there, in the condition of `requirements.power_at`,
+/// of the design as it was and as extended; empty where a design has no feasible cross-section.
+[[nodiscard]] DesignImpact design_impact(const Design& before, const Design& after);
+
 /// Compares each log with the design as it stands. Drag that a flight shows directly outranks what
 /// the power at the motors says of it. Throws UnsuitableLog.
 [[nodiscard]] DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
