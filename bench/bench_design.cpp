@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "tethercalc/io/design_request.hpp"
 #include "tethercalc/io/library.hpp"
-#include "tethercalc/report/design_study.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ void whole_design_study(benchmark::State& state) {
                               "",
                               {},
                               1};
-  for (auto _ : state) benchmark::DoNotOptimize(study_design(file, request));
+  for (auto _ : state) benchmark::DoNotOptimize(study_design(read_design_request(file, request)));
 }
 BENCHMARK(whole_design_study)->Unit(benchmark::kMillisecond);
 

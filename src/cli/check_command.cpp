@@ -7,22 +7,6 @@
 #include "tethercalc/report/reference_check.hpp"
 
 namespace tethercalc::cli {
-namespace {
-
-std::string answer_text(const std::vector<ReferenceCheck>& checks, const CheckOptions& options,
-                        const Output& output) {
-  switch (output.format) {
-    case Format::json:
-      return json_text(check_json(checks));
-    case Format::csv:
-      return check_csv(checks);
-    default:
-      return check_text(checks, options.update, style_for(output));
-  }
-}
-
-}  // namespace
-
 int run_check(const CheckOptions& options, const Output& output) {
   std::vector<ReferenceCheck> checks;
   for (const auto& spec : reference_specs(options.paths)) checks.push_back(check_reference(spec));
@@ -37,7 +21,9 @@ int run_check(const CheckOptions& options, const Output& output) {
   if (options.update) {
     for (const ReferenceCheck& check : checks) update_record(check);
   }
-  emit(output, answer_text(checks, options, output));
+  emit(
+      output, [&] { return check_text(checks, options.update, style_for(output)); },
+      [&] { return check_json(checks); }, [&] { return check_csv(checks); });
   const bool passed = std::all_of(checks.begin(), checks.end(),
                                   [](const ReferenceCheck& check) { return check.passed(); });
   return passed || options.update ? done : answer_is_no;

@@ -36,17 +36,9 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
 int run_optimize(const SpecOptions& spec, const Output& output) {
   const DesignFile file = read(spec);
   const OptimumStudy answer = study_optimum(file.design, wire_sizes());
-  switch (output.format) {
-    case Format::table:
-      emit(output, optimize_text(file, answer, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(optimize_json(file, answer)));
-      break;
-    case Format::csv:
-      emit(output, optimize_csv(answer));
-      break;
-  }
+  emit(
+      output, [&] { return optimize_text(file, answer, style_for(output)); },
+      [&] { return optimize_json(file, answer); }, [&] { return optimize_csv(answer); });
   return answer.result.feasible ? done : answer_is_no;
 }
 
@@ -61,17 +53,9 @@ int run_evaluate(const EvaluateOptions& options, const Output& output) {
     areas.push_back(*file.design.tether.cross_section);
   }
   const std::vector<AreaPoints> table = evaluate_areas(file.design, areas);
-  switch (output.format) {
-    case Format::table:
-      emit(output, evaluate_text(file, table, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(evaluate_json(file, table)));
-      break;
-    case Format::csv:
-      emit(output, evaluate_csv(table));
-      break;
-  }
+  emit(
+      output, [&] { return evaluate_text(file, table, style_for(output)); },
+      [&] { return evaluate_json(file, table); }, [&] { return evaluate_csv(table); });
   return done;
 }
 
@@ -79,17 +63,9 @@ int run_compare(const CompareOptions& options, const Output& output) {
   const DesignFile file = read(options.spec);
   const std::vector<MotorOptimum> ranking =
       compare_motors(file.design, chosen_motors(options.motors));
-  switch (output.format) {
-    case Format::table:
-      emit(output, compare_text(file, ranking, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(compare_json(file, ranking)));
-      break;
-    case Format::csv:
-      emit(output, compare_csv(ranking));
-      break;
-  }
+  emit(
+      output, [&] { return compare_text(file, ranking, style_for(output)); },
+      [&] { return compare_json(file, ranking); }, [&] { return compare_csv(ranking); });
   return !ranking.empty() && ranking.front().result.feasible ? done : answer_is_no;
 }
 
@@ -125,17 +101,9 @@ int run_init(const Output& output) {
 
 int run_list(const std::string& what, const Output& output) {
   const LibraryListing listing = list_library(what);
-  switch (output.format) {
-    case Format::table:
-      emit(output, listing_text(listing, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(listing_json(listing)));
-      break;
-    case Format::csv:
-      emit(output, listing_csv(listing));
-      break;
-  }
+  emit(
+      output, [&] { return listing_text(listing, style_for(output)); },
+      [&] { return listing_json(listing); }, [&] { return listing_csv(listing); });
   return done;
 }
 

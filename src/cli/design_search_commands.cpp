@@ -3,23 +3,18 @@
 #include <nlohmann/json.hpp>
 
 #include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/envelope_report.hpp"
 
 namespace tethercalc::cli {
 
 int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output) {
-  const DesignStudy answer = study_design(read_design(spec.file, spec.overrides), request);
-  switch (output.format) {
-    case Format::table:
-      emit(output, design_text(answer, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(design_json(answer)));
-      break;
-    case Format::csv:
-      emit(output, design_csv(answer));
-      break;
-  }
+  const DesignFile file = read_design(spec.file, spec.overrides);
+  const DesignStudy answer = study_design(read_design_request(file, request));
+  emit(
+      output, [&] { return design_text(file, request, answer, style_for(output)); },
+      [&] { return design_json(file, request, answer); },
+      [&] { return design_csv(request, answer); });
   return answer.answer.feasible ? done : answer_is_no;
 }
 
@@ -35,17 +30,9 @@ int run_envelope(const EvaluateOptions& options, const Output& output) {
     throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
   }
   const EnvelopeStudy answer = study_envelope(file.design);
-  switch (output.format) {
-    case Format::table:
-      emit(output, envelope_text(file, answer, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(envelope_json(file, answer)));
-      break;
-    case Format::csv:
-      emit(output, envelope_csv(answer));
-      break;
-  }
+  emit(
+      output, [&] { return envelope_text(file, answer, style_for(output)); },
+      [&] { return envelope_json(file, answer); }, [&] { return envelope_csv(answer); });
   return answer.any() ? done : answer_is_no;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/design_commands.hpp"
-#include "tethercalc/report/design_study.hpp"
+#include "tethercalc/io/design_request.hpp"
 
 namespace tethercalc::cli {
 

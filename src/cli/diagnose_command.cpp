@@ -12,20 +12,15 @@
 #include <vector>
 
 #include "io/closest_name.hpp"
-#include "tethercalc/diagnose/catalogue.hpp"
-#include "tethercalc/diagnose/design_impact.hpp"
-#include "tethercalc/diagnose/flight_diagnosis.hpp"
-#include "tethercalc/diagnose/power_diagnosis.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
-#include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
+#include "tethercalc/study/diagnosis.hpp"
 
 namespace tethercalc::cli {
 namespace {
-
-using nlohmann::ordered_json;
 
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
@@ -68,107 +63,58 @@ void check_base(const DiagnoseOptions& options) {
   }
 }
 
-/// `document` with every number, converter curve and resistivity in which `extended` differs from
-/// the design of `file`. With `keep_drag` the drag block stays as it is.
-ordered_json with_changes(ordered_json document, const DesignFile& file, const Design& extended,
-                          bool keep_drag) {
-  for (const SpecField& field : spec_fields()) {
-    if (keep_drag && field.pointer.starts_with("/drone/drag/")) continue;
-    const auto before = field_value(file.design, field);
-    const auto after = field_value(extended, field);
-    if (after && before != after) {
-      document[ordered_json::json_pointer(std::string(field.pointer))] = *after;
-    }
-  }
-  const auto& curve = extended.supply.converter.efficiency;
-  const auto& old_curve = file.design.supply.converter.efficiency;
-  const bool same_curve =
-      std::equal(curve.begin(), curve.end(), old_curve.begin(), old_curve.end(),
-                 [](const EfficiencyPoint& a, const EfficiencyPoint& b) {
-                   return a.output_power == b.output_power && a.efficiency == b.efficiency;
-                 });
-  if (curve.size() > 1 && !same_curve) {
-    ordered_json points = ordered_json::array();
-    for (const EfficiencyPoint& point : curve) {
-      points.push_back({{"output_W", point.output_power}, {"efficiency", point.efficiency}});
-    }
-    document["supply"]["converter"]["efficiency"] = points;
-  }
-  const Conductor& conductor = extended.tether.conductor;
-  if (conductor.resistivity_20C != file.design.tether.conductor.resistivity_20C) {
-    document["tether"]["conductor"] = {
-        {"id", file.conductor.id + "-as-measured"},
-        {"name", file.conductor.name + ", resistivity as measured"},
-        {"source", "diagnosis of a power log"},
-        {"resistivity_20C_ohm_mm2_per_m",
-         conductor.resistivity_20C / unit::ohm_square_millimetre_per_metre},
-        {"temperature_coefficient_per_K", conductor.temperature_coefficient},
-        {"density_g_cm3", conductor.density / unit::gram_per_cubic_centimetre}};
-  }
-  return document;
-}
-
-Diagnosis flight_diagnosis(const DiagnoseOptions& options, const DesignFile& file) {
-  Design flown = file.design;
-  if (options.flight.mass_g) {
-    if (!(*options.flight.mass_g >= 1 && *options.flight.mass_g <= 1e6)) {
-      throw InputError("--mass-g", fmt::format("{} is out of range; allowed is 1 to 1000000 g",
-                                               *options.flight.mass_g));
-    }
-    flown.drone.mass = *options.flight.mass_g * unit::gram;
-  }
-  if (const auto density = air_density(options.flight)) flown.flight.air_density = *density;
-  FlightDiagnosisOptions how;
-  how.base = base_effects(options, LogKind::flight);
-  how.pitch_offset = pitch_offset(options.flight);
+LoggedFlight read_flight(const DiagnoseOptions& options, std::vector<std::string>& notes) {
+  LoggedFlight flight;
+  flight.mass = flown_mass(options.flight);
+  flight.air_density = air_density(options.flight);
+  flight.options.base = base_effects(options, LogKind::flight);
+  flight.options.pitch_offset = pitch_offset(options.flight);
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
-  const FlightLogReading reading = read_flight_log(
+  FlightLogReading reading = read_flight_log(
       options.flight_log, {.core = options.flight.core, .level_where_missing = true});
+  notes = std::move(reading.notes);
+  flight.log = std::move(reading.log);
   try {
-    if (from || to) how.range = select_range(reading.log, from, to);
-    Diagnosis d = diagnose_flight(flown, reading.log, how, progress_line());
-    clear_progress();
-    d.notes.insert(d.notes.begin(), reading.notes.begin(), reading.notes.end());
-    return d;
+    if (from || to) flight.options.range = select_range(flight.log, from, to);
   } catch (const std::invalid_argument& error) {
-    clear_progress();
     throw InputError(options.flight_log, error.what());
   }
+  return flight;
 }
 
-PowerDiagnosis power_diagnosis(const DiagnoseOptions& options, const DesignFile& file) {
-  const PowerLog log = read_power_log(options.power_log);
+DiagnosisStudy studied(const DiagnoseOptions& options, const DiagnosisQuestion& question) {
   try {
-    PowerDiagnosis found =
-        diagnose_power(file.design, log, base_effects(options, LogKind::power), progress_line());
+    DiagnosisStudy study = study_diagnosis(question, progress_line());
     clear_progress();
-    return found;
-  } catch (const std::invalid_argument& error) {
+    return study;
+  } catch (const UnsuitableLog& error) {
     clear_progress();
-    throw InputError(options.power_log, error.what());
+    throw InputError(error.kind() == LogKind::flight ? options.flight_log : options.power_log,
+                     error.what());
   }
 }
 
-std::string answer(const ToldDiagnosis& told, const Output& output) {
+void tell(const ToldDiagnosis& told, const Output& output) {
   const Diagnosis& only = told.power ? *told.power : *told.flight;
   const bool both = told.flight && told.power;
-  switch (output.format) {
-    case Format::json:
-      return json_text(both ? joint_diagnosis_json(*told.flight, *told.power, told.extended)
-                            : diagnosis_json(only, told.extended));
-    case Format::csv: {
-      std::vector<Finding> findings = only.findings;
-      if (both) {
-        findings.insert(findings.begin(), told.flight->findings.begin(),
-                        told.flight->findings.end());
-      }
-      return diagnosis_csv(findings);
-    }
-    default:
-      return both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
-                  : diagnosis_text(only, style_for(output));
-  }
+  emit(
+      output,
+      [&] {
+        return both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
+                    : diagnosis_text(only, style_for(output));
+      },
+      [&] {
+        return both ? joint_diagnosis_json(*told.flight, *told.power, told.extended)
+                    : diagnosis_json(only, told.extended);
+      },
+      [&] {
+        std::vector<Finding> findings = told.flight ? told.flight->findings : only.findings;
+        if (both) {
+          findings.insert(findings.end(), told.power->findings.begin(), told.power->findings.end());
+        }
+        return diagnosis_csv(findings);
+      });
 }
 
 /// Refuses to write the extended spec over what it is made from.
@@ -186,30 +132,24 @@ void check_into(const DiagnoseOptions& options) {
 }  // namespace
 
 ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
-  ToldDiagnosis told{{}, {}, file.document};
   if (options.flight_log.empty() && options.power_log.empty()) {
     throw InputError("diagnose", "needs a measured log: --flight LOG, --power LOG or both");
   }
   check_base(options);
-  if (!options.flight_log.empty()) {
-    told.flight = flight_diagnosis(options, file);
-    told.extended = extended_spec(told.extended, *told.flight);
-  }
+  DiagnosisQuestion question{file.design};
+  std::vector<std::string> notes;
+  if (!options.flight_log.empty()) question.flight = read_flight(options, notes);
   if (!options.power_log.empty()) {
-    PowerDiagnosis found = power_diagnosis(options, file);
-    const bool drag_known = told.flight && !told.flight->spec_changes.empty();
-    told.extended = with_changes(told.extended, file, found.extended, drag_known);
-    told.power = std::move(found.diagnosis);
+    question.power = {read_power_log(options.power_log), base_effects(options, LogKind::power)};
   }
-  if (told.flight && told.power) {
-    // What a flight can never show the power log may.
-    std::erase_if(told.flight->not_identifiable, [](const NotIdentifiable& n) {
-      return find_effect(n.effect)->log == LogKind::power;
-    });
+  DiagnosisStudy study = studied(options, question);
+  if (study.flight) {
+    study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
   }
-  const DesignFile after = read_design_document(told.extended, file.file, file.folder);
-  (told.power ? told.power : told.flight)->design_impact = design_impact(file.design, after.design);
-  return told;
+  // Checked as if a person had written it.
+  const DesignFile extended =
+      read_design_document(spec_with(file, study.extended), file.file, file.folder);
+  return {std::move(study.flight), std::move(study.power), extended.document};
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
@@ -221,7 +161,7 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
     return done;
   }
   if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.extended));
-  emit(output, answer(told, output));
+  tell(told, output);
   return done;
 }
 

@@ -47,6 +47,15 @@ double pitch_offset(const FlightOptions& options) {
   }
 }
 
+std::optional<double> flown_mass(const FlightOptions& options) {
+  if (!options.mass_g) return std::nullopt;
+  if (!(*options.mass_g >= 1 && *options.mass_g <= 1e6)) {
+    throw InputError("--mass-g", fmt::format("{:g} is out of range; allowed is 1 to 1000000 g",
+                                             *options.mass_g));
+  }
+  return *options.mass_g * unit::gram;
+}
+
 std::optional<double> air_density(const FlightOptions& options) {
   const auto in_range = [](const char* option, double value, double least, double most,
                            const char* unit_name) {

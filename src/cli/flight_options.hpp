@@ -31,6 +31,9 @@ struct FlightOptions {
 /// rad: given, from the trim log, or 0.
 [[nodiscard]] double pitch_offset(const FlightOptions& options);
 
+/// The mass in kg that was given, if any. Throws InputError where it is out of range.
+[[nodiscard]] std::optional<double> flown_mass(const FlightOptions& options);
+
 /// kg/m³: given, or from pressure and temperature; nothing where neither was. Throws InputError for
 /// impossible values, half a pair, or both.
 [[nodiscard]] std::optional<double> air_density(const FlightOptions& options);

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tethercalc/identify/drag_identification.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"
@@ -16,17 +15,6 @@
 
 namespace tethercalc::cli {
 namespace {
-
-double checked_mass(const std::optional<double>& mass_g) {
-  if (!mass_g) {
-    throw InputError("--mass-g", "is needed: drag is force, the log knows only accelerations");
-  }
-  if (!(*mass_g >= 1 && *mass_g <= 1e6)) {
-    throw InputError("--mass-g",
-                     fmt::format("{:g} is out of range; allowed is 1 to 1000000 g", *mass_g));
-  }
-  return *mass_g * unit::gram;
-}
 
 /// The spec with its drag replaced, checked as if a person had edited it.
 std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
@@ -66,23 +54,19 @@ int run_log(const std::string& file, const std::string& message, const Output& o
     return done;
   }
   const LogSummary summary = summarize_log(log.bytes());
-  switch (output.format) {
-    case Format::table:
-      emit(output, log_text(summary, file, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(log_json(summary, file)));
-      break;
-    case Format::csv:
-      emit(output, log_csv(summary));
-      break;
-  }
+  emit(
+      output, [&] { return log_text(summary, file, style_for(output)); },
+      [&] { return log_json(summary, file); }, [&] { return log_csv(summary); });
   return done;
 }
 
 DragIdentificationOptions identification_options(const FlightOptions& flight) {
   DragIdentificationOptions options;
-  options.conditions.mass = checked_mass(flight.mass_g);
+  const auto mass = flown_mass(flight);
+  if (!mass) {
+    throw InputError("--mass-g", "is needed: drag is force, the log knows only accelerations");
+  }
+  options.conditions.mass = *mass;
   if (const auto density = air_density(flight)) options.conditions.air_density = *density;
   options.from = log_position("--from", flight.from);
   options.to = log_position("--to", flight.to);
@@ -102,6 +86,16 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, i
   return logs;
 }
 
+DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
+                       const FlightOptions& flight) {
+  const DragIdentificationOptions how = identification_options(flight);
+  try {
+    return study_drag(name, read_flight_logs(logs, flight.core), how);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
+  }
+}
+
 int run_drag(const DragOptions& options, const Output& output) {
   const DragIdentificationOptions identification = identification_options(options.flight);
   const std::vector<FlightLog> logs = read_flight_logs(options.logs, options.flight.core);
@@ -119,17 +113,9 @@ int run_drag(const DragOptions& options, const Output& output) {
     emit(output, spec_with_drag(options.into, result.fit));
     return done;
   }
-  switch (output.format) {
-    case Format::table:
-      emit(output, drag_text(result, style_for(output)));
-      break;
-    case Format::json:
-      emit(output, json_text(drag_json(result)));
-      break;
-    case Format::csv:
-      emit(output, drag_csv(result));
-      break;
-  }
+  emit(
+      output, [&] { return drag_text(result, style_for(output)); },
+      [&] { return drag_json(result); }, [&] { return drag_csv(result); });
   return done;
 }
 

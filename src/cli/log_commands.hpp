@@ -6,7 +6,7 @@
 
 #include "cli/flight_options.hpp"
 #include "cli/output.hpp"
-#include "tethercalc/identify/drag_identification.hpp"
+#include "tethercalc/study/drag.hpp"
 
 namespace tethercalc::cli {
 
@@ -19,6 +19,10 @@ int run_log(const std::string& file, const std::string& message, const Output& o
 /// The logs of these names; what was amiss with them is told on standard error.
 [[nodiscard]] std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
                                                       int core);
+
+/// The drag of these logs, `name` their heading. Throws InputError where they show none.
+[[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
+                                     const FlightOptions& flight);
 
 struct DragOptions {
   std::vector<std::string> logs;

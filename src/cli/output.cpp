@@ -37,4 +37,12 @@ void emit(const Output& output, const std::string& text) {
 
 std::string json_text(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
 
+void emit(const Output& output, const std::function<std::string()>& text,
+          const std::function<nlohmann::ordered_json()>& json,
+          const std::function<std::string()>& csv) {
+  emit(output, output.format == Format::table  ? text()
+               : output.format == Format::json ? json_text(json())
+                                               : csv());
+}
+
 }  // namespace tethercalc::cli

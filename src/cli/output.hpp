@@ -1,6 +1,7 @@
 // Where a command's answer goes and in which form.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -31,5 +32,10 @@ void emit(const Output& output, const std::string& text);
 
 /// The text of a JSON answer.
 [[nodiscard]] std::string json_text(const nlohmann::ordered_json& json);
+
+/// Writes the answer in the form that was asked for, of which alone it is made.
+void emit(const Output& output, const std::function<std::string()>& text,
+          const std::function<nlohmann::ordered_json()>& json,
+          const std::function<std::string()>& csv);
 
 }  // namespace tethercalc::cli

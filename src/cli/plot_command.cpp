@@ -69,16 +69,11 @@ Figure drag(const PlotOptions& options) {
                                    "surface" +
                                    did_you_mean(options.view, views));
   }
-  const DragIdentificationOptions how = identification_options(options.flight);
-  const std::vector<FlightLog> logs = read_flight_logs(options.files, options.flight.core);
-  const std::string name = logs.size() == 1 ? base_name(options.files.front())
-                                            : std::to_string(logs.size()) + " flights";
-  try {
-    const DragFlights fitted = fit_drag_flights(heading(options, name), logs, how);
-    return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
-  } catch (const UnsuitableFlight& error) {
-    throw InputError(logs.size() == 1 ? options.files.front() : "drag", error.what());
-  }
+  const std::string name = options.files.size() == 1
+                               ? base_name(options.files.front())
+                               : std::to_string(options.files.size()) + " flights";
+  const DragStudy fitted = studied_drag(heading(options, name), options.files, options.flight);
+  return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
 }
 
 Figure diagnosis(const PlotOptions& options) {

@@ -12,17 +12,11 @@ namespace tethercalc::cli {
 namespace {
 
 /// The drag that the flight shows, mass and air as the spec has them where the options do not say.
-DragFlights learn_drag(const DiagnoseOptions& options, const Design& design) {
+DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
   FlightOptions flight = options.flight;
   if (!flight.mass_g) flight.mass_g = design.drone.mass / unit::gram;
   if (!air_density(flight)) flight.air_density_kg_m3 = design.flight.air_density;
-  const DragIdentificationOptions how = identification_options(flight);
-  const std::vector<FlightLog> logs = read_flight_logs({options.flight_log}, flight.core);
-  try {
-    return fit_drag_flights(base_name(options.flight_log), logs, how);
-  } catch (const UnsuitableFlight& error) {
-    throw InputError(options.flight_log, error.what());
-  }
+  return studied_drag(base_name(options.flight_log), {options.flight_log}, flight);
 }
 
 std::string shell_word(std::string_view word) {

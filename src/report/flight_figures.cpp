@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "report/gnuplot_script.hpp"
 #include "tethercalc/report/text_table.hpp"
@@ -41,7 +40,7 @@ struct DragSamples {
   std::vector<double> fitted;
 };
 
-DragSamples samples_of(const DragFlights& drag) {
+DragSamples samples_of(const DragStudy& drag) {
   DragSamples out;
   const DragFitConditions& known = drag.identified.fit.conditions;
   const AirframeDrag parameters = drag.identified.fit.drag();
@@ -180,23 +179,7 @@ Figure log_figure(const std::string& name, const Observations& flight) {
   return figure;
 }
 
-DragFlights fit_drag_flights(std::string name, std::span<const FlightLog> logs,
-                             const DragIdentificationOptions& options) {
-  DragFlights out;
-  out.name = std::move(name);
-  out.identified = identify_drag(logs, options);
-  for (const FlightLog& log : logs) out.flights.push_back(observe_part(log, options));
-  DragFitOptions quadratic;
-  quadratic.bounds.max_linear_speed = 1e-6;  // m/s, a millionth of the linear term that matters
-  try {
-    out.without_linear = fit_drag(out.flights, options.conditions, quadratic);
-  } catch (const UnsuitableFlight&) {
-    // The comparison is left out; the fit itself stands.
-  }
-  return out;
-}
-
-Figure drag_figure(const DragFlights& drag) {
+Figure drag_figure(const DragStudy& drag) {
   const DragSamples all = samples_of(drag);
   const std::size_t step = gp::thinning(all.airspeed.size(), most_samples);
   const DragSamples shown = thinned(all, step);
@@ -249,7 +232,7 @@ Figure drag_figure(const DragFlights& drag) {
   return figure;
 }
 
-Figure drag_surface_figure(const DragFlights& drag) {
+Figure drag_surface_figure(const DragStudy& drag) {
   const DragSamples all = samples_of(drag);
   constexpr std::size_t most_dots = 500;
   const std::size_t step = gp::thinning(all.airspeed.size(), most_dots);

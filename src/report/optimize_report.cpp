@@ -10,7 +10,7 @@
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/report/operating_point_fields.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 namespace tethercalc {
 namespace {
@@ -165,9 +165,9 @@ std::string csv_header() {
 }
 
 std::string csv_row(const Optimization& result) {
-  std::string row = fmt::format("{},{},{},{}", status_name(result), limit_name(result.limited_by),
-                                condition_name(result.limiting_condition),
-                                csv_number(square_millimetres(result.area)));
+  std::string row = fmt::format(
+      "{},{},{},{}", status_name(result.feasible), limit_name(result.limited_by),
+      condition_name(result.limiting_condition), csv_number(square_millimetres(result.area)));
   const std::size_t empty_cells = 2 * operating_point_fields().size();
   row += result.feasible ? csv_values(result.hover) + csv_values(result.forward)
                          : std::string(empty_cells, ',');
@@ -309,7 +309,7 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
   }
   ordered_json out{
       {"name", file.name},
-      {"status", status_name(result)},
+      {"status", status_name(result.feasible)},
       {"optimum", optimum_json(result)},
       {"headroom",
        {{"required", need.thrust_headroom},
@@ -432,7 +432,7 @@ ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> 
   for (const MotorOptimum& entry : ranking) {
     ordered_json row{{"motor", entry.motor.id},
                      {"name", entry.motor.name},
-                     {"status", status_name(entry.result)},
+                     {"status", status_name(entry.result.feasible)},
                      {"optimum", optimum_json(entry.result)},
                      {"best_headroom", number_or_null(entry.best_headroom.value)},
                      {"reason", nullptr}};

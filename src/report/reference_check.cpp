@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 
@@ -16,9 +16,6 @@
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
-#include "tethercalc/report/sweep_rows.hpp"
-#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
@@ -46,20 +43,16 @@ constexpr std::array main_results{"status",
                                   "minimum_power.cross_section_mm2",
                                   "minimum_power.total_power_W"};
 
-/// Every result of a design by its name.
-ordered_json results_of(const Design& design) {
-  std::string row;
-  const ReferenceResults computed = reference_results(design);
-  SweepRows({}, RowFormat::json_lines).append(row, {{}, design, computed.outcome});
-  ordered_json results = ordered_json::parse(row);
-  results.erase("reason");  // a sentence for people, which may be put better at any time
-  const BestHeadroom& best = computed.best_headroom;
-  const MinimumPower& least = computed.minimum_power;
-  results["headroom.best"] = number_or_null(best.value);
-  results["headroom.best_at_mm2"] = number_or_null(best.area / unit::square_millimetre);
-  results["minimum_power.cross_section_mm2"] = number_or_null(least.area / unit::square_millimetre);
-  results["minimum_power.total_power_W"] = number_or_null(least.power);
-  return results;
+ordered_json json_of(const ResultValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  const auto* word = std::get_if<std::string>(&value);
+  return word != nullptr ? ordered_json(*word) : ordered_json(nullptr);
+}
+
+/// What the record has; what is neither number nor text counts as nothing.
+ResultValue value_of(const ordered_json& value) {
+  if (value.is_number()) return value.get<double>();
+  return value.is_string() ? ResultValue(value.get<std::string>()) : ResultValue();
 }
 
 /// A tolerance of a recorded number; 0 where the record names none.
@@ -85,33 +78,36 @@ void check_keys(const JsonDocument& document, const ordered_json& entry, const s
 }
 
 /// Compares one entry of a record.
-std::optional<RecordedResult> compared(const JsonDocument& document, const std::string& name,
-                                       const ordered_json& computed, Problems& problems) {
-  const std::string pointer = child_pointer("", name);
-  const ordered_json& entry = document.root[name];
+std::optional<RecordedResult> compared(const JsonDocument& document, const NamedResult& computed,
+                                       Problems& problems) {
+  const std::string pointer = child_pointer("", computed.name);
+  const ordered_json& entry = document.root[computed.name];
   if (!entry.is_object() || !entry.contains("value")) {
     problems.add(document.where(pointer), "expected an object with \"value\" and a tolerance");
     return std::nullopt;
   }
   check_keys(document, entry, pointer, problems);
-  RecordedResult result{name, entry["value"], computed, 0, std::nullopt, false};
   const double relative = tolerance_at(document, entry, pointer, "relative_tolerance", problems);
   const double absolute = tolerance_at(document, entry, pointer, "absolute_tolerance", problems);
-  if (result.recorded.is_number()) {
-    if (!entry.contains("relative_tolerance") && !entry.contains("absolute_tolerance")) {
-      problems.add(document.where(pointer),
-                   "a number needs \"relative_tolerance\" or \"absolute_tolerance\"");
-    }
-    const double recorded = result.recorded.get<double>();
-    result.tolerance = std::max(absolute, relative * std::abs(recorded));
-    if (computed.is_number()) result.difference = computed.get<double>() - recorded;
+  if (entry["value"].is_number() && !entry.contains("relative_tolerance") &&
+      !entry.contains("absolute_tolerance")) {
+    problems.add(document.where(pointer),
+                 "a number needs \"relative_tolerance\" or \"absolute_tolerance\"");
   }
-  result.drifted = result.difference ? !(std::abs(*result.difference) <= result.tolerance)
-                                     : result.recorded != result.computed;
-  return result;
+  return held_against({computed.name, value_of(entry["value"])}, computed.value, relative,
+                      absolute);
 }
 
-std::vector<RecordedResult> compared(const JsonDocument& document, const ordered_json& results) {
+/// The result of that name; null where there is none.
+const NamedResult* find_result(const std::vector<NamedResult>& results, std::string_view name) {
+  const auto found =
+      std::find_if(results.begin(), results.end(),
+                   [name](const NamedResult& result) { return result.name == name; });
+  return found == results.end() ? nullptr : &*found;
+}
+
+std::vector<RecordedResult> compared(const JsonDocument& document,
+                                     const std::vector<NamedResult>& results) {
   Problems problems;
   problems.add(document.problems);
   std::vector<RecordedResult> all;
@@ -120,12 +116,13 @@ std::vector<RecordedResult> compared(const JsonDocument& document, const ordered
     problems.throw_if_any();
   }
   std::vector<std::string> names;
-  for (const auto& [name, value] : results.items()) names.push_back(name);
+  for (const NamedResult& result : results) names.push_back(result.name);
   for (const auto& [name, entry] : document.root.items()) {
-    if (!results.contains(name)) {
+    const NamedResult* computed = find_result(results, name);
+    if (computed == nullptr) {
       problems.add(document.where(child_pointer("", name)),
                    fmt::format("no result {}{}", shown(name), did_you_mean(name, names)));
-    } else if (auto result = compared(document, name, results[name], problems)) {
+    } else if (auto result = compared(document, *computed, problems)) {
       all.push_back(std::move(*result));
     }
   }
@@ -133,11 +130,11 @@ std::vector<RecordedResult> compared(const JsonDocument& document, const ordered
   return all;
 }
 
-std::vector<RecordedResult> unrecorded(const ordered_json& results) {
+std::vector<RecordedResult> unrecorded(const std::vector<NamedResult>& results) {
   std::vector<RecordedResult> all;
   for (const char* name : main_results) {
-    const ordered_json& value = results.at(name);
-    if (!value.is_null()) all.push_back({name, nullptr, value, 0, std::nullopt, true});
+    const ResultValue& value = find_result(results, name)->value;
+    if (value.index() != 0) all.push_back({name, {}, value, 0, std::nullopt, true});
   }
   return all;
 }
@@ -165,14 +162,14 @@ std::vector<fs::path> specs_of_folder(const fs::path& folder) {
 }
 
 /// Number, text or null as people read it.
-std::string value_words(const ordered_json& value) {
-  if (value.is_null()) return "none";
-  return value.is_string() ? value.get<std::string>() : value.dump();
+std::string value_words(const ResultValue& value) {
+  if (const auto* word = std::get_if<std::string>(&value)) return *word;
+  return value.index() == 0 ? "none" : json_of(value).dump();
 }
 
 std::string drift_words(const RecordedResult& result) {
   if (!result.difference) return "";
-  const double recorded = result.recorded.get<double>();
+  const double recorded = std::get<double>(result.recorded);
   std::string words = fmt::format("{:+.3g}", *result.difference);
   if (recorded != 0) words += fmt::format(" ({:+.3g} %)", 100 * *result.difference / recorded);
   return words + fmt::format(", allowed ±{:.3g}", result.tolerance);
@@ -258,7 +255,7 @@ ReferenceCheck check_reference(const fs::path& spec) {
   try {
     const DesignFile file = read_design(spec.string());
     check.name = file.name;
-    const ordered_json results = results_of(file.design);
+    const std::vector<NamedResult> results = reference_results(file.design);
     const fs::path record = record_path(spec);
     check.recorded = fs::exists(record);
     if (check.recorded) {
@@ -281,8 +278,8 @@ bool update_record(const ReferenceCheck& check) {
   for (const RecordedResult& result : check.results) {
     if (!result.drifted) continue;
     ordered_json& entry = record[result.name];
-    entry["value"] = result.computed;
-    const bool number = result.computed.is_number();
+    entry["value"] = json_of(result.computed);
+    const bool number = std::holds_alternative<double>(result.computed);
     if (number && !entry.contains("relative_tolerance") && !entry.contains("absolute_tolerance")) {
       entry["relative_tolerance"] = default_relative_tolerance;
     }
@@ -318,8 +315,8 @@ ordered_json check_json(std::span<const ReferenceCheck> checks) {
     ordered_json results = ordered_json::array();
     for (const RecordedResult& result : check.results) {
       results.push_back({{"result", result.name},
-                         {"recorded", result.recorded},
-                         {"computed", result.computed},
+                         {"recorded", json_of(result.recorded)},
+                         {"computed", json_of(result.computed)},
                          {"difference", result.difference ? ordered_json(*result.difference)
                                                           : ordered_json(nullptr)},
                          {"tolerance", result.tolerance},
@@ -338,8 +335,8 @@ ordered_json check_json(std::span<const ReferenceCheck> checks) {
 
 std::string check_csv(std::span<const ReferenceCheck> checks) {
   std::string out = "spec,status,result,recorded,computed,difference,tolerance,drifted\n";
-  const auto cell = [](const ordered_json& value) {
-    return value.is_null() ? std::string() : csv_text(value_words(value));
+  const auto cell = [](const ResultValue& value) {
+    return value.index() == 0 ? std::string() : csv_text(value_words(value));
   };
   for (const ReferenceCheck& check : checks) {
     for (const RecordedResult& result : check.results) {

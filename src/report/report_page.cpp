@@ -74,7 +74,7 @@ Section other_motors(const PageContent& content) {
   return {"motors", "The same drone with motors of the library", std::move(body)};
 }
 
-Section drag_section(const DragFlights& drag) {
+Section drag_section(const DragStudy& drag) {
   const DragFit& fit = drag.identified.fit;
   const DragSentences told = drag_sentences(drag.identified);
   std::string body = html::paragraphs(told.made_of);

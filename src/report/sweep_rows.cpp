@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/report/operating_point_fields.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {

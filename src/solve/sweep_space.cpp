@@ -94,6 +94,11 @@ double quantile(const SweepAxis& axis, double u) {
   return value_at(axis, pick(u, *value_count(axis)));
 }
 
+Design with_values(Design design, std::span<const SweepAxis> axes, std::span<const double> values) {
+  for (const std::size_t i : order_of_application(axes)) axes[i].apply(design, values[i]);
+  return design;
+}
+
 RowRange shard_rows(std::uint64_t rows, std::uint64_t part, std::uint64_t parts) {
   if (part < 1 || part > parts) {
     throw std::invalid_argument("the part of a sweep must lie between 1 and the number of parts");

@@ -1,9 +1,95 @@
 #include "tethercalc/study/envelope.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tethercalc {
+namespace {
+
+/// Lengths below this are no tether.
+constexpr double shortest_length = 0.1;
+
+double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
+
+DemandMargin worst_margin(const Design& design) {
+  const double area = *design.tether.cross_section;
+  const Margins margins = demand_margins(design, evaluate(design, area, Condition::hover),
+                                         evaluate(design, area, Condition::forward));
+  return margins.worst();
+}
+
+}  // namespace
+
+double search_end(const Design& design, Reach reach) {
+  switch (reach) {
+    case Reach::height:
+      return 1e4;
+    case Reach::payload:
+      return design.drone.motor.max_thrust() * design.drone.motor_count / design.flight.gravity;
+    case Reach::headwind:
+    case Reach::airspeed:
+      break;
+  }
+  return 100;
+}
+
+Design at_reach(Design design, Reach reach, double value) {
+  switch (reach) {
+    case Reach::height:
+      design.tether.length = value;
+      break;
+    case Reach::payload:
+      design.drone.mass += value;
+      break;
+    case Reach::headwind:
+      design.flight.headwind = value;
+      break;
+    case Reach::airspeed:
+      design.flight.airspeed = value;
+      break;
+  }
+  return design;
+}
+
+std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
+  const double start = search_start(reach);
+  const double end = search_end(design, reach);
+  const auto margin = [&](double value) { return worst_margin(at_reach(design, reach, value)); };
+  constexpr int steps = 400;
+  // Squared, so that steps are finer where most answers lie.
+  const auto at_step = [&](int step) {
+    const double share = static_cast<double>(step) / steps;
+    return start + (end - start) * share * share;
+  };
+  int last = steps;
+  while (last >= 0 && margin(at_step(last)).value < 0) --last;
+  if (last < 0) return std::nullopt;
+  if (last == steps) return ReachEnd{end, false, Limit::available_power, Condition::hover};
+  double good = at_step(last);
+  double bad = at_step(last + 1);
+  while (bad - good > 1e-9 * bad) {
+    const double middle = 0.5 * (good + bad);
+    (margin(middle).value >= 0 ? good : bad) = middle;
+  }
+  const DemandMargin missed = margin(bad);
+  return ReachEnd{good, true, limit_of(missed.demand), missed.condition};
+}
+
+std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach against,
+                                          int points) {
+  std::vector<EnvelopePoint> curve;
+  const auto most = greatest_reach(design, against);
+  if (!most) return curve;
+  const double start = search_start(against);
+  for (int i = 0; i < points; ++i) {
+    // The last one a hair inside, where rounding cannot push it out.
+    const double share = i == points - 1 ? 1 - 1e-9 : static_cast<double>(i) / (points - 1);
+    const double value = start + (most->value - start) * share;
+    curve.push_back({value, greatest_reach(at_reach(design, against, value), of)});
+  }
+  return curve;
+}
 
 bool EnvelopeStudy::any() const {
   return std::any_of(greatest.begin(), greatest.end(),

@@ -127,15 +127,18 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
   return refusal;
 }
 
+DesignOptimum optimum_of(const Design& design) {
+  DesignOptimum optimum{design, optimize(design), {}, {}};
+  if (!optimum.result.feasible) optimum.refusal = refusal_of(design, optimum.result);
+  optimum.best_headroom = best_headroom(design, design.requirements.headroom_at);
+  return optimum;
+}
+
 OptimumStudy study_optimum(const Design& design, std::span<const WireSize> sizes) {
-  OptimumStudy study{design, optimize(design), {}, {}, {}, {}, {}};
-  study.best_headroom = best_headroom(design, design.requirements.headroom_at);
+  OptimumStudy study{optimum_of(design), {}, {}, {}};
   study.table = evaluate_areas(design, table_areas(study));
   study.sizes = sizes_near(design, central_area(study), sizes);
-  if (!study.result.feasible) {
-    study.refusal = refusal_of(design, study.result);
-    study.remedies = remedies(design);
-  }
+  if (study.refusal) study.remedies = remedies(design);
   return study;
 }
 
@@ -157,12 +160,9 @@ AreaCurve area_curve(const OptimumStudy& study) {
 std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<MotorEntry> motors) {
   std::vector<MotorOptimum> ranking;
   for (MotorEntry& motor : motors) {
-    MotorOptimum entry{std::move(motor), design, {}, {}, {}};
-    entry.design.drone.motor = entry.motor.curve;
-    entry.result = optimize(entry.design);
-    if (!entry.result.feasible) entry.refusal = refusal_of(entry.design, entry.result);
-    entry.best_headroom = best_headroom(entry.design, design.requirements.headroom_at);
-    ranking.push_back(std::move(entry));
+    Design with_motor = design;
+    with_motor.drone.motor = motor.curve;
+    ranking.push_back({optimum_of(with_motor), std::move(motor)});
   }
   const bool by_hover = design.requirements.power_at == Condition::hover;
   const auto power = [by_hover](const MotorOptimum& entry) {

@@ -335,3 +335,20 @@ TEST_CASE("an envelope names what ends it, and needs a cable") {
   CHECK(at(height) == Approx(2).epsilon(1e-5));
   CHECK(answer["curves"].size() == 3);
 }
+
+TEST_CASE("a bound on the cross-section is kept where there is a design that keeps it") {
+  const Ran run = design({"--free", "supply.voltage_V=40..75", "--subject-to",
+                          "tether.cross_section_mm2<=1.2", "--format", "json"});
+  CHECK(run.exit_code == 0);
+  CHECK(json::parse(run.out)["cross_section_mm2"].get<double>() == Approx(1.0886).margin(1e-4));
+}
+
+TEST_CASE("what would leave no design is told only where none is left") {
+  const std::vector<std::string> sizes{"--standard", "awg", "--set"};
+  auto lighter = sizes;
+  lighter.emplace_back("drone.mass_g=1850");
+  auto heavier = sizes;
+  heavier.emplace_back("drone.mass_g=1950");
+  CHECK_THAT(design(lighter).out, !Contains("would leave no design"));
+  CHECK(design(heavier).exit_code == 0);
+}

@@ -47,7 +47,7 @@ set(ENV{PKG_CONFIG_PATH} "${pc_folder}")
 run(COMMAND "${PKG_CONFIG}" --modversion tethercalc PRINTS "^${VERSION}\n")
 run(COMMAND "${PKG_CONFIG}" --cflags --libs tethercalc)
 separate_arguments(flags UNIX_COMMAND "${printed}")
-run(COMMAND "${CXX}" "${SOURCE}/tests/consumer/main.cpp" -o "${WORK}/consumer" ${flags})
+run(COMMAND "${CXX}" "${SOURCE}/examples/cpp/optimum.cpp" -o "${WORK}/consumer" ${flags})
 run(COMMAND "${WORK}/consumer" PRINTS "${expected}")
 
 run(COMMAND "${PKG_CONFIG}" --cflags tethercalc)

@@ -37,6 +37,7 @@ function(expect_breach file content expected)
 endfunction()
 
 expect_breach(src/model/tether.cpp "#include \"io/spec.hpp\"" "includes io/spec.hpp, a room above it")
+expect_breach(src/report/x.cpp "#include \"tethercalc/solve/optimum.hpp\"" "report words what studies answer")
 expect_breach(include/tethercalc/solve/x.hpp "  # include <tethercalc/report/table.hpp>" "a room above it")
 expect_breach(src/diagnose/x.cpp "#include <nlohmann/json.hpp>" "JSON belongs to")
 expect_breach(src/cli/sweep.cpp "#include <CLI/App.hpp>" "exactly one")

@@ -37,15 +37,6 @@ Diagnosis example() {
 
 }  // namespace
 
-TEST_CASE("the extended spec carries the changes and keeps the rest") {
-  const auto spec = nlohmann::ordered_json::parse(
-      R"({"name": "a", "drone": {"mass_g": 1710, "drag": {"front_area_m2": 0.01}}})");
-  const auto extended = extended_spec(spec, example());
-  CHECK(extended == nlohmann::ordered_json::parse(
-                        R"({"name": "a", "drone": {"mass_g": 1710, "drag": {"front_area_m2": 0.01,
-                            "linear_m_s": 19.5}}, "flight": {"headwind_m_s": 1.0}})"));
-}
-
 TEST_CASE("the JSON of a diagnosis has the documented keys") {
   Diagnosis d = example();
   d.design_impact = DesignImpact{{1.09, std::nullopt}, {445.0, std::nullopt}};

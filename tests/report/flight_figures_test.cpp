@@ -26,10 +26,10 @@ DragIdentificationOptions known(const SimulatedFlight& flight) {
 }
 
 /// Fitted once: every test looks at the same flight.
-const DragFlights& fitted() {
-  static const DragFlights drag = [] {
+const DragStudy& fitted() {
+  static const DragStudy drag = [] {
     const std::vector<FlightLog> logs{simulate(truth())};
-    return fit_drag_flights("simulated.csv", logs, known(truth()));
+    return study_drag("simulated.csv", logs, known(truth()));
   }();
   return drag;
 }

@@ -7,9 +7,9 @@
 #include "support/gnuplot.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/operating_point_fields.hpp"
 
 using namespace tethercalc;
 using namespace tethercalc::test;

@@ -35,8 +35,7 @@ struct FlightDiagnosisOptions {
 /// sensor is stuck are left out and noted. A log with fewer than `fewest_blocks` blocks of 12 s
 /// yields no findings: every effect is listed as not testable for want of a longer flight.
 ///
-/// `design_impact` is left empty: it needs a cross-section to be optimised, see
-/// `diagnose/design_impact.hpp`.
+/// `design_impact` is left empty: it needs a cross-section to be optimised.
 ///
 /// Throws std::invalid_argument where `options.base` names an effect that is not one of a flight,
 /// or where mass or air density is not positive; UnsuitableFlight where the log has no usable

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <string_view>
 
-#include "tethercalc/model/operating_point.hpp"
-#include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 namespace tethercalc {
 
@@ -14,10 +12,5 @@ namespace tethercalc {
 
 /// An operating point under the keys of `operating_point_fields`.
 [[nodiscard]] nlohmann::ordered_json operating_point_json(const OperatingPoint& point);
-
-[[nodiscard]] std::string_view condition_name(Condition condition);  ///< "hover", "forward"
-[[nodiscard]] std::string_view limit_name(Limit limit);              ///< "minimum_power", …
-[[nodiscard]] std::string_view status_name(
-    const Optimization& result);  ///< "optimal", "infeasible"
 
 }  // namespace tethercalc

@@ -2,23 +2,21 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/report/text_table.hpp"
+#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 
 /// The record of "design.json" is "design.expected.json" beside it: an object from a result's name
 /// to `{"value": …, "relative_tolerance": …}`, or "absolute_tolerance" in the result's unit, or
-/// both, of which the wider one counts. Texts and null have no tolerance. Names are the columns of
-/// a sweep (`status`, `cross_section_mm2`, `forward.total_power_W` …), and `headroom.best`,
-/// `headroom.best_at_mm2`, `minimum_power.cross_section_mm2`, `minimum_power.total_power_W` as in
-/// the JSON of `optimize`.
+/// both, of which the wider one counts. Texts and null have no tolerance. Names are those of
+/// `reference_results`.
 [[nodiscard]] std::filesystem::path record_path(const std::filesystem::path& spec);
 
 /// The specs that `paths` mean: files themselves (a record means its spec), and of folders every
@@ -26,16 +24,6 @@ namespace tethercalc {
 /// without specs, and records without a spec.
 [[nodiscard]] std::vector<std::filesystem::path> reference_specs(
     std::span<const std::string> paths);
-
-/// One recorded result against the computed one.
-struct RecordedResult {
-  std::string name;                  ///< of the result, as in the record
-  nlohmann::ordered_json recorded;   ///< number, text or null; null as well without a record
-  nlohmann::ordered_json computed;   ///< likewise
-  double tolerance = 0;              ///< allowed difference of numbers, in the result's unit
-  std::optional<double> difference;  ///< computed − recorded, where both are numbers
-  bool drifted = false;              ///< outside of the tolerance, or not recorded
-};
 
 /// A reference design and how it compares with its record.
 struct ReferenceCheck {

@@ -23,7 +23,7 @@ struct PageContent {
   OptimumStudy optimum;                 ///< the answer
   AreaCurve curve;                      ///< that `area_curve` makes of it
   std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
-  std::optional<DragFlights> drag;      ///< that a flight of this drone shows
+  std::optional<DragStudy> drag;        ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told
   std::string command;                  ///< by which the page can be made again, for a shell
 };

@@ -67,6 +67,10 @@ struct SweepAxis {
 /// drawn with equal chance.
 [[nodiscard]] double quantile(const SweepAxis& axis, double u);
 
+/// `design` with a value of each axis in place, as `SweepCursor` puts them there.
+[[nodiscard]] Design with_values(Design design, std::span<const SweepAxis> axes,
+                                 std::span<const double> values);
+
 /// Rows [begin, end).
 struct RowRange {
   std::uint64_t begin = 0;  ///< the first row, counted from 0

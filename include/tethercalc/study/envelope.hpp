@@ -1,12 +1,56 @@
-// How high, how heavy, how fast and in how much wind a given cable flies.
+// What a given cable can do at most: how high, how heavy, how fast, in how much wind.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
-#include "tethercalc/solve/envelope.hpp"
+#include "tethercalc/solve/optimize.hpp"
 
 namespace tethercalc {
+
+/// What is pushed as far as it goes.
+enum class Reach {
+  height,    ///< `tether.length`, m
+  payload,   ///< mass carried beside `drone.mass`, kg
+  headwind,  ///< `flight.headwind`, m/s, in hover and in forward flight
+  airspeed,  ///< `flight.airspeed`, m/s, in forward flight
+};
+
+/// All of them, in the order of the enumeration.
+inline constexpr std::array all_reaches{Reach::height, Reach::payload, Reach::headwind,
+                                        Reach::airspeed};
+
+/// How far the search goes: 10 km, what the motors' greatest thrust lifts, 100 m/s.
+[[nodiscard]] double search_end(const Design& design, Reach reach);
+
+/// The end of one reach.
+struct ReachEnd {
+  double value = 0;      ///< SI, the greatest that meets all that is required
+  bool bounded = false;  ///< false: even the end of the search does, and nothing limits it
+  Limit limit = Limit::available_power;    ///< what is missed just beyond
+  Condition condition = Condition::hover;  ///< where
+};
+
+/// `design` with the reach at `value`.
+[[nodiscard]] Design at_reach(Design design, Reach reach, double value);
+
+/// The greatest value at which the cable (`tether.cross_section`, which must be set) meets all that
+/// `optimize` demands of one: headroom, tilt and, where asked for, heat, strength and the
+/// converter's rating. Nothing where none does. The range is looked through at 400 values before
+/// the edge is bisected to 1e-9 relative, so that feasible ranges narrower than that may be missed.
+[[nodiscard]] std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach);
+
+/// One point of a curve of one reach against another.
+struct EnvelopePoint {
+  double against = 0;           ///< SI
+  std::optional<ReachEnd> end;  ///< nothing where no value meets the demands
+};
+
+/// The greatest `of` at `points` (≥ 2) values of `against` from nearly none to its own greatest.
+/// Empty where that does not exist.
+[[nodiscard]] std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of,
+                                                        Reach against, int points = 11);
 
 /// One reach and its end.
 struct ReachResult {

@@ -31,15 +31,22 @@ struct SizePoints {
   AreaPoints points;  ///< what it would give
 };
 
-/// The optimum of a design and what is told beside it.
-struct OptimumStudy {
+/// A design with its optimum, or with what stands in its way.
+struct DesignOptimum {
   Design design;                   ///< as asked about
-  Optimization result;             ///< the optimum, or what stands in its way
-  std::optional<Refusal> refusal;  ///< of an infeasible design
+  Optimization result;             ///< the optimum
+  std::optional<Refusal> refusal;  ///< why there is none
   BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
-  std::vector<SizePoints> sizes;   ///< neighbours of the optimum in each standard, by rising area
-  std::vector<AreaPoints> table;   ///< by rising area; holds optimum, minimum and feasible edges
-  std::vector<Remedy> remedies;    ///< for an infeasible design
+};
+
+/// Optimises the design.
+[[nodiscard]] DesignOptimum optimum_of(const Design& design);
+
+/// The optimum of a design and what is told beside it.
+struct OptimumStudy : DesignOptimum {
+  std::vector<SizePoints> sizes;  ///< neighbours of the optimum in each standard, by rising area
+  std::vector<AreaPoints> table;  ///< by rising area; holds optimum, minimum and feasible edges
+  std::vector<Remedy> remedies;   ///< for an infeasible design
 };
 
 /// Optimises the design; `sizes` (rising) are those that can be bought.
@@ -57,12 +64,8 @@ struct AreaCurve {
 [[nodiscard]] AreaCurve area_curve(const OptimumStudy& study);
 
 /// One motor's best tether.
-struct MotorOptimum {
-  MotorEntry motor;                ///< as given
-  Design design;                   ///< the design with this motor
-  Optimization result;             ///< its optimum
-  std::optional<Refusal> refusal;  ///< where it has none
-  BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
+struct MotorOptimum : DesignOptimum {
+  MotorEntry motor;  ///< as given, and in `design`
 };
 
 /// The design with each of `motors` in turn, feasible ones first by rising power, infeasible ones

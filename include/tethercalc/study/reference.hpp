@@ -1,18 +1,44 @@
-// What a reference design is held to: its main results.
+// The results of a reference design held against those on record.
 #pragma once
 
-#include "tethercalc/study/sweep.hpp"
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 
-/// The results of one design that records are made of.
-struct ReferenceResults {
-  SweepOutcome outcome;        ///< the optimum
-  BestHeadroom best_headroom;  ///< at `requirements.headroom_at`
-  MinimumPower minimum_power;  ///< at `requirements.power_at`, whatever else is asked for
+/// A number in its practical unit, or a word; nothing where the result does not exist.
+using ResultValue = std::variant<std::monostate, double, std::string>;
+
+/// A result of a design.
+struct NamedResult {
+  std::string name;   ///< "cross_section_mm2", "forward.total_power_W", "headroom.best"
+  ResultValue value;  ///< what it is
 };
 
-/// Computes them.
-[[nodiscard]] ReferenceResults reference_results(const Design& design);
+/// Every result of `design`: `status`, `limited_by`, `limiting_condition`, `cross_section_mm2`,
+/// both operating points as "hover." and "forward." followed by the keys of
+/// `operating_point_fields`, `headroom.best`, `headroom.best_at_mm2`,
+/// `minimum_power.cross_section_mm2` and `minimum_power.total_power_W`.
+[[nodiscard]] std::vector<NamedResult> reference_results(const Design& design);
+
+/// One recorded result against the computed one.
+struct RecordedResult {
+  std::string name;                    ///< of the result
+  ResultValue recorded;                ///< as on record; nothing as well without a record
+  ResultValue computed;                ///< now
+  double tolerance = 0;                ///< allowed difference of numbers, in the result's unit
+  std::optional<double> difference{};  ///< computed − recorded, where both are numbers
+  bool drifted = false;                ///< outside of the tolerance, or not recorded
+};
+
+/// Holds `computed` against `recorded`: numbers may differ by the wider one of two tolerances, the
+/// relative one times the recorded number and the absolute one in its unit; all else must be the
+/// same.
+[[nodiscard]] RecordedResult held_against(const NamedResult& recorded, const ResultValue& computed,
+                                          double relative_tolerance, double absolute_tolerance);
 
 }  // namespace tethercalc

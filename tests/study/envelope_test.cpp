@@ -1,4 +1,4 @@
-#include "tethercalc/solve/envelope.hpp"
+#include "tethercalc/study/envelope.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,10 +1,10 @@
-// The result keys of an operating point, from which JSON, CSV and tables are all written.
+// What results are called, in JSON, CSV and records alike.
 #pragma once
 
 #include <span>
 #include <string_view>
 
-#include "tethercalc/model/operating_point.hpp"
+#include "tethercalc/solve/optimize.hpp"
 
 namespace tethercalc {
 
@@ -20,5 +20,9 @@ struct OperatingPointField {
 
 /// The practical value; NaN where it does not exist, which JSON writes as null and CSV as nothing.
 [[nodiscard]] double practical_value(const OperatingPoint& point, const OperatingPointField& field);
+
+[[nodiscard]] std::string_view condition_name(Condition condition);  ///< "hover", "forward"
+[[nodiscard]] std::string_view limit_name(Limit limit);              ///< "minimum_power", …
+[[nodiscard]] std::string_view status_name(bool feasible);           ///< "optimal", "infeasible"
 
 }  // namespace tethercalc

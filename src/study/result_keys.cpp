@@ -1,4 +1,4 @@
-#include "tethercalc/report/operating_point_fields.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 #include <array>
 #include <cmath>
@@ -33,5 +33,35 @@ double practical_value(const OperatingPoint& point, const OperatingPointField& f
   const double value = point.*field.member / field.si_factor;
   return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
+
+std::string_view condition_name(Condition condition) {
+  return condition == Condition::hover ? "hover" : "forward";
+}
+
+std::string_view limit_name(Limit limit) {
+  switch (limit) {
+    case Limit::minimum_power:
+      return "minimum_power";
+    case Limit::available_power:
+      return "available_power";
+    case Limit::takeoff_mass:
+      return "takeoff_mass";
+    case Limit::motor_thrust:
+      return "motor_thrust";
+    case Limit::max_pitch:
+      return "max_pitch";
+    case Limit::conductor_temperature:
+      return "conductor_temperature";
+    case Limit::tether_strength:
+      return "tether_strength";
+    case Limit::converter_rating:
+      return "converter_rating";
+    case Limit::input_voltage:
+      return "input_voltage";
+  }
+  return "";
+}
+
+std::string_view status_name(bool feasible) { return feasible ? "optimal" : "infeasible"; }
 
 }  // namespace tethercalc

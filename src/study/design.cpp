@@ -1,0 +1,260 @@
+#include "tethercalc/study/design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "solve/cable_limits.hpp"
+
+namespace tethercalc {
+namespace {
+
+/// A constraint closer than this to its bound, relative, binds.
+constexpr double binding = 1e-6;
+
+/// Whether the conductor of least power, which a candidate without a cross-section flies, is the
+/// best one: where its power is what is minimised, and no demand of the user judges its flight.
+/// Where heat and the like are demands it would do, but finding it takes a thousand evaluations.
+bool least_power_is_best(const DesignQuestion& question) {
+  const DesignProblem& problem = question.problem;
+  const auto* objective = std::get_if<PointQuantity>(&problem.objective);
+  const auto of_fields = [](const UserLimit& limit) { return limit.quantity.index() == 1; };
+  if (objective == nullptr || objective->member != &OperatingPoint::total_power || question.front ||
+      !std::all_of(problem.limits.begin(), problem.limits.end(), of_fields)) {
+    return false;
+  }
+  const bool judged =
+      !objective->condition || (!problem.frees("requirements.power_at") &&
+                                *objective->condition == problem.base.requirements.power_at);
+  std::vector<double> some;
+  for (const SweepAxis& axis : problem.free) {
+    const auto* range = std::get_if<Uniform>(&axis.values);
+    some.push_back(range != nullptr ? range->lo : value_at(axis, 0));
+  }
+  return judged && !has_cable_limits(with_values(problem.base, problem.free, some));
+}
+
+/// Frees the cross-section where it is neither given nor free and has to be searched.
+DesignProblem with_cross_section(const DesignQuestion& question) {
+  DesignProblem problem = question.problem;
+  if (problem.base.tether.cross_section || problem.frees(cross_section_path) ||
+      least_power_is_best(question)) {
+    return problem;
+  }
+  // From below AWG 36 to what no drone lifts.
+  problem.free.push_back(
+      {std::string(cross_section_path), Uniform{0.01, 100},
+       [](Design& d, double mm2) { d.tether.cross_section = mm2 * unit::square_millimetre; }});
+  return problem;
+}
+
+/// A demand of the design that can be given way to, or a field that may cost something.
+struct Movable {
+  std::string_view path;          ///< of the field that is moved
+  double (*step)(const Design&);  ///< by how much, in the field's unit
+  void (*move)(Design& design, double step);
+};
+
+double one(const Design&) { return 1; }
+
+constexpr Movable fields[] = {
+    {"tether.length_m", one, [](Design& d, double step) { d.tether.length += step; }},
+    {"drone.mass_g", [](const Design&) { return 100.0; },
+     [](Design& d, double step) { d.drone.mass += step * unit::gram; }},
+    {"supply.voltage_V", one, [](Design& d, double step) { d.supply.voltage += step; }},
+};
+
+constexpr Movable headroom{"requirements.thrust_headroom", [](const Design&) { return -0.01; },
+                           [](Design& d, double step) { d.requirements.thrust_headroom += step; }};
+constexpr Movable tilt{"requirements.max_pitch_deg", one, [](Design& d, double step) {
+                         d.requirements.max_pitch += step * unit::degree;
+                       }};
+constexpr Movable rated_temperature{
+    "tether.insulation.material.rated_temperature_C", one,
+    [](Design& d, double step) { *d.tether.insulation.rated_temperature_C += step; }};
+constexpr Movable strength{
+    "requirements.strength_safety_factor",
+    [](const Design& d) { return -0.01 * d.requirements.strength_safety_factor; },
+    [](Design& d, double step) { d.requirements.strength_safety_factor += step; }};
+constexpr Movable rated_output{
+    "supply.converter.rated_output_W",
+    [](const Design& d) { return 0.01 * *d.supply.converter.rated_output_power; },
+    [](Design& d, double step) { *d.supply.converter.rated_output_power += step; }};
+constexpr Movable highest_input{
+    "supply.converter.max_input_voltage_V",
+    [](const Design& d) { return 0.01 * *d.supply.converter.max_input_voltage; },
+    [](Design& d, double step) { *d.supply.converter.max_input_voltage += step; }};
+
+/// What gives way to a demand that binds; null where nothing does.
+const Movable* relaxation(const Design& design, const DemandMargin& margin) {
+  switch (margin.demand) {
+    case Demand::max_pitch:
+      return &tilt;
+    case Demand::thrust_headroom:
+      // Level flight is not negotiable.
+      return !design.requirements.buffer_battery &&
+                     margin.condition == design.requirements.headroom_at
+                 ? &headroom
+                 : nullptr;
+    case Demand::conductor_temperature:
+    case Demand::drum_temperature:
+      return &rated_temperature;
+    case Demand::tether_strength:
+      return &strength;
+    case Demand::converter_rating:
+      return &rated_output;
+    case Demand::input_voltage:
+      return design.supply.converter.max_input_voltage ? &highest_input : nullptr;
+    case Demand::takeoff_mass:
+      break;
+  }
+  return nullptr;
+}
+
+/// The prices of one study: each the least objective after a change, less that before it.
+class Prices {
+ public:
+  Prices(const DesignProblem& problem, const DesignAnswer& answer, const MinimumOptions& search)
+      : problem_(problem), answer_(answer), search_(search) {}
+
+  std::vector<ShadowPrice> all() {
+    for (std::size_t i = 0; i < problem_.limits.size(); ++i) add_limit(i);
+    for (std::size_t i = 0; i < problem_.free.size(); ++i) add_range_end(i);
+    add_demands();
+    for (const Movable& field : fields) add_moved({Priced::field}, field, problem_.base);
+    return std::move(prices_);
+  }
+
+ private:
+  void add_limit(std::size_t i) {
+    const UserLimit& limit = problem_.limits[i];
+    const double scale = std::max(std::abs(limit.bound), 1e-3);
+    const double value = quantity_of(answer_.best, limit.quantity);
+    if (std::abs(value - limit.bound) > binding * scale) return;
+    DesignProblem changed = problem_;
+    ShadowPrice price{Priced::limit, i, limit.sign > 0};
+    price.name = limit.name;
+    price.step = limit.sign * 0.01 * scale;
+    changed.limits[i].bound += price.step;
+    add(std::move(price), changed);
+  }
+
+  void add_range_end(std::size_t i) {
+    const SweepAxis& axis = problem_.free[i];
+    const auto* range = std::get_if<Uniform>(&axis.values);
+    if (range == nullptr || !(range->hi > range->lo)) return;
+    const double x = answer_.values[i];
+    const double width = range->hi - range->lo;
+    const bool at_lo = x - range->lo <= binding * width;
+    const bool at_hi = range->hi - x <= binding * width;
+    if (!at_lo && !at_hi) return;
+    DesignProblem changed = problem_;
+    ShadowPrice price{Priced::range_end, i, !at_lo};
+    price.name = axis.name;
+    price.step = (at_lo ? -0.01 : 0.01) * std::abs(x);
+    auto& moved = std::get<Uniform>(changed.free[i].values);
+    (at_lo ? moved.lo : moved.hi) += price.step;
+    if (price.step != 0 && allowed(axis, x + price.step)) add(std::move(price), changed);
+  }
+
+  /// Whether the field may have that value at all.
+  bool allowed(const SweepAxis& axis, double value) const {
+    try {
+      Design design = problem_.base;
+      axis.apply(design, value);
+      return true;
+    } catch (const std::invalid_argument&) {
+      return false;
+    }
+  }
+
+  /// The demands of the design that bind, each once.
+  void add_demands() {
+    const Candidate& best = answer_.best;
+    std::vector<const Movable*> told;
+    for (const DemandMargin& margin : demand_margins(best.design, best.hover, best.forward)) {
+      if (margin.value > binding) continue;
+      const Movable* way = relaxation(best.design, margin);
+      if (way == nullptr || std::find(told.begin(), told.end(), way) != told.end()) continue;
+      told.push_back(way);
+      add_moved({Priced::demand, 0, false, margin.demand}, *way, best.design);
+    }
+  }
+
+  void add_moved(ShadowPrice price, const Movable& movable, const Design& design) {
+    if (problem_.frees(movable.path)) return;
+    price.name = movable.path;
+    price.step = movable.step(design);
+    DesignProblem changed = problem_;
+    // Last, so that no material or motor chosen undoes it.
+    changed.free.push_back({price.name, std::vector<double>{price.step}, movable.move});
+    add(std::move(price), changed);
+  }
+
+  void add(ShadowPrice price, const DesignProblem& changed) {
+    const double least = answer_.minimum.value;
+    const DesignAnswer after = search_design(changed, search_);
+    price.price =
+        after.feasible ? after.minimum.value - least : std::numeric_limits<double>::quiet_NaN();
+    // What two searches may differ by.
+    constexpr double noise = 1e-9;
+    if (std::abs(price.price) <= noise * std::abs(least)) {
+      if (!price.active()) return;
+      price.price = 0;
+    }
+    prices_.push_back(std::move(price));
+  }
+
+  const DesignProblem& problem_;
+  const DesignAnswer& answer_;
+  const MinimumOptions& search_;
+  std::vector<ShadowPrice> prices_;
+};
+
+std::vector<FrontPoint> pareto_front(DesignProblem problem,
+                                     const std::array<CandidateQuantity, 2>& wanted,
+                                     const MinimumOptions& search) {
+  std::vector<FrontPoint> front;
+  const CandidateQuantity& first = wanted[0];
+  const CandidateQuantity& second = wanted[1];
+  problem.objective = first;
+  const DesignAnswer best_first = search_design(problem, search);
+  problem.objective = second;
+  const DesignAnswer best_second = search_design(problem, search);
+  if (!best_first.feasible || !best_second.feasible) return front;
+  const auto add = [&](const DesignAnswer& answer) {
+    const double one = quantity_of(answer.best, first);
+    const double other = quantity_of(answer.best, second);
+    if (!front.empty() && std::abs(front.back().second - other) <= 1e-6 * std::abs(other)) return;
+    front.push_back({one, other, answer.values});
+  };
+  add(best_first);
+  const double from = quantity_of(best_first.best, second);
+  const double to = quantity_of(best_second.best, second);
+  constexpr int points = 10;
+  problem.objective = first;
+  problem.limits.push_back({"", second, from, 1});
+  for (int i = 1; i <= points; ++i) {
+    problem.limits.back().bound = from + (to - from) * i / points + 1e-9 * std::abs(to);
+    const DesignAnswer answer = search_design(problem, search);
+    if (answer.feasible) add(answer);
+  }
+  return front;
+}
+
+}  // namespace
+
+DesignStudy study_design(const DesignQuestion& question) {
+  DesignStudy study;
+  study.problem = with_cross_section(question);
+  study.answer = search_design(study.problem, question.search);
+  if (study.answer.feasible) {
+    study.prices = Prices(study.problem, study.answer, question.search).all();
+  }
+  if (question.front) study.front = pareto_front(study.problem, *question.front, question.search);
+  return study;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,88 @@
+#include "tethercalc/study/diagnosis.hpp"
+
+#include <utility>
+
+#include "tethercalc/model/units.hpp"
+#include "tethercalc/solve/optimize.hpp"
+
+namespace tethercalc {
+namespace {
+
+/// The optimum of one conductor and the supply power there; neither where there is none.
+void record(const Design& design, std::optional<double>& area, std::optional<double>& power) {
+  const Optimization result = optimize(design);
+  if (!result.feasible) return;
+  const bool hover = design.requirements.power_at == Condition::hover;
+  area = result.area / unit::square_millimetre;
+  power = (hover ? result.hover : result.forward).total_power;
+}
+
+Diagnosis flight_diagnosis(Design design, const LoggedFlight& flight,
+                           const SelectionProgress& progress) {
+  if (flight.mass) design.drone.mass = *flight.mass;
+  if (flight.air_density) design.flight.air_density = *flight.air_density;
+  try {
+    return diagnose_flight(design, flight.log, flight.options, progress);
+  } catch (const std::invalid_argument& error) {
+    throw UnsuitableLog(LogKind::flight, error.what());
+  }
+}
+
+PowerDiagnosis power_diagnosis(const Design& design, const LoggedPower& power,
+                               const SelectionProgress& progress) {
+  try {
+    return diagnose_power(design, power.log, power.base, progress);
+  } catch (const std::invalid_argument& error) {
+    throw UnsuitableLog(LogKind::power, error.what());
+  }
+}
+
+/// `drag` with what a flight says of it.
+AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& changes) {
+  const std::pair<std::string_view, double*> members[] = {
+      {"drone.drag.front_area_m2", &drag.front_area},
+      {"drone.drag.top_area_m2", &drag.top_area},
+      {"drone.drag.linear_m_s", &drag.linear_speed},
+      {"drone.drag.fore_aft_asymmetry", &drag.fore_aft_asymmetry}};
+  for (const SpecChange& change : changes) {
+    for (const auto& [field, member] : members) {
+      if (change.field == field) *member = change.value;
+    }
+  }
+  return drag;
+}
+
+}  // namespace
+
+DesignImpact design_impact(const Design& before, const Design& after) {
+  DesignImpact impact;
+  record(before, impact.cross_section_mm2.before, impact.total_power_W.before);
+  record(after, impact.cross_section_mm2.after, impact.total_power_W.after);
+  return impact;
+}
+
+DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
+                               const SelectionProgress& progress) {
+  const Design& design = question.design;
+  DiagnosisStudy study{{}, {}, design};
+  if (question.flight) study.flight = flight_diagnosis(design, *question.flight, progress);
+  if (question.power) {
+    PowerDiagnosis found = power_diagnosis(design, *question.power, progress);
+    study.power = std::move(found.diagnosis);
+    study.extended = std::move(found.extended);
+  }
+  if (study.flight && !study.flight->spec_changes.empty()) {
+    study.extended.drone.drag = with_changes(design.drone.drag, study.flight->spec_changes);
+  }
+  if (study.flight && study.power) {
+    // What a flight can never show the power log may.
+    std::erase_if(study.flight->not_identifiable, [](const NotIdentifiable& n) {
+      return find_effect(n.effect)->log == LogKind::power;
+    });
+  }
+  std::optional<Diagnosis>& last = study.power ? study.power : study.flight;
+  if (last) last->design_impact = design_impact(design, study.extended);
+  return study;
+}
+
+}  // namespace tethercalc
