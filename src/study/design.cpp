@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solve/cable_limits.hpp"
 
 namespace tethercalc {
 namespace {
@@ -16,7 +15,6 @@ constexpr double binding = 1e-6;
 
 /// Whether the conductor of least power, which a candidate without a cross-section flies, is the
 /// best one: where its power is what is minimised, and no demand of the user judges its flight.
-/// Where heat and the like are demands it would do, but finding it takes a thousand evaluations.
 bool least_power_is_best(const DesignQuestion& question) {
   const DesignProblem& problem = question.problem;
   const auto* objective = std::get_if<PointQuantity>(&problem.objective);
@@ -25,15 +23,8 @@ bool least_power_is_best(const DesignQuestion& question) {
       !std::all_of(problem.limits.begin(), problem.limits.end(), of_fields)) {
     return false;
   }
-  const bool judged =
-      !objective->condition || (!problem.frees("requirements.power_at") &&
-                                *objective->condition == problem.base.requirements.power_at);
-  std::vector<double> some;
-  for (const SweepAxis& axis : problem.free) {
-    const auto* range = std::get_if<Uniform>(&axis.values);
-    some.push_back(range != nullptr ? range->lo : value_at(axis, 0));
-  }
-  return judged && !has_cable_limits(with_values(problem.base, problem.free, some));
+  return !objective->condition || (!problem.frees("requirements.power_at") &&
+                                   *objective->condition == problem.base.requirements.power_at);
 }
 
 /// Frees the cross-section where it is neither given nor free and has to be searched.
