@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 
@@ -68,44 +70,17 @@ void check_base(const DiagnoseOptions& options) {
   }
 }
 
-/// `document` with every number, converter curve and resistivity in which `extended` differs from
-/// the design of `file`. With `keep_drag` the drag block stays as it is.
-ordered_json with_changes(ordered_json document, const DesignFile& file, const Design& extended,
-                          bool keep_drag) {
-  for (const SpecField& field : spec_fields()) {
-    if (keep_drag && field.pointer.starts_with("/drone/drag/")) continue;
-    const auto before = field_value(file.design, field);
-    const auto after = field_value(extended, field);
-    if (after && before != after) {
-      document[ordered_json::json_pointer(std::string(field.pointer))] = *after;
+/// What the flight has shown, in the design.
+Design with_changes(const DesignFile& file, const std::vector<SpecChange>& changes) {
+  Design design = file.design;
+  try {
+    for (const SpecChange& change : changes) {
+      set_field(design, *find_field(change.field), change.value);
     }
+  } catch (const std::invalid_argument& error) {
+    throw InputError(file.file, error.what());
   }
-  const auto& curve = extended.supply.converter.efficiency;
-  const auto& old_curve = file.design.supply.converter.efficiency;
-  const bool same_curve =
-      std::equal(curve.begin(), curve.end(), old_curve.begin(), old_curve.end(),
-                 [](const EfficiencyPoint& a, const EfficiencyPoint& b) {
-                   return a.output_power == b.output_power && a.efficiency == b.efficiency;
-                 });
-  if (curve.size() > 1 && !same_curve) {
-    ordered_json points = ordered_json::array();
-    for (const EfficiencyPoint& point : curve) {
-      points.push_back({{"output_W", point.output_power}, {"efficiency", point.efficiency}});
-    }
-    document["supply"]["converter"]["efficiency"] = points;
-  }
-  const Conductor& conductor = extended.tether.conductor;
-  if (conductor.resistivity_20C != file.design.tether.conductor.resistivity_20C) {
-    document["tether"]["conductor"] = {
-        {"id", file.conductor.id + "-as-measured"},
-        {"name", file.conductor.name + ", resistivity as measured"},
-        {"source", "diagnosis of a power log"},
-        {"resistivity_20C_ohm_mm2_per_m",
-         conductor.resistivity_20C / unit::ohm_square_millimetre_per_metre},
-        {"temperature_coefficient_per_K", conductor.temperature_coefficient},
-        {"density_g_cm3", conductor.density / unit::gram_per_cubic_centimetre}};
-  }
-  return document;
+  return design;
 }
 
 Diagnosis flight_diagnosis(const DiagnoseOptions& options, const DesignFile& file) {
@@ -186,19 +161,21 @@ void check_into(const DiagnoseOptions& options) {
 }  // namespace
 
 ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
-  ToldDiagnosis told{{}, {}, file.document};
+  ToldDiagnosis told;
+  DesignFile extended = file;  // its document takes one log's changes after the other
   if (options.flight_log.empty() && options.power_log.empty()) {
     throw InputError("diagnose", "needs a measured log: --flight LOG, --power LOG or both");
   }
   check_base(options);
   if (!options.flight_log.empty()) {
     told.flight = flight_diagnosis(options, file);
-    told.extended = extended_spec(told.extended, *told.flight);
+    extended.document = spec_with(extended, with_changes(file, told.flight->spec_changes));
   }
   if (!options.power_log.empty()) {
     PowerDiagnosis found = power_diagnosis(options, file);
     const bool drag_known = told.flight && !told.flight->spec_changes.empty();
-    told.extended = with_changes(told.extended, file, found.extended, drag_known);
+    if (drag_known) found.extended.drone.drag = file.design.drone.drag;
+    extended.document = spec_with(extended, found.extended);
     told.power = std::move(found.diagnosis);
   }
   if (told.flight && told.power) {
@@ -207,8 +184,9 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
       return find_effect(n.effect)->log == LogKind::power;
     });
   }
-  const DesignFile after = read_design_document(told.extended, file.file, file.folder);
+  const DesignFile after = read_design_document(extended.document, file.file, file.folder);
   (told.power ? told.power : told.flight)->design_impact = design_impact(file.design, after.design);
+  told.extended = std::move(extended.document);
   return told;
 }
 

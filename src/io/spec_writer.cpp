@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,10 +24,6 @@ double practical_number(double si, double si_factor) {
   for (int digits = 1; digits <= 17; ++digits) {
     const double value = std::strtod(fmt::format("{:.{}g}", nearest, digits).c_str(), nullptr);
     if (value * si_factor == si) return value;
-  }
-  for (const double end : {-HUGE_VAL, HUGE_VAL}) {
-    const double neighbour = std::nextafter(nearest, end);
-    if (neighbour * si_factor == si) return neighbour;
   }
   return nearest;
 }

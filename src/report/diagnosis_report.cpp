@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -245,19 +244,6 @@ class Story {
 };
 
 }  // namespace
-
-ordered_json extended_spec(ordered_json spec, const Diagnosis& diagnosis) {
-  for (const SpecChange& change : diagnosis.spec_changes) {
-    ordered_json* place = &spec;
-    std::istringstream path(change.field);
-    for (std::string key; std::getline(path, key, '.');) {
-      if (!place->is_object()) *place = ordered_json::object();
-      place = &(*place)[key];
-    }
-    *place = change.value;
-  }
-  return spec;
-}
 
 ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   ordered_json out;

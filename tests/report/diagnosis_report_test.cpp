@@ -30,21 +30,11 @@ Diagnosis example() {
                         .indistinguishable_from = {"pitch_trim"},
                         .to_separate = "pitch_trim: hover through all headings"});
   d.budget = {{36}, 4, 60};
-  d.spec_changes = {{"drone.drag.linear_m_s", 19.5}, {"flight.headwind_m_s", 1}};
   d.not_testable.push_back({"vertical_coupling", "vd_m_s"});
   return d;
 }
 
 }  // namespace
-
-TEST_CASE("the extended spec carries the changes and keeps the rest") {
-  const auto spec = nlohmann::ordered_json::parse(
-      R"({"name": "a", "drone": {"mass_g": 1710, "drag": {"front_area_m2": 0.01}}})");
-  const auto extended = extended_spec(spec, example());
-  CHECK(extended == nlohmann::ordered_json::parse(
-                        R"({"name": "a", "drone": {"mass_g": 1710, "drag": {"front_area_m2": 0.01,
-                            "linear_m_s": 19.5}}, "flight": {"headwind_m_s": 1.0}})"));
-}
 
 TEST_CASE("the JSON of a diagnosis has the documented keys") {
   Diagnosis d = example();

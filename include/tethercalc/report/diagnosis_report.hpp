@@ -11,11 +11,6 @@
 
 namespace tethercalc {
 
-/// `spec` with every field of `diagnosis.spec_changes` in its place; objects on the way are made
-/// where they are missing. What the spec says otherwise is kept.
-[[nodiscard]] nlohmann::ordered_json extended_spec(nlohmann::ordered_json spec,
-                                                   const Diagnosis& diagnosis);
-
 /// The result keys of `diagnose`; `extended` is the extended spec and may be null. Numbers that do
 /// not exist are null.
 [[nodiscard]] nlohmann::ordered_json diagnosis_json(const Diagnosis& diagnosis,
