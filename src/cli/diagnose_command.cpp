@@ -12,16 +12,17 @@
 #include <utility>
 #include <vector>
 
+#include "files/whole_file.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/design_impact.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 #include "tethercalc/diagnose/power_diagnosis.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/spec_writer.hpp"
-#include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 
 namespace tethercalc::cli {
@@ -184,7 +185,7 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
       return find_effect(n.effect)->log == LogKind::power;
     });
   }
-  const DesignFile after = read_design_document(extended.document, file.file, file.folder);
+  const DesignFile after = read_design_document(extended.document, file.file, file.load);
   (told.power ? told.power : told.flight)->design_impact = design_impact(file.design, after.design);
   told.extended = std::move(extended.document);
   return told;

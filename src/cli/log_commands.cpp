@@ -6,11 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "files/mapped_file.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/identify/drag_identification.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/drag_report.hpp"
 #include "tethercalc/report/log_report.hpp"
@@ -36,7 +37,7 @@ std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
   const double asymmetry = design.drone.drag.fore_aft_asymmetry;
   design.drone.drag = fit.drag();
   design.drone.drag.fore_aft_asymmetry = asymmetry;
-  return json_text(read_design_document(spec_with(file, design), file.file, file.folder).document);
+  return json_text(read_design_document(spec_with(file, design), file.file, file.load).document);
 }
 
 /// What was not said and moves the answer, on standard error so that no format hides it.

@@ -23,221 +23,190 @@ FieldRange between(double min, double max) { return {min, max, false, false}; }
 FieldRange above(double min, double max) { return {min, max, true, false}; }
 FieldRange inside(double min, double max) { return {min, max, true, true}; }
 
-using Number = double& (*)(Design&);
+using enum FieldKind;
+
+/// The member of a design at the end of `path`.
+template <auto... path>
+auto& at(Design& design) {
+  return (design.*....*path);
+}
 
 const std::array all_spec_fields{
-    SpecField{"/$schema", FieldKind::text, "", any_number, "\"\"",
+    SpecField{"/$schema", text, "", any_number, "\"\"",
               "Path or address of the JSON Schema, by which editors check and complete the file."},
-    SpecField{"/name", FieldKind::text, "", any_number, "\"\"",
+    SpecField{"/name", text, "", any_number, "\"\"",
               "What reports call the design; the file's name where absent."},
-    SpecField{"/description", FieldKind::text, "", any_number, "\"\"", "Free text."},
-    SpecField{"/notes", FieldKind::text, "", any_number, "\"\"",
+    SpecField{"/description", text, "", any_number, "\"\"", "Free text."},
+    SpecField{"/notes", text, "", any_number, "\"\"",
               "Free text, for remarks: JSON has no comments."},
-    SpecField{"/drone/mass_g", FieldKind::number, "g", between(1, 1e6), "",
+    SpecField{"/drone/mass_g", number, "g", between(1, 1e6), "",
               "Mass of the drone ready to fly, without the tether.", unit::gram,
-              Number([](Design& d) -> double& { return d.drone.mass; })},
-    SpecField{
-        "/drone/motor_count", FieldKind::integer, "", between(1, 64), "",
-        "Number of motors, all alike.", 1,
-        static_cast<int& (*)(Design&)>([](Design& d) -> int& { return d.drone.motor_count; })},
-    SpecField{"/drone/motor", FieldKind::motor, "", any_number, "",
+              at<&Design::drone, &Drone::mass>},
+    SpecField{"/drone/motor_count", integer, "", between(1, 64), "", "Number of motors, all alike.",
+              1, at<&Design::drone, &Drone::motor_count>},
+    SpecField{"/drone/motor", motor, "", any_number, "",
               "Motor with its propeller: a name in the library, a file, or an object."},
-    SpecField{"/drone/motor_power_factor", FieldKind::number, "", above(0, 10), "1",
+    SpecField{"/drone/motor_power_factor", number, "", above(0, 10), "1",
               "The motors draw this times what the motor's curve says.", 1,
-              Number([](Design& d) -> double& { return d.drone.motor_power_factor; })},
-    SpecField{"/drone/auxiliary_power_W", FieldKind::number, "W", between(0, 1e5), "0",
+              at<&Design::drone, &Drone::motor_power_factor>},
+    SpecField{"/drone/auxiliary_power_W", number, "W", between(0, 1e5), "0",
               "Power of flight controller and payload, at the converter's input.", 1,
-              Number([](Design& d) -> double& { return d.drone.auxiliary_power; })},
-    SpecField{"/drone/drag/front_area_m2", FieldKind::number, "m²", between(0, 100), "",
+              at<&Design::drone, &Drone::auxiliary_power>},
+    SpecField{"/drone/drag/front_area_m2", number, "m²", between(0, 100), "",
               "Drag area of the level drone, drag coefficient included.", 1,
-              Number([](Design& d) -> double& { return d.drone.drag.front_area; })},
-    SpecField{"/drone/drag/top_area_m2", FieldKind::number, "m²", between(0, 100), "",
+              at<&Design::drone, &Drone::drag, &AirframeDrag::front_area>},
+    SpecField{"/drone/drag/top_area_m2", number, "m²", between(0, 100), "",
               "Drag area of the drone tilted by 90°, drag coefficient included.", 1,
-              Number([](Design& d) -> double& { return d.drone.drag.top_area; })},
-    SpecField{"/drone/drag/linear_m_s", FieldKind::number, "m/s", between(0, 1000), "0",
+              at<&Design::drone, &Drone::drag, &AirframeDrag::top_area>},
+    SpecField{"/drone/drag/linear_m_s", number, "m/s", between(0, 1000), "0",
               "Airspeed at which linear and quadratic drag are equal.", 1,
-              Number([](Design& d) -> double& { return d.drone.drag.linear_speed; })},
-    SpecField{"/drone/drag/fore_aft_asymmetry", FieldKind::number, "", inside(-1, 1), "0",
+              at<&Design::drone, &Drone::drag, &AirframeDrag::linear_speed>},
+    SpecField{"/drone/drag/fore_aft_asymmetry", number, "", inside(-1, 1), "0",
               "Drag is 1 + this times as large flying forward, 1 - this flying backward.", 1,
-              Number([](Design& d) -> double& { return d.drone.drag.fore_aft_asymmetry; })},
+              at<&Design::drone, &Drone::drag, &AirframeDrag::fore_aft_asymmetry>},
+    SpecField{"/drone/translational_lift/induced_share", number, "", between(0, 0.95), "0",
+              "Part of the hover power that is induced and falls with airspeed.", 1,
+              at<&Design::drone, &Drone::translational_lift, &TranslationalLift::induced_share>},
     SpecField{
-        "/drone/translational_lift/induced_share", FieldKind::number, "", between(0, 0.95), "0",
-        "Part of the hover power that is induced and falls with airspeed.", 1,
-        Number([](Design& d) -> double& { return d.drone.translational_lift.induced_share; })},
-    SpecField{"/drone/translational_lift/hover_induced_speed_m_s", FieldKind::number, "m/s",
-              above(0, 100), "6", "Speed of the air through the rotor discs in hover.", 1,
-              Number([](Design& d) -> double& {
-                return d.drone.translational_lift.hover_induced_speed;
-              })},
+        "/drone/translational_lift/hover_induced_speed_m_s", number, "m/s", above(0, 100), "6",
+        "Speed of the air through the rotor discs in hover.", 1,
+        at<&Design::drone, &Drone::translational_lift, &TranslationalLift::hover_induced_speed>},
     SpecField{
-        "/drone/reserve_battery/specific_energy_Wh_kg", FieldKind::number, "Wh/kg",
-        between(0, 1000), "0",
+        "/drone/reserve_battery/specific_energy_Wh_kg", number, "Wh/kg", between(0, 1000), "0",
         "Energy per mass of a battery that lands the drone from its height if the tether fails; "
         "its mass, as the landing asks for, comes to mass_g. 0: there is none.",
-        3600, Number([](Design& d) -> double& { return d.drone.reserve_battery.specific_energy; })},
-    SpecField{"/drone/reserve_battery/usable_share", FieldKind::number, "", positive_fraction,
-              "0.8", "Part of its energy that the landing may use.", 1,
-              Number([](Design& d) -> double& { return d.drone.reserve_battery.usable_share; })},
-    SpecField{"/drone/reserve_battery/discharge_C", FieldKind::number, "1/h", above(0, 1000), "10",
+        3600, at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::specific_energy>},
+    SpecField{"/drone/reserve_battery/usable_share", number, "", positive_fraction, "0.8",
+              "Part of its energy that the landing may use.", 1,
+              at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::usable_share>},
+    SpecField{"/drone/reserve_battery/discharge_C", number, "1/h", above(0, 1000), "10",
               "Most power it gives over its energy: its C rating.", 1 / 3600.0,
-              Number([](Design& d) -> double& { return d.drone.reserve_battery.discharge_rate; })},
-    SpecField{"/drone/reserve_battery/descent_speed_m_s", FieldKind::number, "m/s", above(0, 50),
-              "1.5", "Speed of the landing.", 1,
-              Number([](Design& d) -> double& { return d.drone.reserve_battery.descent_speed; })},
-    SpecField{"/tether/length_m", FieldKind::number, "m", between(0.1, 1e4), "",
+              at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::discharge_rate>},
+    SpecField{"/drone/reserve_battery/descent_speed_m_s", number, "m/s", above(0, 50), "1.5",
+              "Speed of the landing.", 1,
+              at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::descent_speed>},
+    SpecField{"/tether/length_m", number, "m", between(0.1, 1e4), "",
               "Length of the tether in the air, which is the flight height.", 1,
-              Number([](Design& d) -> double& { return d.tether.length; })},
-    SpecField{"/tether/spooled_length_m", FieldKind::number, "m", between(0, 1e4), "0",
+              at<&Design::tether, &Tether::length>},
+    SpecField{"/tether/spooled_length_m", number, "m", between(0, 1e4), "0",
               "Length left on the drum: it adds resistance, but neither mass nor drag.", 1,
-              Number([](Design& d) -> double& { return d.tether.spooled_length; })},
-    SpecField{"/tether/conductor", FieldKind::conductor, "", any_number, "",
+              at<&Design::tether, &Tether::spooled_length>},
+    SpecField{"/tether/conductor", conductor, "", any_number, "",
               "Conductor material: a name in the library, a file, or an object."},
-    SpecField{"/tether/conductor_temperature_C", FieldKind::number, "°C", between(-50, 250), "20",
+    SpecField{"/tether/conductor_temperature_C", number, "°C", between(-50, 250), "20",
               "Temperature of the conductor, on which its resistance depends.", 1,
-              Number([](Design& d) -> double& { return d.tether.conductor_temperature_C; })},
-    SpecField{"/tether/insulation/material", FieldKind::insulation_material, "", any_number, "",
+              at<&Design::tether, &Tether::conductor_temperature_C>},
+    SpecField{"/tether/insulation/material", insulation_material, "", any_number, "",
               "Insulation material: a name in the library, a file, or an object."},
-    SpecField{"/tether/insulation/thickness_mm", FieldKind::number, "mm", between(0, 100), "",
+    SpecField{"/tether/insulation/thickness_mm", number, "mm", between(0, 100), "",
               "Wall thickness of the insulation of each conductor; the least one, for handling, "
               "where dielectric_safety_factor asks for more.",
-              unit::millimetre,
-              Number([](Design& d) -> double& { return d.tether.insulation.thickness; })},
-    SpecField{
-        "/tether/insulation/dielectric_safety_factor", FieldKind::number, "", between(0, 1000), "0",
-        "How many times the supply voltage the wall stands by the material's breakdown "
-        "strength; the wall grows with the voltage accordingly. 0: it does not.",
-        1,
-        Number([](Design& d) -> double& { return d.tether.insulation.dielectric_safety_factor; })},
-    SpecField{"/tether/contact_resistance_ohm", FieldKind::number, "Ω", between(0, 1000), "0",
+              unit::millimetre, at<&Design::tether, &Tether::insulation, &Insulation::thickness>},
+    SpecField{"/tether/insulation/dielectric_safety_factor", number, "", between(0, 1000), "0",
+              "How many times the supply voltage the wall stands by the material's breakdown "
+              "strength; the wall grows with the voltage accordingly. 0: it does not.",
+              1, at<&Design::tether, &Tether::insulation, &Insulation::dielectric_safety_factor>},
+    SpecField{"/tether/contact_resistance_ohm", number, "Ω", between(0, 1000), "0",
               "Resistance of plugs and slip rings in the whole loop.", 1,
-              Number([](Design& d) -> double& { return d.tether.contact_resistance; })},
-    SpecField{"/tether/drag_coefficient", FieldKind::number, "", between(0, 10), "1.0",
+              at<&Design::tether, &Tether::contact_resistance>},
+    SpecField{"/tether/drag_coefficient", number, "", between(0, 10), "1.0",
               "Drag coefficient of a conductor across the wind.", 1,
-              Number([](Design& d) -> double& { return d.tether.drag_coefficient; })},
+              at<&Design::tether, &Tether::drag_coefficient>},
     SpecField{
-        "/tether/projection_factor", FieldKind::number, "", between(0, 1), "0.75",
+        "/tether/projection_factor", number, "", between(0, 1), "0.75",
         "Mean width that the turning pair shows the wind, over the width of both side by side.", 1,
-        Number([](Design& d) -> double& { return d.tether.projection_factor; })},
-    SpecField{"/tether/cross_section_mm2", FieldKind::optional_number, "mm²", above(0, 1000),
-              "null", "Cross-section of one conductor, where the cable is already chosen.",
-              unit::square_millimetre,
-              static_cast<std::optional<double>& (*)(Design&)>(
-                  [](Design& d) -> std::optional<double>& { return d.tether.cross_section; })},
-    SpecField{
-        "/tether/ambient_temperature_C", FieldKind::optional_number, "°C", between(-60, 90), "null",
-        "Temperature of the air. Set, the conductor's temperature is that of a heat balance, "
-        "and conductor_temperature_C is not used.",
-        1,
-        static_cast<std::optional<double>& (*)(Design&)>(
-            [](Design& d) -> std::optional<double>& { return d.tether.ambient_temperature_C; })},
-    SpecField{"/tether/sun_W_m2", FieldKind::number, "W/m²", between(0, 1500), "0",
+        at<&Design::tether, &Tether::projection_factor>},
+    SpecField{"/tether/cross_section_mm2", optional_number, "mm²", above(0, 1000), "null",
+              "Cross-section of one conductor, where the cable is already chosen.",
+              unit::square_millimetre, at<&Design::tether, &Tether::cross_section>},
+    SpecField{"/tether/ambient_temperature_C", optional_number, "°C", between(-60, 90), "null",
+              "Temperature of the air. Set, the conductor's temperature is that of a heat balance, "
+              "and conductor_temperature_C is not used.",
+              1, at<&Design::tether, &Tether::ambient_temperature_C>},
+    SpecField{"/tether/sun_W_m2", number, "W/m²", between(0, 1500), "0",
               "Sunlight across the tether in the air; matters with ambient_temperature_C.", 1,
-              Number([](Design& d) -> double& { return d.tether.sun; })},
-    SpecField{
-        "/tether/drum/layers", FieldKind::integer, "", between(0, 4), "0",
-        "Layers of tether on a ventilated cylindrical drum, which set its current derating; "
-        "0: not stated.",
-        1, static_cast<int& (*)(Design&)>([](Design& d) -> int& { return d.tether.drum.layers; })},
-    SpecField{"/tether/drum/derating", FieldKind::optional_number, "", positive_fraction, "null",
+              at<&Design::tether, &Tether::sun>},
+    SpecField{"/tether/drum/layers", integer, "", between(0, 4), "0",
+              "Layers of tether on a ventilated cylindrical drum, which set its current derating; "
+              "0: not stated.",
+              1, at<&Design::tether, &Tether::drum, &Drum::layers>},
+    SpecField{"/tether/drum/derating", optional_number, "", positive_fraction, "null",
               "Current that the tether may carry on the drum over what it may laid out, where that "
               "is known; goes before layers.",
-              1,
-              static_cast<std::optional<double>& (*)(Design&)>(
-                  [](Design& d) -> std::optional<double>& { return d.tether.drum.derating; })},
-    SpecField{"/tether/strength_member/material", FieldKind::strength_material, "", any_number,
-              "\"none\"", "Fibres that carry the pull.", 1,
-              static_cast<StrengthMaterial& (*)(Design&)>([](Design& d) -> StrengthMaterial& {
-                return d.tether.strength_member.material;
-              })},
-    SpecField{"/tether/strength_member/cross_section_mm2", FieldKind::number, "mm²",
-              between(0, 1000), "0", "Cross-section of the fibres.", unit::square_millimetre,
-              Number([](Design& d) -> double& { return d.tether.strength_member.cross_section; })},
-    SpecField{"/tether/winch_pull_N", FieldKind::number, "N", between(0, 1e5), "0",
+              1, at<&Design::tether, &Tether::drum, &Drum::derating>},
+    SpecField{"/tether/strength_member/material", strength_material, "", any_number, "\"none\"",
+              "Fibres that carry the pull.", 1,
+              at<&Design::tether, &Tether::strength_member, &StrengthMember::material>},
+    SpecField{"/tether/strength_member/cross_section_mm2", number, "mm²", between(0, 1000), "0",
+              "Cross-section of the fibres.", unit::square_millimetre,
+              at<&Design::tether, &Tether::strength_member, &StrengthMember::cross_section>},
+    SpecField{"/tether/winch_pull_N", number, "N", between(0, 1e5), "0",
               "Pull of the winch on the tether, which the drone holds up.", 1,
-              Number([](Design& d) -> double& { return d.tether.winch_pull; })},
-    SpecField{"/supply/voltage_V", FieldKind::number, "V", between(1, 1e4), "",
+              at<&Design::tether, &Tether::winch_pull>},
+    SpecField{"/supply/voltage_V", number, "V", between(1, 1e4), "",
               "Voltage of the supply at the ground end of the tether.", 1,
-              Number([](Design& d) -> double& { return d.supply.voltage; })},
-    SpecField{"/supply/converter/efficiency", FieldKind::efficiency, "", positive_fraction, "",
+              at<&Design::supply, &Supply::voltage>},
+    SpecField{"/supply/converter/efficiency", efficiency, "", positive_fraction, "",
               "Efficiency of the converter on the drone: a number, or a list of points over its "
               "output power.",
-              1, static_cast<Converter& (*)(Design&)>([](Design& d) -> Converter& {
-                return d.supply.converter;
-              })},
-    SpecField{"/supply/converter/min_input_voltage_V", FieldKind::number, "V", between(0, 1e4), "",
+              1, at<&Design::supply, &Supply::converter>},
+    SpecField{"/supply/converter/min_input_voltage_V", number, "V", between(0, 1e4), "",
               "Voltage at its input below which the converter cuts off.", 1,
-              Number([](Design& d) -> double& { return d.supply.converter.min_input_voltage; })},
-    SpecField{
-        "/supply/converter/max_input_voltage_V", FieldKind::optional_number, "V", above(0, 1e4),
-        "null", "Highest voltage that the converter's input stands.", 1,
-        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
-          return d.supply.converter.max_input_voltage;
-        })},
-    SpecField{
-        "/supply/converter/rated_output_W", FieldKind::optional_number, "W", above(0, 1e6), "null",
-        "Power that the converter gives continuously, at most.", 1,
-        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
-          return d.supply.converter.rated_output_power;
-        })},
-    SpecField{"/supply/converter/specific_mass_kg_per_kW", FieldKind::number, "kg/kW",
-              between(0, 100), "0",
+              at<&Design::supply, &Supply::converter, &Converter::min_input_voltage>},
+    SpecField{"/supply/converter/max_input_voltage_V", optional_number, "V", above(0, 1e4), "null",
+              "Highest voltage that the converter's input stands.", 1,
+              at<&Design::supply, &Supply::converter, &Converter::max_input_voltage>},
+    SpecField{"/supply/converter/rated_output_W", optional_number, "W", above(0, 1e6), "null",
+              "Power that the converter gives continuously, at most.", 1,
+              at<&Design::supply, &Supply::converter, &Converter::rated_output_power>},
+    SpecField{"/supply/converter/specific_mass_kg_per_kW", number, "kg/kW", between(0, 100), "0",
               "Mass of the converter per rated output, which the drone carries beside its own.",
-              1e-3, Number([](Design& d) -> double& { return d.supply.converter.specific_mass; })},
-    SpecField{"/supply/converter/mass_table", FieldKind::converter_masses, "", any_number, "[]",
+              1e-3, at<&Design::supply, &Supply::converter, &Converter::specific_mass>},
+    SpecField{"/supply/converter/mass_table", converter_masses, "", any_number, "[]",
               "Instead of that, what converters weigh: points over their rated output.", 1,
-              static_cast<Converter& (*)(Design&)>(
-                  [](Design& d) -> Converter& { return d.supply.converter; })},
-    SpecField{
-        "/supply/converter/fixed_ratio", FieldKind::optional_number, "", above(0, 100), "null",
-        "Output over input voltage of a converter whose output follows its input.", 1,
-        static_cast<std::optional<double>& (*)(Design&)>(
-            [](Design& d) -> std::optional<double>& { return d.supply.converter.fixed_ratio; })},
-    SpecField{"/supply/converter/min_output_voltage_V", FieldKind::number, "V", between(0, 1e4),
-              "0", "Voltage that the motors need behind a converter of fixed ratio.", 1,
-              Number([](Design& d) -> double& { return d.supply.converter.min_output_voltage; })},
-    SpecField{"/flight/airspeed_m_s", FieldKind::number, "m/s", between(0, 200), "",
-              "Airspeed in forward flight.", 1,
-              Number([](Design& d) -> double& { return d.flight.airspeed; })},
-    SpecField{"/flight/headwind_m_s", FieldKind::number, "m/s", between(-200, 200), "0",
+              at<&Design::supply, &Supply::converter>},
+    SpecField{"/supply/converter/fixed_ratio", optional_number, "", above(0, 100), "null",
+              "Output over input voltage of a converter whose output follows its input.", 1,
+              at<&Design::supply, &Supply::converter, &Converter::fixed_ratio>},
+    SpecField{"/supply/converter/min_output_voltage_V", number, "V", between(0, 1e4), "0",
+              "Voltage that the motors need behind a converter of fixed ratio.", 1,
+              at<&Design::supply, &Supply::converter, &Converter::min_output_voltage>},
+    SpecField{"/flight/airspeed_m_s", number, "m/s", between(0, 200), "",
+              "Airspeed in forward flight.", 1, at<&Design::flight, &Flight::airspeed>},
+    SpecField{"/flight/headwind_m_s", number, "m/s", between(-200, 200), "0",
               "Wind from the front, added to the airspeed in hover and in forward flight.", 1,
-              Number([](Design& d) -> double& { return d.flight.headwind; })},
-    SpecField{"/flight/air_density_kg_m3", FieldKind::number, "kg/m³", between(0.001, 100), "",
+              at<&Design::flight, &Flight::headwind>},
+    SpecField{"/flight/air_density_kg_m3", number, "kg/m³", between(0.001, 100), "",
               "Density of the air; 1.225 at 15 °C and sea level (ISO 2533).", 1,
-              Number([](Design& d) -> double& { return d.flight.air_density; })},
-    SpecField{"/flight/gravity_m_s2", FieldKind::number, "m/s²", between(0.1, 100), "9.80665",
-              "Acceleration of gravity.", 1,
-              Number([](Design& d) -> double& { return d.flight.gravity; })},
-    SpecField{"/requirements/thrust_headroom", FieldKind::number, "", between(1, 100), "2.0",
+              at<&Design::flight, &Flight::air_density>},
+    SpecField{"/flight/gravity_m_s2", number, "m/s²", between(0.1, 100), "9.80665",
+              "Acceleration of gravity.", 1, at<&Design::flight, &Flight::gravity>},
+    SpecField{"/requirements/thrust_headroom", number, "", between(1, 100), "2.0",
               "Thrust that the available power makes over the thrust needed, at least.", 1,
-              Number([](Design& d) -> double& { return d.requirements.thrust_headroom; })},
-    SpecField{"/requirements/headroom_at", FieldKind::condition, "", any_number, "\"hover\"",
+              at<&Design::requirements, &Requirements::thrust_headroom>},
+    SpecField{"/requirements/headroom_at", condition, "", any_number, "\"hover\"",
               "Flight condition in which the headroom is demanded.", 1,
-              static_cast<Condition& (*)(Design&)>(
-                  [](Design& d) -> Condition& { return d.requirements.headroom_at; })},
-    SpecField{"/requirements/power_at", FieldKind::condition, "", any_number, "\"forward\"",
+              at<&Design::requirements, &Requirements::headroom_at>},
+    SpecField{"/requirements/power_at", condition, "", any_number, "\"forward\"",
               "Flight condition in which the power is minimised.", 1,
-              static_cast<Condition& (*)(Design&)>(
-                  [](Design& d) -> Condition& { return d.requirements.power_at; })},
-    SpecField{"/requirements/max_pitch_deg", FieldKind::number, "°", inside(0, 90), "45",
+              at<&Design::requirements, &Requirements::power_at>},
+    SpecField{"/requirements/max_pitch_deg", number, "°", inside(0, 90), "45",
               "Largest tilt of the drone.", unit::degree,
-              Number([](Design& d) -> double& { return d.requirements.max_pitch; })},
-    SpecField{"/requirements/buffer_battery", FieldKind::boolean, "", any_number, "false",
+              at<&Design::requirements, &Requirements::max_pitch>},
+    SpecField{"/requirements/buffer_battery", boolean, "", any_number, "false",
               "A battery on board covers peaks of thrust: headroom is reported, not enforced.", 1,
-              static_cast<bool& (*)(Design&)>(
-                  [](Design& d) -> bool& { return d.requirements.buffer_battery; })},
-    SpecField{"/requirements/strength_safety_factor", FieldKind::number, "", between(0, 1000), "0",
+              at<&Design::requirements, &Requirements::buffer_battery>},
+    SpecField{"/requirements/strength_safety_factor", number, "", between(0, 1000), "0",
               "Breaking load of the tether over its tension at the drone, at least; 0: not asked "
               "for.",
-              1,
-              Number([](Design& d) -> double& { return d.requirements.strength_safety_factor; })},
+              1, at<&Design::requirements, &Requirements::strength_safety_factor>},
 };
 
-const SpecField id_field{"/id", FieldKind::text, "", any_number, "\"\"", "Name in the library."};
-const SpecField name_field{"/name",    FieldKind::text, "",
-                           any_number, "\"\"",          "What reports call it."};
-const SpecField source_field{"/source",  FieldKind::text, "",
-                             any_number, "\"\"",          "Where the numbers come from."};
-SpecField density_field(Number access) {
+const SpecField id_field{"/id", text, "", any_number, "\"\"", "Name in the library."};
+const SpecField name_field{"/name", text, "", any_number, "\"\"", "What reports call it."};
+const SpecField source_field{"/source",  text,   "",
+                             any_number, "\"\"", "Where the numbers come from."};
+SpecField density_field(double& (*access)(Design&)) {
   return {"/density_g_cm3",
           FieldKind::number,
           "g/cm³",
@@ -252,66 +221,61 @@ const std::array all_motor_fields{
     id_field,
     name_field,
     source_field,
-    SpecField{"/voltage_V", FieldKind::optional_number, "V", above(0, 1000), "null",
+    SpecField{"/voltage_V", optional_number, "V", above(0, 1000), "null",
               "Voltage at which it was measured."},
-    SpecField{"/propeller_in", FieldKind::optional_number, "inch", above(0, 200), "null",
+    SpecField{"/propeller_in", optional_number, "inch", above(0, 200), "null",
               "Diameter of the propeller."},
-    SpecField{"/points", FieldKind::motor_points, "", any_number, "",
+    SpecField{"/points", motor_points, "", any_number, "",
               "Measured points of one motor with its propeller, two at least."}};
 
 const std::array all_motor_point_fields{
-    SpecField{"/throttle_percent", FieldKind::optional_number, "%", between(0, 100), "null",
+    SpecField{"/throttle_percent", optional_number, "%", between(0, 100), "null",
               "Throttle; not used."},
-    SpecField{"/thrust_g", FieldKind::number, "gram-force", above(0, 1e6), "", "Static thrust.",
+    SpecField{"/thrust_g", number, "gram-force", above(0, 1e6), "", "Static thrust.",
               unit::gram_force},
-    SpecField{"/efficiency_g_per_W", FieldKind::optional_number, "gram-force/W", between(1e-3, 1e4),
-              "null", "Thrust over electrical power; this or power_W."},
-    SpecField{"/power_W", FieldKind::optional_number, "W", above(0, 1e6), "null",
+    SpecField{"/efficiency_g_per_W", optional_number, "gram-force/W", between(1e-3, 1e4), "null",
+              "Thrust over electrical power; this or power_W."},
+    SpecField{"/power_W", optional_number, "W", above(0, 1e6), "null",
               "Electrical input power; this or efficiency_g_per_W."}};
 
 const std::array all_conductor_fields{
     id_field, name_field, source_field,
-    SpecField{"/resistivity_20C_ohm_mm2_per_m", FieldKind::number, "Ω·mm²/m", between(1e-3, 10), "",
+    SpecField{"/resistivity_20C_ohm_mm2_per_m", number, "Ω·mm²/m", between(1e-3, 10), "",
               "Resistivity at 20 °C.", unit::ohm_square_millimetre_per_metre,
-              Number([](Design& d) -> double& { return d.tether.conductor.resistivity_20C; })},
+              at<&Design::tether, &Tether::conductor, &Conductor::resistivity_20C>},
     // With the temperatures allowed above, the resistivity stays positive.
-    SpecField{
-        "/temperature_coefficient_per_K", FieldKind::number, "1/K", between(0, 0.01), "",
-        "Temperature coefficient of the resistivity, relative to 20 °C.", 1,
-        Number([](Design& d) -> double& { return d.tether.conductor.temperature_coefficient; })},
-    density_field([](Design& d) -> double& { return d.tether.conductor.density; }),
-    SpecField{"/tensile_strength_MPa", FieldKind::optional_number, "MPa", above(0, 1e4), "null",
+    SpecField{"/temperature_coefficient_per_K", number, "1/K", between(0, 0.01), "",
+              "Temperature coefficient of the resistivity, relative to 20 °C.", 1,
+              at<&Design::tether, &Tether::conductor, &Conductor::temperature_coefficient>},
+    density_field(at<&Design::tether, &Tether::conductor, &Conductor::density>),
+    SpecField{"/tensile_strength_MPa", optional_number, "MPa", above(0, 1e4), "null",
               "Tensile strength; where unknown, no load is hung on the conductors.",
               unit::megapascal,
-              Number([](Design& d) -> double& { return d.tether.conductor.tensile_strength; })}};
+              at<&Design::tether, &Tether::conductor, &Conductor::tensile_strength>}};
 
 const std::array all_insulation_fields{
     id_field,
     name_field,
     source_field,
-    density_field([](Design& d) -> double& { return d.tether.insulation.density; }),
-    SpecField{
-        "/rated_temperature_C", FieldKind::optional_number, "°C", between(0, 400), "null",
-        "Highest continuous conductor temperature.", 1,
-        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
-          return d.tether.insulation.rated_temperature_C;
-        })},
-    SpecField{
-        "/thermal_conductivity_W_mK", FieldKind::optional_number, "W/(m·K)", between(0.01, 10),
-        "null", "Thermal conductivity; 0.17 is taken where unknown.", 1,
-        Number([](Design& d) -> double& { return d.tether.insulation.thermal_conductivity; })},
-    SpecField{"/breakdown_kV_mm", FieldKind::optional_number, "kV/mm", between(0.1, 1000), "null",
+    density_field(at<&Design::tether, &Tether::insulation, &Insulation::density>),
+    SpecField{"/rated_temperature_C", optional_number, "°C", between(0, 400), "null",
+              "Highest continuous conductor temperature.", 1,
+              at<&Design::tether, &Tether::insulation, &Insulation::rated_temperature_C>},
+    SpecField{"/thermal_conductivity_W_mK", optional_number, "W/(m·K)", between(0.01, 10), "null",
+              "Thermal conductivity; 0.17 is taken where unknown.", 1,
+              at<&Design::tether, &Tether::insulation, &Insulation::thermal_conductivity>},
+    SpecField{"/breakdown_kV_mm", optional_number, "kV/mm", between(0.1, 1000), "null",
               "Breakdown strength of a short test.", unit::kilovolt_per_millimetre,
-              Number([](Design& d) -> double& { return d.tether.insulation.breakdown_strength; })}};
+              at<&Design::tether, &Tether::insulation, &Insulation::breakdown_strength>}};
 
 const std::array all_efficiency_point_fields{
-    SpecField{"/output_W", FieldKind::number, "W", between(0, 1e6), "", "Output power."},
-    SpecField{"/efficiency", FieldKind::number, "", positive_fraction, "",
+    SpecField{"/output_W", number, "W", between(0, 1e6), "", "Output power."},
+    SpecField{"/efficiency", number, "", positive_fraction, "",
               "Efficiency at that output power."}};
 
 const std::array all_converter_mass_fields{
-    SpecField{"/rated_output_W", FieldKind::number, "W", above(0, 1e6), "", "Rated output."},
-    SpecField{"/mass_g", FieldKind::number, "g", between(0, 1e6), "", "Mass of such a converter.",
+    SpecField{"/rated_output_W", number, "W", above(0, 1e6), "", "Rated output."},
+    SpecField{"/mass_g", number, "g", between(0, 1e6), "", "Mass of such a converter.",
               unit::gram}};
 
 std::string_view last_part(std::string_view path, char separator) {

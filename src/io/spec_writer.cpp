@@ -91,8 +91,7 @@ Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
     put_entry(other, entry);
     return entry_numbers(other, field.kind) == numbers;
   };
-  const Entry& base =
-      reference.empty() ? old : find(reference, file.folder, dot_path(field.pointer));
+  const Entry& base = reference.empty() ? old : find(reference, file.load, dot_path(field.pointer));
   if (!reference.empty() && is(base)) return reference;
   for (const Entry& entry : library()) {
     if (is(entry)) return entry.id;

@@ -1,6 +1,7 @@
 // How findings move the optimum, against an optimum found by walking along all cross-sections with
 // the paper's equations written down once more (support/plain_physics.hpp).
 #include "tethercalc/diagnose/design_impact.hpp"
+#include "tethercalc/files/read_files.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
