@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "../tests/support/dataflash_writer.hpp"
+#include "files/mapped_file.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 
 using namespace tethercalc;
 

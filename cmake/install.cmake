@@ -1,6 +1,6 @@
 include(CMakePackageConfigHelpers)
 
-install(TARGETS tethercalc EXPORT tethercalcTargets)
+install(TARGETS tethercalc tethercalc_core EXPORT tethercalcTargets)
 install(TARGETS tethercalc_command RUNTIME)
 install(DIRECTORY include/tethercalc TYPE INCLUDE)
 install(FILES LICENSE README.md TYPE DOC)

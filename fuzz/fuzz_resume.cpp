@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "tethercalc/io/row_file.hpp"
+#include "files/row_file.hpp"
 
 namespace {
 

@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (may_leave_the_folder({reinterpret_cast<const char*>(data), size})) {
       (void)parse_json(text, "spec.json");
     } else {
-      require_usable(parse_design(text, "spec.json", "no-such-folder", overrides));
+      require_usable(parse_design(text, "spec.json", {}, overrides));
     }
   } catch (const InputError& error) {
     require(!error.problems().empty());

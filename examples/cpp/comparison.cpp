@@ -1,6 +1,6 @@
 // The best motor of the library for a drone, each motor with its own best tether.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/optimum.hpp>
 
 using namespace tethercalc;

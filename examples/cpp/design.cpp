@@ -1,6 +1,6 @@
 // Voltage and conductor of least power for a tether of 600 g at most, and what a metre more costs.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/design.hpp>
 
 using namespace tethercalc;

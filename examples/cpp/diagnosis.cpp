@@ -1,7 +1,6 @@
 // What a design gets wrong of a measured flight, and how its optimum moves once that is repaired.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
-#include <tethercalc/io/flight_log_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/diagnosis.hpp>
 
 using namespace tethercalc;

@@ -1,6 +1,6 @@
 // Drag parameters learned from a flight log, with and without the linear term.
 #include <cstdio>
-#include <tethercalc/io/flight_log_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/drag.hpp>
 
 using namespace tethercalc;

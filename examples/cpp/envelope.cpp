@@ -1,6 +1,6 @@
 // How high, how heavy, how fast and in how much wind a cable of 1.5 mm² flies.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/envelope.hpp>
 
 using namespace tethercalc;

@@ -1,6 +1,6 @@
 // What a cable does in a design, and which demand it meets least.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/evaluation.hpp>
 
 using namespace tethercalc;

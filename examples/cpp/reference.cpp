@@ -1,6 +1,6 @@
 // The results of a design held against one on record.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/reference.hpp>
 
 using namespace tethercalc;

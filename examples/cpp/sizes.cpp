@@ -1,6 +1,6 @@
 // The optimum of a spec, and the sizes next to it that can be bought.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/optimum.hpp>
 
 using namespace tethercalc;

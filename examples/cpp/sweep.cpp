@@ -1,6 +1,6 @@
 // The optimum over voltages and lengths, without files or texts in between.
 #include <cstdio>
-#include <tethercalc/io/design_reader.hpp>
+#include <tethercalc/files/read_files.hpp>
 #include <tethercalc/study/sweep.hpp>
 
 using namespace tethercalc;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/library_report.hpp"
@@ -24,7 +25,7 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
       continue;
     }
     try {
-      motors.push_back(find_motor(name, {}, "--motors"));
+      motors.push_back(find_motor(name, files_in(""), "--motors"));
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/envelope_report.hpp"

@@ -8,14 +8,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "files/whole_file.hpp"
 #include "io/closest_name.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
-#include "tethercalc/io/power_log_reader.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/spec_writer.hpp"
-#include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/study/diagnosis.hpp"
 
@@ -148,7 +148,7 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   }
   // Checked as if a person had written it.
   const DesignFile extended =
-      read_design_document(spec_with(file, study.extended), file.file, file.folder);
+      read_design_document(spec_with(file, study.extended), file.file, file.load);
   return {std::move(study.flight), std::move(study.power), extended.document};
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/identify/drag_fit.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"

@@ -6,10 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "files/mapped_file.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"
-#include "tethercalc/io/mapped_file.hpp"
+#include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/drag_report.hpp"
 #include "tethercalc/report/log_report.hpp"
 
@@ -19,9 +21,11 @@ namespace {
 /// The spec with its drag replaced, checked as if a person had edited it.
 std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
   const DesignFile file = read_design(spec);
-  nlohmann::ordered_json document = file.document;
-  document["drone"]["drag"].update(spec_drag_block(fit));
-  return json_text(read_design_document(document, file.file, file.folder).document);
+  Design design = file.design;
+  const double asymmetry = design.drone.drag.fore_aft_asymmetry;
+  design.drone.drag = fit.drag();
+  design.drone.drag.fore_aft_asymmetry = asymmetry;
+  return json_text(read_design_document(spec_with(file, design), file.file, file.load).document);
 }
 
 /// What was not said and moves the answer, on standard error so that no format hides it.

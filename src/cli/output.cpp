@@ -10,8 +10,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "files/whole_file.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/whole_file.hpp"
 
 namespace tethercalc::cli {
 

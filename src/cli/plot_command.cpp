@@ -10,10 +10,12 @@
 
 #include "cli/diagnose_command.hpp"
 #include "cli/log_commands.hpp"
+#include "files/mapped_file.hpp"
 #include "io/closest_name.hpp"
+#include "tethercalc/files/gnuplot.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/report/design_figures.hpp"
 #include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/report/flight_figures.hpp"
@@ -222,7 +224,7 @@ int run_plot(const PlotOptions& options) {
   size.width_mm = options.width_mm;
   size.columns = text_columns();
   size.colour = style_for(output).colour;
-  emit(output, render(kind.draw(options), format, size));
+  emit(output, render(kind.draw(options), format, run_gnuplot, size));
   return done;
 }
 

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "cli/log_commands.hpp"
+#include "tethercalc/files/gnuplot.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/report/report_page.hpp"
@@ -37,6 +39,7 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   PageContent content;
   content.file = file;
   content.command = command;
+  content.gnuplot = run_gnuplot;
   if (!options.flight_log.empty()) content.drag = learn_drag(options, file.design);
   if (!options.flight_log.empty() || !options.power_log.empty()) {
     const ToldDiagnosis told = diagnose_logs(options, file);

@@ -16,13 +16,14 @@
 #include <system_error>
 #include <utility>
 
+#include "files/row_file.hpp"
+#include "files/whole_file.hpp"
+#include "tethercalc/files/read_files.hpp"
+#include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/row_file.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
-#include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/sweep_rows.hpp"
 #include "tethercalc/report/sweep_summary.hpp"
-#include "tethercalc/solve/ordered_chunks.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -252,12 +253,12 @@ std::string how_to_continue(const RowFile& file) {
 // --- Running -----------------------------------------------------------------------------------
 
 /// Writes all rows from `first` on. Returns false where it was interrupted.
-bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, unsigned threads,
+bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const ChunkRunner& runner,
                 SweepSummary* summary) {
   const RowWriter write = [&](std::string& text, const SweepRow& row) {
     sweep.rows.append(text, row);
   };
-  SweepJob job{&sweep.space, &sweep.base, write, {first, sweep.range.end}, first, threads};
+  SweepJob job{&sweep.space, &sweep.base, write, {first, sweep.range.end}, first, runner};
   if (summary != nullptr) job.range.begin = sweep.range.begin;  // it needs the earlier rows as well
   Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
   std::uint64_t written = first;
@@ -306,7 +307,7 @@ int run_sweep(const SweepOptions& options) {
   const Shard shard = parsed_shard(options.shard);
   const DesignFile base = read_design(options.spec.file, options.spec.overrides);
   const SweepSpace space = make_space(options, base);
-  const unsigned threads = options.jobs > 0 ? options.jobs : all_cores();
+  const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 
   const Sweep sweep{space, base.design, SweepRows(space.axes(), format),
                     shard_rows(space.rows(), shard.part, shard.parts),
@@ -322,7 +323,7 @@ int run_sweep(const SweepOptions& options) {
   bool completed = false;
   {
     const InterruptGuard guard;
-    completed = write_rows(sweep, file, first, threads, summarised ? &summary : nullptr);
+    completed = write_rows(sweep, file, first, runner, summarised ? &summary : nullptr);
   }
   if (!completed) {
     // Die of the signal after all, so that a shell's loop around this command ends as well.
@@ -330,7 +331,7 @@ int run_sweep(const SweepOptions& options) {
     return 128 + interrupting_signal;
   }
   if (summarised) {
-    summary.sensitivity = sweep_sensitivity(space, base.design, threads);
+    summary.sensitivity = sweep_sensitivity(space, base.design, runner);
     tell_summary(options, summary, space);
   }
   return done;

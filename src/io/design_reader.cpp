@@ -11,14 +11,12 @@
 #include "io/entry_readers.hpp"
 #include "io/json_document.hpp"
 #include "io/spec_overrides.hpp"
-#include "io/text_file.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
 namespace tethercalc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 /// A boolean, or one of the words of the field's kind.
 void read_word(const JsonPlace& place, const SpecField& field, Design& design, Problems& problems) {
@@ -40,47 +38,47 @@ void read_word(const JsonPlace& place, const SpecField& field, Design& design, P
   }
 }
 
-std::vector<EfficiencyPoint> checked_efficiency_points(const JsonPlace& place, Problems& problems) {
-  const auto fields = efficiency_point_fields();
-  std::vector<EfficiencyPoint> points;
+/// Reads a list of objects of two numbers each, in SI, and makes a `Point` of each. `put` takes the
+/// list and throws std::invalid_argument where it cannot be.
+template <class Point, class Put>
+void read_points(const JsonPlace& place, std::span<const SpecField> fields, Problems& problems,
+                 const Put& put) {
+  const std::size_t before = problems.count();
+  std::vector<Point> points;
   for (std::size_t i = 0; i < place.value->size(); ++i) {
     const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
     const std::vector<JsonPlace> places = field_places(at, fields, problems);
-    const auto output = checked_number(places[0], fields[0], problems);
-    const auto efficiency = checked_number(places[1], fields[1], problems);
-    if (output && efficiency) points.push_back({*output, *efficiency});
+    const auto x = checked_number(places[0], fields[0], problems);
+    const auto y = checked_number(places[1], fields[1], problems);
+    if (x && y) points.push_back({*x * fields[0].si_factor, *y * fields[1].si_factor});
   }
-  return points;
+  if (problems.count() > before) return;
+  try {
+    put(std::move(points));
+  } catch (const std::invalid_argument& error) {
+    problems.add(place.where(), error.what());
+  }
 }
 
 void read_efficiency(const JsonPlace& place, const SpecField& field, Converter& converter,
                      Problems& problems) {
-  if (!place.value->is_array()) {
-    if (place.value->is_number()) {
-      if (const auto constant = checked_number(place, field, problems)) {
-        converter.efficiency = {{0.0, *constant}};
-      }
-      return;
+  if (place.value->is_number()) {
+    if (const auto constant = checked_number(place, field, problems)) {
+      converter.efficiency = {{0.0, *constant}};
     }
+  } else if (!place.value->is_array()) {
     problems.add(place.where(),
                  fmt::format("expected a number {} or a list of {{output_W, efficiency}}, found {}",
                              describe_range(field), type_name(*place.value)));
-    return;
-  }
-  if (place.value->empty()) {
+  } else if (place.value->empty()) {
     problems.add(place.where(), "an efficiency curve needs at least one point");
-    return;
-  }
-  const std::size_t before = problems.count();
-  std::vector<EfficiencyPoint> points = checked_efficiency_points(place, problems);
-  if (problems.count() > before) return;
-  Converter candidate = converter;
-  candidate.efficiency = std::move(points);
-  try {
-    validate(candidate);
-    converter = std::move(candidate);
-  } catch (const std::invalid_argument& error) {
-    problems.add(place.where(), error.what());
+  } else {
+    read_points<EfficiencyPoint>(place, efficiency_point_fields(), problems, [&](auto points) {
+      Converter candidate = converter;
+      candidate.efficiency = std::move(points);
+      validate(candidate);
+      converter = std::move(candidate);
+    });
   }
 }
 
@@ -91,23 +89,10 @@ void read_converter_masses(const JsonPlace& place, Converter& converter, Problem
                              type_name(*place.value)));
     return;
   }
-  const auto fields = converter_mass_fields();
-  const std::size_t before = problems.count();
-  std::vector<ConverterMassPoint> masses;
-  for (std::size_t i = 0; i < place.value->size(); ++i) {
-    const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
-    const std::vector<JsonPlace> places = field_places(at, fields, problems);
-    const auto rated = checked_number(places[0], fields[0], problems);
-    const auto mass = checked_number(places[1], fields[1], problems);
-    if (rated && mass) masses.push_back({*rated, *mass * unit::gram});
-  }
-  if (problems.count() > before) return;
-  try {
-    validate(masses);
-    converter.masses = std::move(masses);
-  } catch (const std::invalid_argument& error) {
-    problems.add(place.where(), error.what());
-  }
+  read_points<ConverterMassPoint>(place, converter_mass_fields(), problems, [&](auto points) {
+    validate(points);
+    converter.masses = std::move(points);
+  });
 }
 
 /// Fills a DesignFile field by field.
@@ -179,13 +164,13 @@ class SpecReader {
       taken = std::move(*entry);
     };
     if (field.kind == FieldKind::motor) {
-      take(read_motor(place, result_.folder, problems_), result_.motor);
+      take(read_motor(place, result_.load, problems_), result_.motor);
       result_.warnings.insert(result_.warnings.end(), result_.motor.warnings.begin(),
                               result_.motor.warnings.end());
     } else if (field.kind == FieldKind::conductor) {
-      take(read_conductor(place, result_.folder, problems_), result_.conductor);
+      take(read_conductor(place, result_.load, problems_), result_.conductor);
     } else if (field.kind == FieldKind::insulation_material) {
-      take(read_insulation(place, result_.folder, problems_), result_.insulation);
+      take(read_insulation(place, result_.load, problems_), result_.insulation);
     }
   }
 
@@ -194,15 +179,15 @@ class SpecReader {
   Problems& problems_;
 };
 
-DesignFile design_of(JsonDocument document, const fs::path& folder,
+DesignFile design_of(JsonDocument document, const TextLoader& load,
                      std::span<const std::string> overrides) {
   Problems problems;
   problems.add(document.problems);
   apply_overrides(document, overrides, problems);
   DesignFile result;
-  result.name = as_utf8(fs::path(document.name).stem().string());
+  result.name = as_utf8(file_stem(document.name));
   result.file = document.name;
-  result.folder = folder;
+  result.load = load;
   SpecReader(document, result, problems).read();
   problems.throw_if_any();
   result.document = std::move(document.root);
@@ -211,19 +196,14 @@ DesignFile design_of(JsonDocument document, const fs::path& folder,
 
 }  // namespace
 
-DesignFile read_design(const std::string& path, std::span<const std::string> overrides) {
-  const TextFile file = read_text_file(path);
-  return parse_design(file.text, file.name, file.folder, overrides);
-}
-
-DesignFile parse_design(std::string_view text, const std::string& file, const fs::path& folder,
+DesignFile parse_design(std::string_view text, const std::string& file, const TextLoader& load,
                         std::span<const std::string> overrides) {
-  return design_of(parse_json(text, file), folder, overrides);
+  return design_of(parse_json(text, file), load, overrides);
 }
 
 DesignFile read_design_document(nlohmann::ordered_json document, const std::string& file,
-                                const fs::path& folder) {
-  return design_of(document_of(std::move(document), file), folder, {});
+                                const TextLoader& load) {
+  return design_of(document_of(std::move(document), file), load, {});
 }
 
 }  // namespace tethercalc

@@ -13,7 +13,6 @@
 #include "io/closest_name.hpp"
 #include "io/csv_columns.hpp"
 #include "io/embedded_files.hpp"
-#include "io/text_file.hpp"
 #include "tethercalc/model/motor_bench.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -21,7 +20,6 @@ namespace tethercalc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 /// A measured point and what messages call its place.
 struct BenchPoint {
@@ -232,11 +230,12 @@ std::optional<Entry> entry_from_library(const EntryKind<Entry>& kind, const std:
 
 template <typename Entry>
 std::optional<Entry> entry_from_file(const EntryKind<Entry>& kind, const std::string& reference,
-                                     const fs::path& folder, const std::string& where,
+                                     const TextLoader& load, const std::string& where,
                                      Problems& problems) {
-  TextFile file;
+  LoadedText file;
   try {
-    file = read_text_file((folder / reference).string());
+    if (!load) throw InputError(reference, "is a file, and there are none here");
+    file = load(reference);
   } catch (const InputError& error) {
     for (const InputProblem& problem : error.problems()) {
       problems.add(where, fmt::format("{}: {}", problem.where, problem.message));
@@ -256,22 +255,22 @@ std::optional<Entry> entry_from_file(const EntryKind<Entry>& kind, const std::st
 
 template <typename Entry>
 std::optional<Entry> entry_named(const EntryKind<Entry>& kind, const std::string& reference,
-                                 const fs::path& folder, const std::string& where,
+                                 const TextLoader& load, const std::string& where,
                                  Problems& problems) {
   // No entry's id ends like a file.
   const bool is_file = reference.find('/') != std::string::npos ||
                        reference.ends_with(json_suffix) || reference.ends_with(".csv");
-  return is_file ? entry_from_file(kind, reference, folder, where, problems)
+  return is_file ? entry_from_file(kind, reference, load, where, problems)
                  : entry_from_library(kind, reference, where, problems);
 }
 
 template <typename Entry>
 std::optional<Entry> entry_at(const EntryKind<Entry>& kind, const JsonPlace& place,
-                              const fs::path& folder, Problems& problems) {
+                              const TextLoader& load, Problems& problems) {
   if (!place.given()) return std::nullopt;
   if (place.value->is_object()) return kind.from_object(place, problems);
   if (place.value->is_string()) {
-    return entry_named(kind, place.value->template get<std::string>(), folder, place.where(),
+    return entry_named(kind, place.value->template get<std::string>(), load, place.where(),
                        problems);
   }
   problems.add(place.where(),
@@ -282,9 +281,9 @@ std::optional<Entry> entry_at(const EntryKind<Entry>& kind, const JsonPlace& pla
 
 template <typename Entry>
 Entry entry_or_throw(const EntryKind<Entry>& kind, const std::string& reference,
-                     const fs::path& folder, const std::string& where) {
+                     const TextLoader& load, const std::string& where) {
   Problems problems;
-  std::optional<Entry> entry = entry_named(kind, reference, folder, where, problems);
+  std::optional<Entry> entry = entry_named(kind, reference, load, where, problems);
   problems.throw_if_any();
   return std::move(*entry);
 }
@@ -302,19 +301,19 @@ std::vector<Entry> all_entries(const EntryKind<Entry>& kind) {
 
 }  // namespace
 
-std::optional<MotorEntry> read_motor(const JsonPlace& place, const fs::path& folder,
+std::optional<MotorEntry> read_motor(const JsonPlace& place, const TextLoader& load,
                                      Problems& problems) {
-  return entry_at(motor_kind, place, folder, problems);
+  return entry_at(motor_kind, place, load, problems);
 }
 
-std::optional<ConductorEntry> read_conductor(const JsonPlace& place, const fs::path& folder,
+std::optional<ConductorEntry> read_conductor(const JsonPlace& place, const TextLoader& load,
                                              Problems& problems) {
-  return entry_at(conductor_kind, place, folder, problems);
+  return entry_at(conductor_kind, place, load, problems);
 }
 
-std::optional<InsulationEntry> read_insulation(const JsonPlace& place, const fs::path& folder,
+std::optional<InsulationEntry> read_insulation(const JsonPlace& place, const TextLoader& load,
                                                Problems& problems) {
-  return entry_at(insulation_kind, place, folder, problems);
+  return entry_at(insulation_kind, place, load, problems);
 }
 
 std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const std::string& name,
@@ -330,7 +329,7 @@ std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const st
     return std::nullopt;
   }
   MotorEntry entry;
-  entry.name = as_utf8(fs::path(name).stem().string());
+  entry.name = as_utf8(file_stem(name));
   entry.source = as_utf8(name);
   std::vector<BenchPoint> points;
   for (std::size_t row = 0; row < values[0].size(); ++row) {
@@ -371,19 +370,19 @@ std::vector<MotorEntry> library_motors() { return all_entries(motor_kind); }
 std::vector<ConductorEntry> library_conductors() { return all_entries(conductor_kind); }
 std::vector<InsulationEntry> library_insulation() { return all_entries(insulation_kind); }
 
-MotorEntry find_motor(const std::string& reference, const fs::path& folder,
+MotorEntry find_motor(const std::string& reference, const TextLoader& load,
                       const std::string& where) {
-  return entry_or_throw(motor_kind, reference, folder, where);
+  return entry_or_throw(motor_kind, reference, load, where);
 }
 
-ConductorEntry find_conductor(const std::string& reference, const fs::path& folder,
+ConductorEntry find_conductor(const std::string& reference, const TextLoader& load,
                               const std::string& where) {
-  return entry_or_throw(conductor_kind, reference, folder, where);
+  return entry_or_throw(conductor_kind, reference, load, where);
 }
 
-InsulationEntry find_insulation(const std::string& reference, const fs::path& folder,
+InsulationEntry find_insulation(const std::string& reference, const TextLoader& load,
                                 const std::string& where) {
-  return entry_or_throw(insulation_kind, reference, folder, where);
+  return entry_or_throw(insulation_kind, reference, load, where);
 }
 
 }  // namespace tethercalc

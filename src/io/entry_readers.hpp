@@ -1,7 +1,6 @@
 // Motors, conductors and insulation materials out of JSON objects, files and library names.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 
 #include "io/checked_values.hpp"
@@ -10,14 +9,12 @@
 namespace tethercalc {
 
 /// Reads what a spec has at `place`: an object, or a text that names a library entry or a file
-/// relative to `folder`. Nothing, with the reasons among the problems, where that fails.
-std::optional<MotorEntry> read_motor(const JsonPlace& place, const std::filesystem::path& folder,
+/// that `load` reads. Nothing, with the reasons among the problems, where that fails.
+std::optional<MotorEntry> read_motor(const JsonPlace& place, const TextLoader& load,
                                      Problems& problems);
-std::optional<ConductorEntry> read_conductor(const JsonPlace& place,
-                                             const std::filesystem::path& folder,
+std::optional<ConductorEntry> read_conductor(const JsonPlace& place, const TextLoader& load,
                                              Problems& problems);
-std::optional<InsulationEntry> read_insulation(const JsonPlace& place,
-                                               const std::filesystem::path& folder,
+std::optional<InsulationEntry> read_insulation(const JsonPlace& place, const TextLoader& load,
                                                Problems& problems);
 
 /// A motor from the text of a test-bench CSV; `name` is the file's. See `find_motor`.

@@ -17,7 +17,6 @@
 #include "io/longest_increasing.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -269,12 +268,6 @@ FlightLogReading parse_flight_log(std::span<const std::byte> content, const std:
   }
   if (looks_like_dataflash(content)) return read_dataflash(content, name, options);
   return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name, options);
-}
-
-FlightLogReading read_flight_log(const std::filesystem::path& path,
-                                 const FlightLogOptions& options) {
-  const MappedFile file(path);
-  return parse_flight_log(file.bytes(), path.string(), options);
 }
 
 }  // namespace tethercalc

@@ -386,6 +386,12 @@ std::string shown(const nlohmann::ordered_json& value) {
 
 bool is_utf8(const std::string& text) { return as_utf8(text) == text; }
 
+std::string file_stem(std::string_view name) {
+  name.remove_prefix(name.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  return std::string(name.substr(0, dot == 0 ? name.npos : dot));
+}
+
 std::string as_utf8(const std::string& text) {
   const Json value(text);
   return Json::parse(value.dump(-1, ' ', true, Json::error_handler_t::replace)).get<std::string>();

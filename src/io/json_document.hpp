@@ -41,6 +41,9 @@ std::string child_pointer(std::string_view pointer, std::string_view key);
 /// to print whatever bytes it holds.
 std::string shown(const nlohmann::ordered_json& value);
 
+/// What a file is called without its folders and suffix: "x500" of "designs/x500.json".
+std::string file_stem(std::string_view name);
+
 /// Whether `text` is valid UTF-8, without which no JSON can hold it.
 bool is_utf8(const std::string& text);
 

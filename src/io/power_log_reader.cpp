@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "io/csv_columns.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -32,11 +31,6 @@ PowerLog parse_power_log(std::string_view text, std::string_view name) {
   log.bus_voltage = std::move(columns[7]);
   log.bus_current = std::move(columns[8]);
   return log;
-}
-
-PowerLog read_power_log(const std::filesystem::path& path) {
-  const MappedFile file(path);
-  return parse_power_log(file.text(), path.string());
 }
 
 }  // namespace tethercalc

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,10 +24,6 @@ double practical_number(double si, double si_factor) {
   for (int digits = 1; digits <= 17; ++digits) {
     const double value = std::strtod(fmt::format("{:.{}g}", nearest, digits).c_str(), nullptr);
     if (value * si_factor == si) return value;
-  }
-  for (const double end : {-HUGE_VAL, HUGE_VAL}) {
-    const double neighbour = std::nextafter(nearest, end);
-    if (neighbour * si_factor == si) return neighbour;
   }
   return nearest;
 }
@@ -96,8 +91,7 @@ Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
     put_entry(other, entry);
     return entry_numbers(other, field.kind) == numbers;
   };
-  const Entry& base =
-      reference.empty() ? old : find(reference, file.folder, dot_path(field.pointer));
+  const Entry& base = reference.empty() ? old : find(reference, file.load, dot_path(field.pointer));
   if (!reference.empty() && is(base)) return reference;
   for (const Entry& entry : library()) {
     if (is(entry)) return entry.id;

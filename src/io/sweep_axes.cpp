@@ -308,7 +308,7 @@ class AxisReader {
       choices.names = names_in(text, {});
       for (const std::string& name : choices.names) {
         try {
-          entries.push_back(find(name, base_.folder, option_));
+          entries.push_back(find(name, base_.load, option_));
         } catch (const InputError& error) {
           problems_.add(error.problems());
         }

@@ -78,8 +78,8 @@ std::string listing(std::string_view text, std::string_view label) {
                                                  markup_text(label))));
 }
 
-std::string picture(const Figure& figure) {
-  std::string svg = render(figure, FigureFormat::svg);
+std::string picture(const Figure& figure, const GnuplotRunner& gnuplot) {
+  std::string svg = render(figure, FigureFormat::svg, gnuplot);
   const std::size_t root = svg.find("<svg ");
   if (root == std::string::npos) throw std::runtime_error("gnuplot wrote no SVG");
   svg.erase(0, root);

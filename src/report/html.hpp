@@ -28,7 +28,7 @@ namespace tethercalc::html {
 /// Text in lines that stand as they are, in a box as above called `label`.
 [[nodiscard]] std::string listing(std::string_view text, std::string_view label);
 
-/// The figure as inline SVG, drawn by gnuplot; see `render` for its errors.
-[[nodiscard]] std::string picture(const Figure& figure);
+/// The figure as inline SVG, drawn by gnuplot; see `render`.
+[[nodiscard]] std::string picture(const Figure& figure, const GnuplotRunner& gnuplot);
 
 }  // namespace tethercalc::html

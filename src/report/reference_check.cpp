@@ -6,24 +6,20 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "io/json_document.hpp"
-#include "io/text_file.hpp"
 #include "report/characters.hpp"
 #include "tethercalc/io/design_reader.hpp"
-#include "tethercalc/io/whole_file.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 
 namespace tethercalc {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::string_view record_suffix = ".expected.json";
 constexpr double default_relative_tolerance = 1e-6;
 
 /// What a new record holds, as far as it exists.
@@ -139,28 +135,6 @@ std::vector<RecordedResult> unrecorded(const std::vector<NamedResult>& results) 
   return all;
 }
 
-std::vector<fs::path> specs_of_folder(const fs::path& folder) {
-  std::vector<fs::path> specs;
-  std::vector<InputProblem> problems;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    const std::string name = path.filename().string();
-    if (name.ends_with(record_suffix)) {
-      const fs::path spec = folder / (name.substr(0, name.size() - record_suffix.size()) + ".json");
-      if (!fs::exists(spec)) {
-        problems.push_back({path.string(), "there is no spec " + spec.filename().string() +
-                                               " beside this record"});
-      }
-    } else if (name.ends_with(".json")) {
-      specs.push_back(path);
-    }
-  }
-  if (specs.empty()) problems.push_back({folder.string(), "holds no design specs (.json)"});
-  if (!problems.empty()) throw InputError(std::move(problems));
-  std::sort(specs.begin(), specs.end());
-  return specs;
-}
-
 /// Number, text or null as people read it.
 std::string value_words(const ResultValue& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return *word;
@@ -220,61 +194,30 @@ std::size_t count_status(std::span<const ReferenceCheck> checks, std::string_vie
 
 }  // namespace
 
-fs::path record_path(const fs::path& spec) {
-  fs::path record = spec;
-  record.replace_extension();
-  record += record_suffix;
-  return record;
-}
-
-std::vector<fs::path> reference_specs(std::span<const std::string> paths) {
-  std::vector<fs::path> specs;
-  for (const std::string& path : paths) {
-    std::error_code error;
-    if (fs::is_directory(path, error)) {
-      const std::vector<fs::path> found = specs_of_folder(path);
-      specs.insert(specs.end(), found.begin(), found.end());
-    } else if (path.ends_with(record_suffix)) {
-      specs.emplace_back(path.substr(0, path.size() - record_suffix.size()) + ".json");
-    } else {
-      specs.emplace_back(path);
-    }
-  }
-  return specs;
-}
-
 bool ReferenceCheck::passed() const {
   return recorded && problems.empty() &&
          std::none_of(results.begin(), results.end(),
                       [](const RecordedResult& result) { return result.drifted; });
 }
 
-ReferenceCheck check_reference(const fs::path& spec) {
+ReferenceCheck check_reference(std::string spec, const DesignFile& file,
+                               const std::optional<LoadedText>& record) {
   ReferenceCheck check;
-  check.spec = spec;
+  check.spec = std::move(spec);
+  check.name = file.name;
+  check.recorded = record.has_value();
   try {
-    const DesignFile file = read_design(spec.string());
-    check.name = file.name;
     const std::vector<NamedResult> results = reference_results(file.design);
-    const fs::path record = record_path(spec);
-    check.recorded = fs::exists(record);
-    if (check.recorded) {
-      const TextFile text = read_text_file(record.string());
-      check.results = compared(parse_json(text.text, text.name), results);
-    } else {
-      check.results = unrecorded(results);
-    }
+    check.results =
+        record ? compared(parse_json(record->text, record->name), results) : unrecorded(results);
   } catch (const InputError& error) {
     check.problems = error.problems();
   }
   return check;
 }
 
-bool update_record(const ReferenceCheck& check) {
-  if (!check.problems.empty() || check.passed()) return false;
-  const fs::path path = record_path(check.spec);
-  ordered_json record = ordered_json::object();
-  if (check.recorded) record = ordered_json::parse(read_text_file(path.string()).text);
+std::string updated_record(const ReferenceCheck& check, const std::optional<LoadedText>& old) {
+  ordered_json record = old ? ordered_json::parse(old->text) : ordered_json::object();
   for (const RecordedResult& result : check.results) {
     if (!result.drifted) continue;
     ordered_json& entry = record[result.name];
@@ -284,8 +227,7 @@ bool update_record(const ReferenceCheck& check) {
       entry["relative_tolerance"] = default_relative_tolerance;
     }
   }
-  write_whole_file(path, record.dump(2) + "\n");
-  return true;
+  return record.dump(2) + "\n";
 }
 
 std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
@@ -295,7 +237,7 @@ std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
     const std::string status(status_of(check));
     const std::string shown_status = check.passed() ? style.good(status) : style.bad(status);
     out += fmt::format("{}{}  {}  {}\n", shown_status, std::string(10 - status.size(), ' '),
-                       check.spec.string(), style.subdued(check.name));
+                       check.spec, style.subdued(check.name));
     if (check.passed()) continue;
     std::string lines = problem_lines(check) + (check.problems.empty() ? drift_lines(check) : "");
     for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n')) {
@@ -322,7 +264,7 @@ ordered_json check_json(std::span<const ReferenceCheck> checks) {
                          {"tolerance", result.tolerance},
                          {"drifted", result.drifted}});
     }
-    designs.push_back({{"spec", check.spec.string()},
+    designs.push_back({{"spec", check.spec},
                        {"name", check.name},
                        {"status", status_of(check)},
                        {"results", results}});
@@ -340,11 +282,10 @@ std::string check_csv(std::span<const ReferenceCheck> checks) {
   };
   for (const ReferenceCheck& check : checks) {
     for (const RecordedResult& result : check.results) {
-      out +=
-          fmt::format("{},{},{},{},{},{},{},{}\n", csv_text(check.spec.string()), status_of(check),
-                      result.name, cell(result.recorded), cell(result.computed),
-                      result.difference ? csv_number(*result.difference) : "",
-                      csv_number(result.tolerance), result.drifted);
+      out += fmt::format("{},{},{},{},{},{},{},{}\n", csv_text(check.spec), status_of(check),
+                         result.name, cell(result.recorded), cell(result.computed),
+                         result.difference ? csv_number(*result.difference) : "",
+                         csv_number(result.tolerance), result.drifted);
     }
   }
   return out;
@@ -359,9 +300,11 @@ std::string check_junit(std::span<const ReferenceCheck> checks) {
   out +=
       fmt::format("<testsuites {}>\n  <testsuite name=\"tethercalc check\" {}>\n", counts, counts);
   for (const ReferenceCheck& check : checks) {
-    const std::string opening = fmt::format("    <testcase classname=\"{}\" name=\"{}\"",
-                                            attribute_text(check.spec.parent_path().string()),
-                                            attribute_text(check.spec.filename().string()));
+    const std::size_t name = check.spec.rfind('/') + 1;
+    const std::string opening =
+        fmt::format("    <testcase classname=\"{}\" name=\"{}\"",
+                    attribute_text(std::string_view(check.spec).substr(0, name > 0 ? name - 1 : 0)),
+                    attribute_text(std::string_view(check.spec).substr(name)));
     if (check.passed()) {
       out += opening + "/>\n";
       continue;

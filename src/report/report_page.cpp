@@ -58,7 +58,8 @@ Section answer_section(const PageContent& content) {
 
 Section cross_sections(const PageContent& content) {
   const OptimumStudy& study = content.optimum;
-  std::string body = html::picture(optimum_figure(content.file.name, study, content.curve));
+  std::string body =
+      html::picture(optimum_figure(content.file.name, study, content.curve), content.gnuplot);
   if (!study.sizes.empty()) body += html::table(sizes_table(study), "table-sizes");
   if (!study.table.empty()) body += html::table(power_table(study), "table-power");
   return {"cross-sections", "Thrust and power over the cross-section", std::move(body)};
@@ -66,7 +67,7 @@ Section cross_sections(const PageContent& content) {
 
 Section other_motors(const PageContent& content) {
   const DesignFile& file = content.file;
-  std::string body = html::picture(motors_figure(file, content.motors));
+  std::string body = html::picture(motors_figure(file, content.motors), content.gnuplot);
   const TitledTable ranking = motor_table(file.design, content.motors);
   if (!ranking.table.rows().empty()) body += html::table(ranking, "table-motors");
   const std::vector<std::string> refused = refused_motors(content.motors);
@@ -74,26 +75,26 @@ Section other_motors(const PageContent& content) {
   return {"motors", "The same drone with motors of the library", std::move(body)};
 }
 
-Section drag_section(const DragStudy& drag) {
+Section drag_section(const DragStudy& drag, const GnuplotRunner& gnuplot) {
   const DragFit& fit = drag.identified.fit;
   const DragSentences told = drag_sentences(drag.identified);
   std::string body = html::paragraphs(told.made_of);
   body += html::table(drag_parameter_table(fit), "table-drag");
   body += html::paragraphs(told.quality);
-  body += html::picture(drag_figure(drag));
+  body += html::picture(drag_figure(drag), gnuplot);
   const TitledTable steady = steady_flight_table(fit);
   if (!steady.table.rows().empty()) body += html::table(steady, "table-steady-drag");
   return {"drag", "Drag learned from " + drag.name, std::move(body)};
 }
 
 /// The story with its figure after the opening paragraphs, which say what it shows.
-Section diagnosis_section(const LogDiagnosis& log) {
+Section diagnosis_section(const LogDiagnosis& log, const GnuplotRunner& gnuplot) {
   const std::string id = log.diagnosis.kind + "-diagnosis";
   std::string picture;
   if (!log.diagnosis.compared.empty()) {  // the log was long enough to judge by
     Figure figure = diagnosis_figure(log.log, log.diagnosis);
     figure.id = log.diagnosis.kind + "_diagnosis";  // a page may hold two
-    picture = html::picture(figure);
+    picture = html::picture(figure, gnuplot);
   }
   std::string body;
   int tables = 0;
@@ -184,8 +185,9 @@ std::string head(const std::string& title) {
 std::string report_page(const PageContent& content) {
   std::vector<Section> sections{answer_section(content), cross_sections(content)};
   if (!content.motors.empty()) sections.push_back(other_motors(content));
-  if (content.drag) sections.push_back(drag_section(*content.drag));
-  for (const LogDiagnosis& log : content.diagnoses) sections.push_back(diagnosis_section(log));
+  if (content.drag) sections.push_back(drag_section(*content.drag, content.gnuplot));
+  for (const LogDiagnosis& log : content.diagnoses)
+    sections.push_back(diagnosis_section(log, content.gnuplot));
   sections.push_back(spec_section(content.file));
   sections.push_back(method_section(content));
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tethercalc/solve/ordered_chunks.hpp"
-
 namespace tethercalc {
 namespace {
 
@@ -157,7 +155,7 @@ void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChun
       }
     };
   };
-  compute_in_order<SweepChunk>(0, chunks, job.threads, make_worker, consume);
+  compute_in_order<SweepChunk>(0, chunks, job.runner, make_worker, consume);
 }
 
 void Spread::add(double value) {
@@ -182,7 +180,8 @@ void SweepSummary::add(const JudgedRow& row) {
   power.add(row.power);
 }
 
-SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base, unsigned threads) {
+SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
+                                   const ChunkRunner& runner) {
   constexpr std::uint64_t points_per_chunk = 64;
   const std::size_t axes = space.axes().size();
   SweepSensitivity result;
@@ -197,7 +196,7 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base, 
     };
   };
   const std::uint64_t chunks = (result.points + points_per_chunk - 1) / points_per_chunk;
-  compute_in_order<MixedChunk>(0, chunks, threads, make_worker, [&](const MixedChunk& chunk) {
+  compute_in_order<MixedChunk>(0, chunks, runner, make_worker, [&](const MixedChunk& chunk) {
     append(all.area, chunk.area);
     append(all.power, chunk.power);
     append(all.feasible, chunk.feasible);

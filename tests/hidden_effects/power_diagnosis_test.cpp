@@ -10,6 +10,7 @@
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/model/operating_point.hpp"
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/bad_input_cases.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/design_reader.hpp"
 
 using namespace tethercalc;

@@ -12,6 +12,7 @@
 
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/model/operating_point.hpp"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/reference_data.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -45,7 +46,7 @@ class TemporaryFolder {
 MotorEntry motor_of(const std::string& csv) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "bench.csv") << csv;
-  return find_motor("bench.csv", folder.path());
+  return find_motor("bench.csv", files_in(folder.path()));
 }
 
 /// The bench runs by the name of the test. Columns: test first, thrust_gf sixth, power_W tenth.
@@ -112,7 +113,7 @@ TEST_CASE("warnings of a motor reach the one who reads the design") {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "mine.csv")
       << "thrust_g,power_W\n100,10\n500,70\n800,60\n900,150\n";
-  const DesignFile file = parse_design(starting_spec(), "spec.json", folder.path(),
+  const DesignFile file = parse_design(starting_spec(), "spec.json", files_in(folder.path()),
                                        std::vector<std::string>{"drone.motor=mine.csv"});
   REQUIRE(file.warnings.size() == 1);
   CHECK_THAT(file.warnings[0], Catch::Contains("500.0 g at 70.00 W (line 3)"));

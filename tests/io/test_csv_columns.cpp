@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/csv_columns.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
 #include "tethercalc/model/units.hpp"

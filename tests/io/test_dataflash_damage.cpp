@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "files/mapped_file.hpp"
 #include "support/dataflash_writer.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/log_summary.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 
 using namespace tethercalc;
 using test::DataFlashWriter;

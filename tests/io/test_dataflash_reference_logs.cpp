@@ -13,10 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "files/mapped_file.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"
-#include "tethercalc/io/mapped_file.hpp"
 #include "tethercalc/model/units.hpp"
 
 using namespace tethercalc;

@@ -1,11 +1,15 @@
-# Holds the rooms of ROOT apart: a room includes only rooms below it (model at
-# the bottom, cli on top), JSON stays at the edge, CLI11 in one file, and a public header needs no
-# library that the installed package does not bring.
+# Holds the rooms of ROOT apart: a room includes only rooms below it (model at the bottom, cli on
+# top), JSON stays at the edge, CLI11 in one file, only the rooms files and cli need an operating
+# system, and a public header needs no library that the installed package does not bring.
 #
 # cmake -DROOT=… -P layers.cmake
 cmake_minimum_required(VERSION 3.25)
-set(rooms model solve identify diagnose study io report cli)
-set(json_rooms io report cli)
+set(rooms model solve identify diagnose study io report files cli)
+set(json_rooms io report files cli)
+# Files, processes, threads and signals; <iostream> and <cstdio> bring the standard streams.
+set(host_rooms files cli)
+string(JOIN "|" host_headers filesystem fstream iostream cstdio thread mutex shared_mutex
+  condition_variable future semaphore barrier latch stop_token csignal "[a-z]+\\.h" "sys/.*")
 set(problems "")
 set(cli11_files "")
 
@@ -26,6 +30,9 @@ foreach(file IN LISTS files)
   file(STRINGS "${ROOT}/${file}" includes REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
   foreach(line IN LISTS includes)
     string(REGEX REPLACE ".*include[ \t]*[<\"]([^>\"]+).*" "\\1" included "${line}")
+    if(included MATCHES "^(${host_headers})$" AND NOT room IN_LIST host_rooms)
+      list(APPEND problems "${file} (room ${room}) includes ${included}: operating systems belong to ${host_rooms}")
+    endif()
     if(included MATCHES "^(tethercalc/)?([a-z_]+)/" AND CMAKE_MATCH_2 IN_LIST rooms)
       list(FIND rooms ${CMAKE_MATCH_2} included_height)
       if(included_height GREATER height)

@@ -1,4 +1,6 @@
 #include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/files/gnuplot.hpp"
+#include "tethercalc/files/read_files.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -31,7 +33,7 @@ Figure figure_of(const DesignFile& file) {
 }
 
 void check_layout(const Figure& figure) {
-  const std::string svg = render(figure, FigureFormat::svg);
+  const std::string svg = render(figure, FigureFormat::svg, run_gnuplot);
   CHECK(text_boxes(svg).size() > 15);
   CHECK(layout_problems(svg) == std::vector<std::string>{});
 }
@@ -125,7 +127,8 @@ TEST_CASE("the pictures of the documents are those that the program draws") {
       for (const TextBox& box : text_boxes(svg)) out.push_back(box.text);
       return out;
     };
-    CHECK(texts(file_text(project_file(document))) == texts(render(figure, FigureFormat::svg)));
+    CHECK(texts(file_text(project_file(document))) ==
+          texts(render(figure, FigureFormat::svg, run_gnuplot)));
     CHECK(std::filesystem::file_size(project_file(document)) < 100000);
   };
   check(figure_of(file), "docs/figures/optimum.svg");

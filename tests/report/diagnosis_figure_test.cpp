@@ -1,4 +1,5 @@
 #include "tethercalc/report/diagnosis_figure.hpp"
+#include "tethercalc/files/gnuplot.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -96,6 +97,6 @@ TEST_CASE("the texts of a diagnosis with six findings keep apart") {
     d.findings.back().stage = "converter";
     d.budget.findings.push_back(0.5);
   }
-  CHECK(layout_problems(render(diagnosis_figure("power.csv", d), FigureFormat::svg)) ==
+  CHECK(layout_problems(render(diagnosis_figure("power.csv", d), FigureFormat::svg, run_gnuplot)) ==
         std::vector<std::string>{});
 }

@@ -30,7 +30,6 @@ Diagnosis example() {
                         .indistinguishable_from = {"pitch_trim"},
                         .to_separate = "pitch_trim: hover through all headings"});
   d.budget = {{36}, 4, 60};
-  d.spec_changes = {{"drone.drag.linear_m_s", 19.5}, {"flight.headwind_m_s", 1}};
   d.not_testable.push_back({"vertical_coupling", "vd_m_s"});
   return d;
 }

@@ -1,4 +1,5 @@
 #include "tethercalc/report/figure.hpp"
+#include "tethercalc/files/gnuplot.hpp"
 
 #include <rapidcheck.h>
 
@@ -102,7 +103,7 @@ TEST_CASE("gnuplot shows a hostile text as it is and runs nothing of it") {
   };
   for (const std::string& text : hostile) {
     INFO(text);
-    const std::string svg = render(figure_with(text), FigureFormat::svg);
+    const std::string svg = render(figure_with(text), FigureFormat::svg, run_gnuplot);
     CHECK(svg.find("<script") == std::string::npos);
     const auto boxes = text_boxes(svg);
     const auto shown = [&](const TextBox& box) { return box.text == text; };
@@ -117,7 +118,7 @@ TEST_CASE("control characters, broken UTF-8 and 300 characters do no harm to an 
        {std::string("one\ntwo\r\nthree\tfour"), std::string("bell\a escape\x1b[31m nul\0!", 24),
         std::string("half \xC3 and \xFF\xFE"), std::string(300, 'W'),
         std::string("\u202Eesrever")}) {
-    const std::string svg = render(figure_with(text), FigureFormat::svg);
+    const std::string svg = render(figure_with(text), FigureFormat::svg, run_gnuplot);
     const bool clean = std::all_of(svg.begin(), svg.end(), [](char c) {
       return static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t' || c == '\r';
     });
@@ -138,7 +139,7 @@ TEST_CASE("an SVG tells its title and description, and refers to nothing outside
   Figure figure = figure_with("plain");
   figure.title = "Speed & height";
   figure.description = "a < b";
-  const std::string svg = render(figure, FigureFormat::svg);
+  const std::string svg = render(figure, FigureFormat::svg, run_gnuplot);
   CHECK_THAT(svg, Contains("<title id=\"trial-title\">Speed &amp; height</title>"));
   CHECK_THAT(svg, Contains("<desc id=\"trial-desc\">a &lt; b</desc>"));
   CHECK_THAT(svg, Contains("role=\"img\""));
@@ -153,7 +154,7 @@ TEST_CASE("a figure is as wide as asked, with letters of the same size") {
   for (const double width : {85.0, 170.0}) {
     FigureSize size;
     size.width_mm = width;
-    const std::string svg = render(figure, FigureFormat::svg, size);
+    const std::string svg = render(figure, FigureFormat::svg, run_gnuplot, size);
     const int pixels = int(std::lround(width / 25.4 * 96));
     CHECK_THAT(svg, Contains("width=\"" + std::to_string(pixels) + "\""));
     CHECK_THAT(svg, Contains("font-size=\"10.00\""));

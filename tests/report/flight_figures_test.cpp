@@ -1,4 +1,5 @@
 #include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/files/gnuplot.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -134,7 +135,7 @@ TEST_CASE("figures of flights name their axes with units and keep their texts ap
   if (!gnuplot_is_there()) return;
   for (const Figure& figure : {log, drag, surface}) {
     INFO(figure.id);
-    const std::string svg = render(figure, FigureFormat::svg);
+    const std::string svg = render(figure, FigureFormat::svg, run_gnuplot);
     CHECK(layout_problems(svg) == nothing);
     CHECK(svg.size() < 100000);
   }

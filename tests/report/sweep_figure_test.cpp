@@ -1,4 +1,5 @@
 #include "tethercalc/report/sweep_figure.hpp"
+#include "tethercalc/files/gnuplot.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -191,6 +192,6 @@ TEST_CASE("figures of sweeps keep their texts apart") {
   }
   for (const std::string& csv : {grid(), names, sample}) {
     const Figure figure = sweep_figure(parse_sweep_csv(csv, "rows.csv"));
-    CHECK(layout_problems(render(figure, FigureFormat::svg)) == nothing);
+    CHECK(layout_problems(render(figure, FigureFormat::svg, run_gnuplot)) == nothing);
   }
 }

@@ -9,7 +9,7 @@
 
 #include "support/plain_physics.hpp"
 #include "support/run_program.hpp"
-#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/files/read_files.hpp"
 
 using namespace tethercalc;
 

@@ -1,7 +1,6 @@
 // A design out of a JSON spec.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -19,37 +18,30 @@ struct DesignFile {
   Design design;     ///< what the spec describes, in SI units
   std::string name;  ///< the spec's "name", otherwise the file's name without folder and suffix
   std::string file;  ///< as messages call it: the path as given, or "standard input"
-  std::filesystem::path folder;       ///< what relative paths in the spec are relative to
-  MotorEntry motor;                   ///< behind design.drone.motor
+  TextLoader load;   ///< reads the files that the spec refers to
+  MotorEntry motor;  ///< behind design.drone.motor
   ConductorEntry conductor;           ///< behind design.tether.conductor
   InsulationEntry insulation;         ///< behind design.tether.insulation
   nlohmann::ordered_json document;    ///< the spec itself, overrides included
   std::vector<std::string> warnings;  ///< sentences the user should see; the design is usable
 };
 
-/// Reads the spec at `path`, or on standard input where it is "-".
+/// Reads a spec; `file` is what messages call it, and `load` reads the files that it refers to.
 ///
 /// Each of `overrides` is "path=value", such as "supply.voltage_V=60" or
 /// "drone.motor=tmotor-mn2806-650kv-13in": the value is JSON, or a text where it is no JSON, and
-/// takes the place of what the file has there, with the same result as editing the file. Paths in
-/// overrides are relative to the spec, as in the file.
+/// takes the place of what the text has there, with the same result as editing it.
 ///
 /// Throws InputError with every problem found: what is no JSON or too deeply nested, unknown keys
 /// (with the closest known one), missing fields, wrong types, numbers out of range, unknown library
 /// names, problems of motor and material files, and fields in conflict.
-[[nodiscard]] DesignFile read_design(const std::string& path,
-                                     std::span<const std::string> overrides = {});
-
-/// The same for a text in memory; `file` is what messages call it, `folder` what paths in it are
-/// relative to.
 [[nodiscard]] DesignFile parse_design(std::string_view text, const std::string& file,
-                                      const std::filesystem::path& folder = {},
+                                      const TextLoader& load = {},
                                       std::span<const std::string> overrides = {});
 
 /// The same for a document in memory, as for one extended by a program.
 [[nodiscard]] DesignFile read_design_document(nlohmann::ordered_json document,
-                                              const std::string& file,
-                                              const std::filesystem::path& folder = {});
+                                              const std::string& file, const TextLoader& load = {});
 
 /// A complete spec, valid as it stands, for a beginner to edit.
 [[nodiscard]] std::string starting_spec();

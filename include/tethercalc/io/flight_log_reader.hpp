@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,7 +34,7 @@ struct FlightLogReading {
   std::vector<std::string> notes;
 };
 
-/// Reads attitude and velocity over time.
+/// Reads attitude and velocity over time; `name` stands for the file in messages.
 ///
 /// From a DataFlash log: message XKF1 (EKF3) of the wanted core; without it NKF1 (EKF2; core 1 of
 /// logs before the messages had a core field is NKF6), without it EKF1, which had one core only.
@@ -51,13 +50,9 @@ struct FlightLogReading {
 /// Yaw comes out without wraps: it continues beyond ±π rather than jump, so that it can be
 /// interpolated. The first value is as logged.
 ///
-/// Throws InputError: a file that cannot be read; a log without messages, without attitude and
+/// Throws InputError: a log without messages, without attitude and
 /// velocity, or without the wanted core (the message lists the cores there are); every problem of a
 /// CSV file, with its line.
-[[nodiscard]] FlightLogReading read_flight_log(const std::filesystem::path& path,
-                                               const FlightLogOptions& options = {});
-
-/// The same from bytes in memory; `name` stands for the file in messages.
 [[nodiscard]] FlightLogReading parse_flight_log(std::span<const std::byte> content,
                                                 const std::string& name,
                                                 const FlightLogOptions& options = {});

@@ -2,7 +2,7 @@
 // in which users bring their own.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +11,16 @@
 #include "tethercalc/study/wire_sizes.hpp"
 
 namespace tethercalc {
+
+/// A text that a spec or an option refers to.
+struct LoadedText {
+  std::string name;  ///< as messages call it
+  std::string text;  ///< all of it
+};
+
+/// What reads the files that a spec refers to: the text behind a reference as it stands there.
+/// Throws InputError with the reason where there is none. An empty one means that there are none.
+using TextLoader = std::function<LoadedText(const std::string& reference)>;
 
 /// A conductor material. Texts are empty where the file gives none.
 struct ConductorEntry {
@@ -45,26 +55,25 @@ void put_entry(Design& design, const InsulationEntry& entry);
 [[nodiscard]] std::vector<InsulationEntry> library_insulation();
 
 /// The motor that `reference` names: an id in the library or, where it holds a "/" or ends in
-/// ".json" or ".csv", a file, relative to `folder`. Such a file is either an object with
+/// ".json" or ".csv", a file that `load` reads. Such a file is either an object with
 /// `motor_fields` or a test-bench CSV with the columns `thrust_g` and `power_W`; others are
 /// ignored. Points that do not rise are pooled (`isotonic_motor_points`), and idle rows of a CSV,
 /// without thrust or power, are left out; `warnings` says so. Throws InputError with all problems
 /// of the file, or with the closest id where there is no such name. `where` is what its message
 /// calls the place of the reference, such as the name of an option.
-[[nodiscard]] MotorEntry find_motor(const std::string& reference,
-                                    const std::filesystem::path& folder = {},
+[[nodiscard]] MotorEntry find_motor(const std::string& reference, const TextLoader& load = {},
                                     const std::string& where = "motor");
 
 /// The conductor material that `reference` names, found as `find_motor` does; a file is a JSON
 /// object with `conductor_fields`.
 [[nodiscard]] ConductorEntry find_conductor(const std::string& reference,
-                                            const std::filesystem::path& folder = {},
+                                            const TextLoader& load = {},
                                             const std::string& where = "conductor");
 
 /// The insulation material that `reference` names, found as `find_motor` does; a file is a JSON
 /// object with `insulation_fields`.
 [[nodiscard]] InsulationEntry find_insulation(const std::string& reference,
-                                              const std::filesystem::path& folder = {},
+                                              const TextLoader& load = {},
                                               const std::string& where = "insulation");
 
 /// All sizes, by rising area. AWG n has the diameter 0.127 mm · 92^((36 − n)/39) (ASTM B258); IEC

@@ -1,6 +1,7 @@
 // A picture of a result: what it shows in words, and the gnuplot commands that draw it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -37,12 +38,13 @@ struct FigureSize {
   bool colour = false;   ///< of `FigureFormat::text`: with the colour codes of a terminal
 };
 
+/// Runs gnuplot on a script and returns what it draws.
+using GnuplotRunner = std::function<std::string(const std::string& script)>;
+
 /// The drawn figure: the content of a file of that format. The script needs no gnuplot; everything
-/// else runs the program `gnuplot` found on PATH, without a shell and without the user's settings.
-/// Throws InputError naming the Debian package where there is none, std::runtime_error with
-/// gnuplot's own words where it fails. Drawing takes 50 to 200 ms.
+/// else is drawn by `gnuplot`, whose errors are thrown on.
 [[nodiscard]] std::string render(const Figure& figure, FigureFormat format,
-                                 const FigureSize& size = {});
+                                 const GnuplotRunner& gnuplot, const FigureSize& size = {});
 
 /// The format that a file's suffix asks for: .svg, .png, .pdf, .gp (the script) or .txt. Throws
 /// InputError with the allowed ones, about the option or place called `where`.

@@ -1,33 +1,21 @@
 // Reference designs held against the results recorded for them.
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/report/text_table.hpp"
 #include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 
-/// The record of "design.json" is "design.expected.json" beside it: an object from a result's name
-/// to `{"value": …, "relative_tolerance": …}`, or "absolute_tolerance" in the result's unit, or
-/// both, of which the wider one counts. Texts and null have no tolerance. Names are those of
-/// `reference_results`.
-[[nodiscard]] std::filesystem::path record_path(const std::filesystem::path& spec);
-
-/// The specs that `paths` mean: files themselves (a record means its spec), and of folders every
-/// .json file that is no record, by name. Throws InputError for what does not exist, folders
-/// without specs, and records without a spec.
-[[nodiscard]] std::vector<std::filesystem::path> reference_specs(
-    std::span<const std::string> paths);
-
 /// A reference design and how it compares with its record.
 struct ReferenceCheck {
-  std::filesystem::path spec;           ///< the design's file
+  std::string spec;                     ///< the design's file
   std::string name;                     ///< of the design
   bool recorded = false;                ///< there is a record
   std::vector<RecordedResult> results;  ///< in the record's order
@@ -37,16 +25,20 @@ struct ReferenceCheck {
   [[nodiscard]] bool passed() const;
 };
 
-/// Computes a reference design and compares it with its record. Problems of the files are part of
+/// Computes the design of `file`, which messages call `spec`, and compares it with its record: an
+/// object from a result's name to `{"value": …, "relative_tolerance": …}`, or "absolute_tolerance"
+/// in the result's unit, or both, of which the wider one counts. Texts and null have no tolerance.
+/// Names are those of `reference_results`. Problems of the record are part of
 /// the answer, so that one bad file does not hide what the others say.
-[[nodiscard]] ReferenceCheck check_reference(const std::filesystem::path& spec);
+[[nodiscard]] ReferenceCheck check_reference(std::string spec, const DesignFile& file,
+                                             const std::optional<LoadedText>& record);
 
-/// Brings the record of a checked design up to date, the tolerances kept: results that drifted get
-/// the computed value; those within their tolerance keep the recorded one, lest they creep. Without
-/// a record, makes one of the main results with a relative tolerance of 1e-6, hundred times what
-/// the position of a flat optimum may be off. Returns whether anything was written. Throws
-/// InputError where it cannot be written.
-bool update_record(const ReferenceCheck& check);
+/// The record of a design that was checked without problems, brought up to date, the tolerances
+/// kept: results that drifted get the computed value; those within their tolerance keep the
+/// recorded one, lest they creep. Without an old record, one of the main results with a relative
+/// tolerance of 1e-6, hundred times what the position of a flat optimum may be off.
+[[nodiscard]] std::string updated_record(const ReferenceCheck& check,
+                                         const std::optional<LoadedText>& old);
 
 /// One line a design, what drifted below it, and a count at the end.
 [[nodiscard]] std::string check_text(std::span<const ReferenceCheck> checks, bool updated,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/solve/ordered_chunks.hpp"
 #include "tethercalc/solve/quantile_histogram.hpp"
 #include "tethercalc/solve/sensitivity.hpp"
 #include "tethercalc/solve/sweep_space.hpp"
@@ -53,7 +54,7 @@ struct SweepJob {
   RowWriter write;                    ///< how rows read
   RowRange range;                     ///< rows to compute
   std::uint64_t write_from = 0;       ///< rows before this one are computed without a text
-  unsigned threads = 1;               ///< at least 1
+  ChunkRunner runner;                 ///< by whom
 };
 
 /// What a summary needs of one row. NaN where there is none.
@@ -73,9 +74,8 @@ struct SweepChunk {
 /// True where a sweep varies the cross-section itself, so that cables are evaluated, not found.
 [[nodiscard]] bool varies_cross_section(const SweepSpace& space);
 
-/// Computes a sweep on several threads and hands its rows over in order, which does not depend on
-/// their number. `consume` is called on this thread and returns false to stop. Holds a few hundred
-/// kilobytes a thread, whatever the number of rows.
+/// Computes a sweep and hands its rows over in order. `consume` is called on this thread and
+/// returns false to stop. Holds a few hundred kilobytes a thread, whatever the number of rows.
 void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChunk&)>& consume);
 
 /// How one result is spread over the draws in which it exists.
@@ -112,7 +112,7 @@ inline constexpr std::uint64_t most_sensitivity_points = 1 << 16;
 /// `most_sensitivity_points`. The first of the two samples continues the space's own kind of sample
 /// and seed.
 [[nodiscard]] SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
-                                                 unsigned threads);
+                                                 const ChunkRunner& runner = {});
 
 /// What all draws of a sampled sweep say together.
 struct SweepSummary {

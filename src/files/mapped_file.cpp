@@ -1,4 +1,4 @@
-#include "tethercalc/io/mapped_file.hpp"
+#include "files/mapped_file.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

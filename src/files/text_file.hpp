@@ -2,16 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 
-namespace tethercalc {
+#include "tethercalc/io/library.hpp"
 
-struct TextFile {
-  std::string name;              ///< as messages call it: the path as given, or "standard input"
-  std::filesystem::path folder;  ///< what relative paths inside the file are relative to
-  std::string text;
-};
+namespace tethercalc {
 
 /// Specs, motors and materials are a few kilobytes; a file larger than this was named by mistake.
 inline constexpr std::size_t text_file_limit = std::size_t{1} << 20;
@@ -19,6 +14,6 @@ inline constexpr std::size_t text_file_limit = std::size_t{1} << 20;
 /// Reads `path`, or standard input where it is "-". Throws InputError where there is no such file
 /// (naming the closest one in that folder), where it is a directory, unreadable, empty, or larger
 /// than `text_file_limit` bytes, of which no more is read.
-TextFile read_text_file(const std::string& path);
+LoadedText read_text_file(const std::string& path);
 
 }  // namespace tethercalc

@@ -1,4 +1,4 @@
-#include "io/text_file.hpp"
+#include "files/text_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <system_error>
 #include <vector>
@@ -55,10 +56,10 @@ std::string read_all(std::FILE* file, const std::string& name) {
 
 }  // namespace
 
-TextFile read_text_file(const std::string& path) {
+LoadedText read_text_file(const std::string& path) {
   if (path == "-") {
     const std::string name = "standard input";
-    return {name, fs::path("."), read_all(stdin, name)};
+    return {name, read_all(stdin, name)};
   }
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -69,7 +70,7 @@ TextFile read_text_file(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   if (file == nullptr) refuse(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
-  return {path, fs::path(path).parent_path(), read_all(file.get(), path)};
+  return {path, read_all(file.get(), path)};
 }
 
 }  // namespace tethercalc

@@ -1,4 +1,4 @@
-#include "tethercalc/io/whole_file.hpp"
+#include "files/whole_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,4 +1,4 @@
-#include "tethercalc/io/row_file.hpp"
+#include "files/row_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

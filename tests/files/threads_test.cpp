@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "support/random.hpp"
-#include "tethercalc/solve/ordered_chunks.hpp"
+#include "tethercalc/files/threads.hpp"
 
 using namespace tethercalc;
 using namespace tethercalc::test;
@@ -29,10 +29,11 @@ const auto numbering = [] {
 TEST_CASE("results arrive in order whatever the number of threads") {
   for (const unsigned threads : {1U, 2U, 7U}) {
     std::vector<std::uint64_t> order;
-    compute_in_order<std::uint64_t>(5, 1005, threads, numbering, [&](std::uint64_t chunk) {
-      order.push_back(chunk);
-      return true;
-    });
+    compute_in_order<std::uint64_t>(5, 1005, several_threads(threads), numbering,
+                                    [&](std::uint64_t chunk) {
+                                      order.push_back(chunk);
+                                      return true;
+                                    });
     REQUIRE(order.size() == 1000);
     for (std::uint64_t i = 0; i < 1000; ++i) REQUIRE(order[i] == i + 5);
   }
@@ -49,7 +50,7 @@ TEST_CASE("few results exist at a time, however slow they are taken") {
       }
     };
   };
-  compute_in_order<int>(0, 300, 3, counting, [&](int) {
+  compute_in_order<int>(0, 300, several_threads(3), counting, [&](int) {
     dawdle(499);
     --ahead;
     return true;
@@ -59,10 +60,10 @@ TEST_CASE("few results exist at a time, however slow they are taken") {
 
 TEST_CASE("the work ends early where its results are no longer wanted") {
   std::uint64_t taken = 0;
-  compute_in_order<std::uint64_t>(0, 1U << 30, 2, numbering,
+  compute_in_order<std::uint64_t>(0, 1U << 30, several_threads(2), numbering,
                                   [&](std::uint64_t) { return ++taken < 10; });
   CHECK(taken == 10);
-  compute_in_order<std::uint64_t>(3, 3, 2, numbering, [&](std::uint64_t) {
+  compute_in_order<std::uint64_t>(3, 3, several_threads(2), numbering, [&](std::uint64_t) {
     ++taken;
     return true;
   });
@@ -75,8 +76,10 @@ TEST_CASE("exceptions of workers and takers come out") {
       if (chunk == 20) throw std::runtime_error("worker");
     };
   };
-  CHECK_THROWS_WITH(compute_in_order<int>(0, 1000, 3, failing, [](int) { return true; }), "worker");
-  CHECK_THROWS_WITH(compute_in_order<std::uint64_t>(0, 1000, 3, numbering,
+  CHECK_THROWS_WITH(
+      compute_in_order<int>(0, 1000, several_threads(3), failing, [](int) { return true; }),
+      "worker");
+  CHECK_THROWS_WITH(compute_in_order<std::uint64_t>(0, 1000, several_threads(3), numbering,
                                                     [](std::uint64_t chunk) -> bool {
                                                       if (chunk == 20) {
                                                         throw std::runtime_error("taker");

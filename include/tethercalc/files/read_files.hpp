@@ -1,0 +1,33 @@
+// Specs and logs from files; what they hold is told where their texts are read.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/power_log_reader.hpp"
+
+namespace tethercalc {
+
+/// Reads the files that a spec refers to, relative to `folder`.
+[[nodiscard]] TextLoader files_in(std::filesystem::path folder);
+
+/// Reads the spec at `path`, or on standard input where it is "-", as `parse_design` does. Files
+/// that it or an override refers to are relative to the spec. Throws InputError as well where there
+/// is no such file (naming the closest one in that folder), and where it is unreadable, empty or no
+/// spec by its size.
+[[nodiscard]] DesignFile read_design(const std::string& path,
+                                     std::span<const std::string> overrides = {});
+
+/// Reads the flight log at `path`, as `parse_flight_log` does. Throws InputError as well where it
+/// cannot be read.
+[[nodiscard]] FlightLogReading read_flight_log(const std::filesystem::path& path,
+                                               const FlightLogOptions& options = {});
+
+/// Reads the power log at `path`, as `parse_power_log` does. Throws InputError as well where it
+/// cannot be read.
+[[nodiscard]] PowerLog read_power_log(const std::filesystem::path& path);
+
+}  // namespace tethercalc
