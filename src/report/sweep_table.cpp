@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "io/closest_name.hpp"
-#include "tethercalc/io/csv_rows.hpp"
+#include "io/csv_rows.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/sweep_figure.hpp"

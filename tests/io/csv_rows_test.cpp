@@ -1,4 +1,4 @@
-#include "tethercalc/io/csv_rows.hpp"
+#include "io/csv_rows.hpp"
 
 #include <rapidcheck.h>
 
