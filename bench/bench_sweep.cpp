@@ -25,7 +25,7 @@ Prepared enumerated() {
   DesignFile base = parse_design(starting_spec(), "starting spec");
   const std::vector<std::string> varied{"supply.voltage_V=70:130:0.5", "tether.length_m=10:40:0.5",
                                         "drone.mass_g=1400:1800:20"};
-  SweepSpace space(read_sweep_axes(varied, base, false));
+  SweepSpace space(read_axes(varied, base, AxisUse::enumerated));
   return {std::move(base), std::move(space)};
 }
 
@@ -33,7 +33,7 @@ Prepared drawn(SampleMethod method) {
   DesignFile base = parse_design(starting_spec(), "starting spec");
   const std::vector<std::string> varied{"supply.voltage_V=100~5", "tether.length_m=10..40",
                                         "drone.mass_g=1600~50"};
-  SweepSpace space(read_sweep_axes(varied, base, true), SamplePlan{designs, method, 1});
+  SweepSpace space(read_axes(varied, base, AxisUse::sampled), SamplePlan{designs, method, 1});
   return {std::move(base), std::move(space)};
 }
 

@@ -59,7 +59,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (sampled) varied.erase(varied.begin());
   if (varied.size() > 8) return 0;
   try {
-    std::vector<SweepAxis> axes = read_sweep_axes(varied, base, sampled);
+    std::vector<SweepAxis> axes =
+        read_axes(varied, base, sampled ? AxisUse::sampled : AxisUse::enumerated);
     for (const SweepAxis& axis : axes) {
       require(std::isfinite(quantile(axis, 0.25)) && std::isfinite(quantile(axis, 0.75)));
     }

@@ -211,8 +211,9 @@ class CommandLine {
                             [this] { return run_design(spec_, request_, output_); });
     add_spec(command, spec_);
     command
-        .add_option("--free", request_.free,
-                    "A field the search may change: PATH=lo..hi or PATH=a,b,c; repeatable")
+        .add_option(
+            "--free", request_.free,
+            "A field the search may change: PATH=lo..hi, or what --vary of sweep takes; repeatable")
         ->allow_extra_args(false);
     command.add_option("--minimize", request_.minimize,
                        "Key of a result or path of a field (default: total_power_W)");

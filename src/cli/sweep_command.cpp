@@ -172,7 +172,8 @@ void check_options(const SweepOptions& options) {
 }
 
 SweepSpace make_space(const SweepOptions& options, const DesignFile& base) {
-  std::vector<SweepAxis> axes = read_sweep_axes(options.varied, base, options.sample.has_value());
+  std::vector<SweepAxis> axes =
+      read_axes(options.varied, base, options.sample ? AxisUse::sampled : AxisUse::enumerated);
   try {
     SweepSpace space =
         options.sample

@@ -12,7 +12,7 @@ namespace tethercalc::cli {
 
 struct SweepOptions {
   SpecOptions spec;
-  std::vector<std::string> varied;      ///< see read_sweep_axes
+  std::vector<std::string> varied;      ///< see read_axes
   std::string format = "csv";           ///< "csv", or "jsonl" (also "json") for JSON Lines
   std::string file;                     ///< empty or "-": standard output
   bool resume = false;                  ///< continue what `file` holds

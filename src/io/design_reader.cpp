@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -20,32 +20,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-std::optional<bool> checked_boolean(const JsonPlace& place, Problems& problems) {
-  if (place.value->is_boolean()) return place.value->get<bool>();
-  problems.add(place.where(), "expected true or false, found " + type_name(*place.value));
-  return std::nullopt;
-}
-
-std::optional<Condition> checked_condition(const JsonPlace& place, Problems& problems) {
-  const std::string text = place.value->is_string() ? place.value->get<std::string>() : "";
-  if (text == "hover") return Condition::hover;
-  if (text == "forward") return Condition::forward;
-  const std::array<std::string, 2> known{"hover", "forward"};
-  problems.add(place.where(), fmt::format("expected \"hover\" or \"forward\", found {}{}",
-                                          type_name(*place.value), did_you_mean(text, known)));
-  return std::nullopt;
-}
-
-std::optional<StrengthMaterial> checked_strength_material(const JsonPlace& place,
-                                                          Problems& problems) {
-  const std::string text = place.value->is_string() ? place.value->get<std::string>() : "";
-  if (text == "none") return StrengthMaterial::none;
-  if (text == "aramid") return StrengthMaterial::aramid;
-  if (text == "uhmwpe") return StrengthMaterial::uhmwpe;
-  const std::array<std::string, 3> known{"none", "aramid", "uhmwpe"};
-  problems.add(place.where(), fmt::format("expected \"none\", \"aramid\" or \"uhmwpe\", found {}{}",
-                                          type_name(*place.value), did_you_mean(text, known)));
-  return std::nullopt;
+/// A boolean, or one of the words of the field's kind.
+void read_word(const JsonPlace& place, const SpecField& field, Design& design, Problems& problems) {
+  const auto words = field_words(field.kind);
+  const bool quoted = field.kind != FieldKind::boolean;
+  std::string found;
+  if (quoted && place.value->is_string()) found = place.value->get<std::string>();
+  if (!quoted && place.value->is_boolean()) found = place.value->dump();
+  const auto word = std::find(words.begin(), words.end(), found);
+  if (word != words.end()) {
+    set_word(design, field, static_cast<std::size_t>(word - words.begin()));
+  } else if (quoted) {
+    problems.add(place.where(),
+                 fmt::format("expected \"{}\" or \"{}\", found {}{}",
+                             fmt::join(words.begin(), words.end() - 1, "\", \""), words.back(),
+                             type_name(*place.value), did_you_mean(found, words)));
+  } else {
+    problems.add(place.where(), "expected true or false, found " + type_name(*place.value));
+  }
 }
 
 std::vector<EfficiencyPoint> checked_efficiency_points(const JsonPlace& place, Problems& problems) {
@@ -156,20 +148,9 @@ class SpecReader {
         }
         return;
       case FieldKind::boolean:
-        if (const auto value = checked_boolean(place, problems_)) {
-          std::get<bool& (*)(Design&)>(field.access)(design) = *value;
-        }
-        return;
       case FieldKind::condition:
-        if (const auto value = checked_condition(place, problems_)) {
-          std::get<Condition& (*)(Design&)>(field.access)(design) = *value;
-        }
-        return;
       case FieldKind::strength_material:
-        if (const auto value = checked_strength_material(place, problems_)) {
-          std::get<StrengthMaterial& (*)(Design&)>(field.access)(design) = *value;
-        }
-        return;
+        return read_word(place, field, design, problems_);
       case FieldKind::text:
         read_text(place, field);
         return;
@@ -192,28 +173,19 @@ class SpecReader {
   }
 
   void read_entry(const JsonPlace& place, const SpecField& field) {
-    Design& design = result_.design;
+    const auto take = [&](auto entry, auto& taken) {
+      if (!entry) return;
+      put_entry(result_.design, *entry);
+      taken = std::move(*entry);
+    };
     if (field.kind == FieldKind::motor) {
-      auto motor = read_motor(place, result_.folder, problems_);
-      if (!motor) return;
-      std::get<MotorCurve& (*)(Design&)>(field.access)(design) = motor->curve;
-      result_.warnings.insert(result_.warnings.end(), motor->warnings.begin(),
-                              motor->warnings.end());
-      result_.motor = std::move(*motor);
+      take(read_motor(place, result_.folder, problems_), result_.motor);
+      result_.warnings.insert(result_.warnings.end(), result_.motor.warnings.begin(),
+                              result_.motor.warnings.end());
     } else if (field.kind == FieldKind::conductor) {
-      auto conductor = read_conductor(place, result_.folder, problems_);
-      if (!conductor) return;
-      std::get<Conductor& (*)(Design&)>(field.access)(design) = conductor->conductor;
-      result_.conductor = std::move(*conductor);
+      take(read_conductor(place, result_.folder, problems_), result_.conductor);
     } else if (field.kind == FieldKind::insulation_material) {
-      auto insulation = read_insulation(place, result_.folder, problems_);
-      if (!insulation) return;
-      Insulation& sheath = std::get<Insulation& (*)(Design&)>(field.access)(design);
-      sheath.density = insulation->density;
-      sheath.rated_temperature_C = insulation->rated_temperature_C;
-      sheath.thermal_conductivity = insulation->thermal_conductivity.value_or(0);
-      sheath.breakdown_strength = insulation->breakdown_strength.value_or(0);
-      result_.insulation = std::move(*insulation);
+      take(read_insulation(place, result_.folder, problems_), result_.insulation);
     }
   }
 

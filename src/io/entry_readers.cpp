@@ -122,6 +122,16 @@ class EntryObject {
     const std::optional<double> value = checked_number(place, field, problems_);
     return value ? std::optional(*value * field.si_factor) : std::nullopt;
   }
+  /// All numbers of a material, in a design that has no others.
+  Design numbers() {
+    Design design;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (!is_numeric(fields_[i])) continue;
+      const auto value = checked_number(places_[i], fields_[i], problems_);
+      if (value) set_field(design, fields_[i], *value);
+    }
+    return design;
+  }
   template <typename Entry>
   void set_texts(Entry& entry) {
     entry.id = checked_text(at("/id"), problems_);
@@ -154,26 +164,16 @@ std::optional<ConductorEntry> conductor_from_object(const JsonPlace& object, Pro
   EntryObject entry_object(object, conductor_fields(), problems);
   ConductorEntry entry;
   entry_object.set_texts(entry);
-  const auto resistivity = entry_object.number("/resistivity_20C_ohm_mm2_per_m");
-  const auto coefficient = entry_object.number("/temperature_coefficient_per_K");
-  const auto density = entry_object.number("/density_g_cm3");
-  const auto strength = entry_object.number("/tensile_strength_MPa");
-  if (entry_object.faulty()) return std::nullopt;
-  entry.conductor = {*resistivity, *coefficient, *density, strength.value_or(0)};
-  return entry;
+  entry.conductor = entry_object.numbers().tether.conductor;
+  return entry_object.faulty() ? std::nullopt : std::optional(std::move(entry));
 }
 
 std::optional<InsulationEntry> insulation_from_object(const JsonPlace& object, Problems& problems) {
   EntryObject entry_object(object, insulation_fields(), problems);
   InsulationEntry entry;
   entry_object.set_texts(entry);
-  const auto density = entry_object.number("/density_g_cm3");
-  entry.rated_temperature_C = entry_object.number("/rated_temperature_C");
-  entry.thermal_conductivity = entry_object.number("/thermal_conductivity_W_mK");
-  entry.breakdown_strength = entry_object.number("/breakdown_kV_mm");
-  if (entry_object.faulty()) return std::nullopt;
-  entry.density = *density;
-  return entry;
+  entry.insulation = entry_object.numbers().tether.insulation;
+  return entry_object.faulty() ? std::nullopt : std::optional(std::move(entry));
 }
 
 /// A kind of entry: its folder in the library and what reads it.
@@ -352,6 +352,19 @@ std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const st
   }
   if (!set_curve(entry, points, name, problems)) return std::nullopt;
   return entry;
+}
+
+void put_entry(Design& design, const MotorEntry& entry) { design.drone.motor = entry.curve; }
+
+void put_entry(Design& design, const ConductorEntry& entry) {
+  design.tether.conductor = entry.conductor;
+}
+
+void put_entry(Design& design, const InsulationEntry& entry) {
+  Insulation sheath = entry.insulation;
+  sheath.thickness = design.tether.insulation.thickness;
+  sheath.dielectric_safety_factor = design.tether.insulation.dielectric_safety_factor;
+  design.tether.insulation = sheath;
 }
 
 std::vector<MotorEntry> library_motors() { return all_entries(motor_kind); }

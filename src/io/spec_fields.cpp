@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 
 #include "io/closest_name.hpp"
+#include "io/json_document.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -39,9 +41,7 @@ const std::array all_spec_fields{
         "Number of motors, all alike.", 1,
         static_cast<int& (*)(Design&)>([](Design& d) -> int& { return d.drone.motor_count; })},
     SpecField{"/drone/motor", FieldKind::motor, "", any_number, "",
-              "Motor with its propeller: a name in the library, a file, or an object.", 1,
-              static_cast<MotorCurve& (*)(Design&)>(
-                  [](Design& d) -> MotorCurve& { return d.drone.motor; })},
+              "Motor with its propeller: a name in the library, a file, or an object."},
     SpecField{"/drone/motor_power_factor", FieldKind::number, "", above(0, 10), "1",
               "The motors draw this times what the motor's curve says.", 1,
               Number([](Design& d) -> double& { return d.drone.motor_power_factor; })},
@@ -91,16 +91,12 @@ const std::array all_spec_fields{
               "Length left on the drum: it adds resistance, but neither mass nor drag.", 1,
               Number([](Design& d) -> double& { return d.tether.spooled_length; })},
     SpecField{"/tether/conductor", FieldKind::conductor, "", any_number, "",
-              "Conductor material: a name in the library, a file, or an object.", 1,
-              static_cast<Conductor& (*)(Design&)>(
-                  [](Design& d) -> Conductor& { return d.tether.conductor; })},
+              "Conductor material: a name in the library, a file, or an object."},
     SpecField{"/tether/conductor_temperature_C", FieldKind::number, "°C", between(-50, 250), "20",
               "Temperature of the conductor, on which its resistance depends.", 1,
               Number([](Design& d) -> double& { return d.tether.conductor_temperature_C; })},
     SpecField{"/tether/insulation/material", FieldKind::insulation_material, "", any_number, "",
-              "Insulation material: a name in the library, a file, or an object.", 1,
-              static_cast<Insulation& (*)(Design&)>(
-                  [](Design& d) -> Insulation& { return d.tether.insulation; })},
+              "Insulation material: a name in the library, a file, or an object."},
     SpecField{"/tether/insulation/thickness_mm", FieldKind::number, "mm", between(0, 100), "",
               "Wall thickness of the insulation of each conductor; the least one, for handling, "
               "where dielectric_safety_factor asks for more.",
@@ -259,13 +255,16 @@ const SpecField name_field{"/name",    FieldKind::text, "",
                            any_number, "\"\"",          "What reports call it."};
 const SpecField source_field{"/source",  FieldKind::text, "",
                              any_number, "\"\"",          "Where the numbers come from."};
-const SpecField density_field{"/density_g_cm3",
-                              FieldKind::number,
-                              "g/cm³",
-                              between(0.01, 30),
-                              "",
-                              "Density.",
-                              unit::gram_per_cubic_centimetre};
+SpecField density_field(Number access) {
+  return {"/density_g_cm3",
+          FieldKind::number,
+          "g/cm³",
+          between(0.01, 30),
+          "",
+          "Density.",
+          unit::gram_per_cubic_centimetre,
+          access};
+}
 
 const std::array all_motor_fields{
     id_field,
@@ -291,26 +290,37 @@ const std::array all_motor_point_fields{
 const std::array all_conductor_fields{
     id_field, name_field, source_field,
     SpecField{"/resistivity_20C_ohm_mm2_per_m", FieldKind::number, "Ω·mm²/m", between(1e-3, 10), "",
-              "Resistivity at 20 °C.", unit::ohm_square_millimetre_per_metre},
+              "Resistivity at 20 °C.", unit::ohm_square_millimetre_per_metre,
+              Number([](Design& d) -> double& { return d.tether.conductor.resistivity_20C; })},
     // With the temperatures allowed above, the resistivity stays positive.
-    SpecField{"/temperature_coefficient_per_K", FieldKind::number, "1/K", between(0, 0.01), "",
-              "Temperature coefficient of the resistivity, relative to 20 °C."},
-    density_field,
+    SpecField{
+        "/temperature_coefficient_per_K", FieldKind::number, "1/K", between(0, 0.01), "",
+        "Temperature coefficient of the resistivity, relative to 20 °C.", 1,
+        Number([](Design& d) -> double& { return d.tether.conductor.temperature_coefficient; })},
+    density_field([](Design& d) -> double& { return d.tether.conductor.density; }),
     SpecField{"/tensile_strength_MPa", FieldKind::optional_number, "MPa", above(0, 1e4), "null",
               "Tensile strength; where unknown, no load is hung on the conductors.",
-              unit::megapascal}};
+              unit::megapascal,
+              Number([](Design& d) -> double& { return d.tether.conductor.tensile_strength; })}};
 
 const std::array all_insulation_fields{
     id_field,
     name_field,
     source_field,
-    density_field,
-    SpecField{"/rated_temperature_C", FieldKind::optional_number, "°C", between(0, 400), "null",
-              "Highest continuous conductor temperature."},
-    SpecField{"/thermal_conductivity_W_mK", FieldKind::optional_number, "W/(m·K)",
-              between(0.01, 10), "null", "Thermal conductivity; 0.17 is taken where unknown."},
+    density_field([](Design& d) -> double& { return d.tether.insulation.density; }),
+    SpecField{
+        "/rated_temperature_C", FieldKind::optional_number, "°C", between(0, 400), "null",
+        "Highest continuous conductor temperature.", 1,
+        static_cast<std::optional<double>& (*)(Design&)>([](Design& d) -> std::optional<double>& {
+          return d.tether.insulation.rated_temperature_C;
+        })},
+    SpecField{
+        "/thermal_conductivity_W_mK", FieldKind::optional_number, "W/(m·K)", between(0.01, 10),
+        "null", "Thermal conductivity; 0.17 is taken where unknown.", 1,
+        Number([](Design& d) -> double& { return d.tether.insulation.thermal_conductivity; })},
     SpecField{"/breakdown_kV_mm", FieldKind::optional_number, "kV/mm", between(0.1, 1000), "null",
-              "Breakdown strength of a short test.", unit::kilovolt_per_millimetre}};
+              "Breakdown strength of a short test.", unit::kilovolt_per_millimetre,
+              Number([](Design& d) -> double& { return d.tether.insulation.breakdown_strength; })}};
 
 const std::array all_efficiency_point_fields{
     SpecField{"/output_W", FieldKind::number, "W", between(0, 1e6), "", "Output power."},
@@ -325,6 +335,32 @@ const std::array all_converter_mass_fields{
 std::string_view last_part(std::string_view path, char separator) {
   return path.substr(path.rfind(separator) + 1);
 }
+
+/// The fields of a spec, each followed by the numbers of the material that it holds.
+std::span<const SpecField> fields_and_material_numbers() {
+  static std::deque<std::string> pointers;  // what the fields' views look at
+  static const std::vector<SpecField> all = [] {
+    std::vector<SpecField> fields;
+    for (const SpecField& field : all_spec_fields) {
+      fields.push_back(field);
+      const auto parts = field.kind == FieldKind::conductor ? conductor_fields()
+                         : field.kind == FieldKind::insulation_material
+                             ? insulation_fields()
+                             : std::span<const SpecField>();
+      for (SpecField part : parts) {
+        if (!is_numeric(part)) continue;
+        part.pointer =
+            pointers.emplace_back(std::string(field.pointer) + std::string(part.pointer));
+        fields.push_back(part);
+      }
+    }
+    return fields;
+  }();
+  return all;
+}
+
+template <typename T>
+using Access = T& (*)(Design&);
 
 }  // namespace
 
@@ -350,17 +386,23 @@ std::string dot_path(std::string_view pointer) {
 
 const SpecField* find_field(std::string_view path) {
   const std::string wanted = dot_path(path);
-  for (const SpecField& field : all_spec_fields) {
+  for (const SpecField& field : fields_and_material_numbers()) {
     if (dot_path(field.pointer) == wanted) return &field;
   }
   return nullptr;
+}
+
+std::string no_such_field(std::string_view path) {
+  const auto closest = closest_field_path(path);
+  return fmt::format("no field {} in a spec{}", shown(std::string(path)),
+                     closest ? "; did you mean \"" + *closest + "\"?" : "");
 }
 
 std::optional<std::string> closest_field_path(std::string_view path) {
   const std::string wanted = dot_path(path);
   std::vector<std::string> paths;
   std::vector<std::string> keys;
-  for (const SpecField& field : all_spec_fields) {
+  for (const SpecField& field : fields_and_material_numbers()) {
     paths.push_back(dot_path(field.pointer));
     keys.emplace_back(last_part(field.pointer, '/'));
   }
@@ -422,20 +464,53 @@ void set_field(Design& design, const SpecField& field, double value) {
 }
 
 std::optional<double> field_value(const Design& design, const SpecField& field) {
+  const auto si = field_value_si(design, field);
+  return si ? std::optional(*si / field.si_factor) : std::nullopt;
+}
+
+std::optional<double> field_value_si(const Design& design, const SpecField& field) {
   if (!is_numeric(field)) return std::nullopt;
-  Design copy = design;  // the table's accessors lend for writing
-  if (const auto* number = std::get_if<double& (*)(Design&)>(&field.access)) {
-    return (*number)(copy) / field.si_factor;
+  auto& lent = const_cast<Design&>(design);  // the table's accessors could write; here none does
+  if (const auto* number = std::get_if<Access<double>>(&field.access)) {
+    const double value = (*number)(lent);
+    const bool unset = field.kind == FieldKind::optional_number && value == 0;
+    return unset ? std::nullopt : std::optional(value);
   }
-  if (const auto* optional = std::get_if<std::optional<double>& (*)(Design&)>(&field.access)) {
-    const std::optional<double> value = (*optional)(copy);
-    return value ? std::optional(*value / field.si_factor) : std::nullopt;
+  if (const auto* optional = std::get_if<Access<std::optional<double>>>(&field.access)) {
+    return (*optional)(lent);
   }
-  if (const auto* integer = std::get_if<int& (*)(Design&)>(&field.access)) {
-    return static_cast<double>((*integer)(copy));
-  }
-  const auto& curve = std::get<Converter& (*)(Design&)>(field.access)(copy).efficiency;
+  if (const auto* integer = std::get_if<Access<int>>(&field.access)) return (*integer)(lent);
+  const auto& curve = std::get<Access<Converter>>(field.access)(lent).efficiency;
   return curve.size() == 1 ? std::optional(curve.front().efficiency) : std::nullopt;
+}
+
+std::span<const std::string> field_words(FieldKind kind) {
+  static const std::array<std::string, 2> booleans{"false", "true"};
+  static const std::array<std::string, 2> conditions{"hover", "forward"};
+  static const std::array<std::string, 3> fibres{"none", "aramid", "uhmwpe"};
+  if (kind == FieldKind::boolean) return booleans;
+  if (kind == FieldKind::condition) return conditions;
+  if (kind == FieldKind::strength_material) return fibres;
+  return {};
+}
+
+std::size_t field_word(const Design& design, const SpecField& field) {
+  auto& lent = const_cast<Design&>(design);  // as above
+  if (const auto* boolean = std::get_if<Access<bool>>(&field.access)) return (*boolean)(lent);
+  if (const auto* condition = std::get_if<Access<Condition>>(&field.access)) {
+    return static_cast<std::size_t>((*condition)(lent));
+  }
+  return static_cast<std::size_t>(std::get<Access<StrengthMaterial>>(field.access)(lent));
+}
+
+void set_word(Design& design, const SpecField& field, std::size_t index) {
+  if (field.kind == FieldKind::boolean) {
+    std::get<Access<bool>>(field.access)(design) = index != 0;
+  } else if (field.kind == FieldKind::condition) {
+    std::get<Access<Condition>>(field.access)(design) = static_cast<Condition>(index);
+  } else {
+    std::get<Access<StrengthMaterial>>(field.access)(design) = static_cast<StrengthMaterial>(index);
+  }
 }
 
 std::vector<FieldConflict> find_conflicts(const Design& design) {

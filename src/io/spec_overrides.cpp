@@ -121,9 +121,7 @@ void apply_override(JsonDocument& document, const std::string& override_text, Pr
   const std::string path = override_text.substr(0, equals);
   const std::string pointer = pointer_of(path);
   if (!may_exist(pointer, spec_fields())) {
-    const auto closest = closest_field_path(path);
-    problems.add(option, fmt::format("no field {} in a spec{}", shown(path),
-                                     closest ? "; did you mean \"" + *closest + "\"?" : ""));
+    problems.add(option, no_such_field(path));
     return;
   }
   Json new_value;

@@ -26,40 +26,6 @@ namespace {
 /// Whole numbers up to here, and no further, are all exact in double.
 constexpr std::int64_t exact_limit = std::int64_t{1} << 53;
 
-// --- A quantity that can vary ---------------------------------------------------------------
-
-/// A number of a material, which specs hold in an object of their own.
-struct MaterialNumber {
-  std::string_view pointer;
-  double& (*access)(Design&);
-};
-
-constexpr std::array material_numbers{
-    MaterialNumber{"/tether/conductor/resistivity_20C_ohm_mm2_per_m",
-                   [](Design& d) -> double& { return d.tether.conductor.resistivity_20C; }},
-    MaterialNumber{"/tether/conductor/temperature_coefficient_per_K",
-                   [](Design& d) -> double& { return d.tether.conductor.temperature_coefficient; }},
-    MaterialNumber{"/tether/conductor/density_g_cm3",
-                   [](Design& d) -> double& { return d.tether.conductor.density; }},
-    MaterialNumber{"/tether/insulation/material/density_g_cm3",
-                   [](Design& d) -> double& { return d.tether.insulation.density; }}};
-
-std::optional<SpecField> find_material_number(std::string_view path) {
-  const std::string wanted = dot_path(path);
-  for (const MaterialNumber& number : material_numbers) {
-    if (dot_path(number.pointer) != wanted) continue;
-    for (const auto fields : {conductor_fields(), insulation_fields()}) {
-      for (SpecField field : fields) {
-        if (!number.pointer.ends_with(field.pointer)) continue;
-        field.pointer = number.pointer;
-        field.access = number.access;
-        return field;
-      }
-    }
-  }
-  return std::nullopt;
-}
-
 // --- Numbers ---------------------------------------------------------------------------------
 
 std::optional<double> parsed_number(std::string_view text) {
@@ -123,45 +89,28 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 // --- One axis ----------------------------------------------------------------------------------
 
-template <typename T>
-void assign(T& target, const T& value) {
-  target = value;
-}
-
-/// The material changes, the wall that the spec asks for stays.
-void assign(Insulation& target, const Insulation& material) {
-  const double thickness = target.thickness;
-  const double safety_factor = target.dielectric_safety_factor;
-  target = material;
-  target.thickness = thickness;
-  target.dielectric_safety_factor = safety_factor;
-}
-
 /// Reads one "path=values".
 class AxisReader {
  public:
-  AxisReader(const std::string& text, const DesignFile& base, bool sampled, Problems& problems)
-      : option_("--vary " + text),
+  AxisReader(const std::string& text, const DesignFile& base, AxisUse use, Problems& problems)
+      : option_((use == AxisUse::searched ? "--free " : "--vary ") + text),
         text_(text),
         base_(base),
-        sampled_(sampled),
+        use_(use),
         problems_(problems) {}
 
   std::optional<SweepAxis> read() {
     const std::size_t equals = text_.find('=');
     if (equals == std::string_view::npos || equals == 0) {
-      return refuse("expected path=values, such as supply.voltage_V=40:100:5");
+      return refuse(use_ == AxisUse::searched
+                        ? "expected PATH=lo..hi or PATH=a,b,c, such as supply.voltage_V=40..400"
+                        : "expected path=values, such as supply.voltage_V=40:100:5");
     }
     const std::string_view path = text_.substr(0, equals);
     const std::string_view values = text_.substr(equals + 1);
     if (values.empty()) return refuse("no values after the \"=\"");
     const SpecField* field = find_field(path);
-    if (const auto material = find_material_number(path)) return number_axis(*material, values);
-    if (field == nullptr) {
-      const auto closest = closest_field_path(path);
-      return refuse(fmt::format("no field {} in a spec{}", shown(std::string(path)),
-                                closest ? "; did you mean \"" + *closest + "\"?" : ""));
-    }
+    if (field == nullptr) return refuse(no_such_field(path));
     switch (field->kind) {
       case FieldKind::number:
       case FieldKind::optional_number:
@@ -169,31 +118,18 @@ class AxisReader {
       case FieldKind::efficiency:
         return number_axis(*field, values);
       case FieldKind::boolean:
-        return switch_axis(*field, values);
       case FieldKind::condition:
-        return condition_axis(*field, values);
-      case FieldKind::motor:
-        return entry_axis<MotorEntry, MotorCurve& (*)(Design&)>(
-            *field, values, library_motors, find_motor,
-            [](const MotorEntry& motor) { return motor.curve; });
-      case FieldKind::conductor:
-        return entry_axis<ConductorEntry, Conductor& (*)(Design&)>(
-            *field, values, library_conductors, find_conductor,
-            [](const ConductorEntry& entry) { return entry.conductor; });
-      case FieldKind::insulation_material:
-        return entry_axis<InsulationEntry, Insulation& (*)(Design&)>(
-            *field, values, library_insulation, find_insulation, [](const InsulationEntry& entry) {
-              Insulation material;
-              material.density = entry.density;
-              material.thermal_conductivity = entry.thermal_conductivity.value_or(0);
-              material.rated_temperature_C = entry.rated_temperature_C;
-              material.breakdown_strength = entry.breakdown_strength.value_or(0);
-              return material;
-            });
       case FieldKind::strength_material:
-        return strength_axis(*field, values);
+        return word_axis(*field, values);
+      case FieldKind::motor:
+        return entry_axis<MotorEntry>(*field, values, library_motors, find_motor);
+      case FieldKind::conductor:
+        return entry_axis<ConductorEntry>(*field, values, library_conductors, find_conductor);
+      case FieldKind::insulation_material:
+        return entry_axis<InsulationEntry>(*field, values, library_insulation, find_insulation);
       case FieldKind::converter_masses:
-        return refuse("a sweep cannot vary this field");
+        return refuse(use_ == AxisUse::searched ? "a search cannot free this field"
+                                                : "a sweep cannot vary this field");
       default:
         return refuse("this field does not change the result");
     }
@@ -287,19 +223,16 @@ class AxisReader {
     return false;
   }
 
-  bool drawing_allowed() {
-    if (!sampled_) {
-      refuse("can only be drawn, not enumerated: add --sample N, or write from:to:step");
-    }
-    return sampled_;
-  }
-
   bool read_uniform(SweepAxis& axis, const SpecField& field, std::string_view text) {
     const std::size_t dots = text.find("..");
     const auto lo = number(text.substr(0, dots));
     const auto hi = number(text.substr(dots + 2));
-    if (!lo || !hi || !drawing_allowed()) return false;
-    if (!(*lo < *hi)) {
+    if (!lo || !hi) return false;
+    if (use_ == AxisUse::enumerated) {
+      refuse("can only be drawn, not enumerated: add --sample N, or write from:to:step");
+      return false;
+    }
+    if (!(*lo < *hi) && !(use_ == AxisUse::searched && *lo == *hi)) {
       refuse(fmt::format("the lower end {} must be below the upper end {}", *lo, *hi));
       return false;
     }
@@ -317,7 +250,13 @@ class AxisReader {
     const std::size_t tilde = text.find('~');
     const auto mean = number(text.substr(0, tilde));
     const auto deviation = number(text.substr(tilde + 1));
-    if (!mean || !deviation || !drawing_allowed()) return false;
+    if (!mean || !deviation) return false;
+    if (use_ != AxisUse::sampled) {
+      refuse(use_ == AxisUse::searched
+                 ? "nothing is drawn in a search: write lo..hi, from:to:step or a list"
+                 : "can only be drawn, not enumerated: add --sample N, or write from:to:step");
+      return false;
+    }
     if (!(*deviation > 0)) {
       refuse(fmt::format("the standard deviation {} must be positive", *deviation));
       return false;
@@ -330,88 +269,62 @@ class AxisReader {
     return allowed(field, *mean);
   }
 
-  std::optional<SweepAxis> switch_axis(const SpecField& field, std::string_view text) {
-    auto* const access = std::get<bool& (*)(Design&)>(field.access);
-    return chosen_axis<bool>(field, text, {{"false", false}, {"true", true}}, access);
+  /// What "all" stands for, or the names in a list.
+  static std::vector<std::string> names_in(std::string_view text, std::vector<std::string> all) {
+    if (text == "all") return all;
+    const auto parts = split(text, ',');
+    return {parts.begin(), parts.end()};
   }
 
-  std::optional<SweepAxis> condition_axis(const SpecField& field, std::string_view text) {
-    auto* const access = std::get<Condition& (*)(Design&)>(field.access);
-    return chosen_axis<Condition>(
-        field, text, {{"hover", Condition::hover}, {"forward", Condition::forward}}, access);
-  }
-
-  std::optional<SweepAxis> strength_axis(const SpecField& field, std::string_view text) {
-    auto* const access = std::get<StrengthMaterial& (*)(Design&)>(field.access);
-    return chosen_axis<StrengthMaterial>(field, text,
-                                         {{"none", StrengthMaterial::none},
-                                          {"aramid", StrengthMaterial::aramid},
-                                          {"uhmwpe", StrengthMaterial::uhmwpe}},
-                                         access);
-  }
-
-  template <class T>
-  std::optional<SweepAxis> chosen_axis(const SpecField& field, std::string_view text,
-                                       const std::vector<std::pair<std::string, T>>& known,
-                                       T& (*access)(Design&)) {
-    NamedChoices choices;
-    std::vector<T> chosen;
-    std::vector<std::string> names;
-    for (const auto& [name, value] : known) names.push_back(name);
-    bool good = true;
-    for (const std::string_view part : split(text, ',')) {
-      const auto found = std::find(names.begin(), names.end(), part);
-      if (found == names.end()) {
-        const std::span<const std::string> all_but_last(names.data(), names.size() - 1);
-        refuse(fmt::format("expected {} or {}, found {}{}", fmt::join(all_but_last, ", "),
-                           names.back(), shown(std::string(part)), did_you_mean(part, names)));
-        good = false;
-        continue;
+  std::optional<SweepAxis> word_axis(const SpecField& field, std::string_view text) {
+    const auto words = field_words(field.kind);
+    NamedChoices choices{names_in(text, {words.begin(), words.end()})};
+    std::vector<std::size_t> chosen;
+    for (const std::string& name : choices.names) {
+      const auto found = std::find(words.begin(), words.end(), name);
+      if (found == words.end()) {
+        refuse(fmt::format("expected {} or {}, found {}{}",
+                           fmt::join(words.begin(), words.end() - 1, ", "), words.back(),
+                           shown(name), did_you_mean(name, words)));
       }
-      choices.names.push_back(*found);
-      chosen.push_back(known[static_cast<std::size_t>(found - names.begin())].second);
+      chosen.push_back(static_cast<std::size_t>(found - words.begin()));
     }
-    if (!good) return std::nullopt;
+    if (std::count(chosen.begin(), chosen.end(), words.size()) > 0) return std::nullopt;
     return SweepAxis{dot_path(field.pointer), std::move(choices),
-                     [access, chosen](Design& design, double position) {
-                       access(design) = chosen[static_cast<std::size_t>(position)];
+                     [field, chosen](Design& design, double position) {
+                       set_word(design, field, chosen[static_cast<std::size_t>(position)]);
                      }};
   }
 
-  template <class Entry, class Access, class List, class Find, class Part>
+  template <class Entry, class List, class Find>
   std::optional<SweepAxis> entry_axis(const SpecField& field, std::string_view text,
-                                      const List& library, const Find& find, const Part& part_of) {
-    using Value = decltype(part_of(std::declval<Entry>()));
+                                      const List& library, const Find& find) {
     NamedChoices choices;
-    std::vector<Value> values;
-    const auto add = [&](std::string name, const Entry& entry) {
-      choices.names.push_back(std::move(name));
-      values.push_back(part_of(entry));
-    };
-    const std::size_t before = problems_.count();
+    std::vector<Entry> entries;
     if (text == "all") {
-      for (const Entry& entry : library()) add(entry.id, entry);
+      entries = library();
+      for (const Entry& entry : entries) choices.names.push_back(entry.id);
     } else {
-      for (const std::string_view name : split(text, ',')) {
+      choices.names = names_in(text, {});
+      for (const std::string& name : choices.names) {
         try {
-          add(std::string(name), find(std::string(name), base_.folder, option_));
+          entries.push_back(find(name, base_.folder, option_));
         } catch (const InputError& error) {
           problems_.add(error.problems());
         }
       }
+      if (entries.size() < choices.names.size()) return std::nullopt;
     }
-    if (problems_.count() > before) return std::nullopt;
-    auto* const access = std::get<Access>(field.access);
     return SweepAxis{dot_path(field.pointer), std::move(choices),
-                     [access, values](Design& design, double position) {
-                       assign(access(design), values[static_cast<std::size_t>(position)]);
+                     [entries](Design& design, double position) {
+                       put_entry(design, entries[static_cast<std::size_t>(position)]);
                      }};
   }
 
   std::string option_;
   std::string_view text_;
   const DesignFile& base_;
-  bool sampled_;
+  AxisUse use_;
   Problems& problems_;
 };
 
@@ -500,23 +413,25 @@ bool normal_ends_are_allowed(const SweepSpace& space, Design design) {
 
 }  // namespace
 
-std::vector<SweepAxis> read_sweep_axes(std::span<const std::string> varied, const DesignFile& base,
-                                       bool sampled) {
+std::vector<SweepAxis> read_axes(std::span<const std::string> texts, const DesignFile& base,
+                                 AxisUse use) {
   Problems problems;
   std::vector<SweepAxis> axes;
-  for (const std::string& text : varied) {
-    auto axis = AxisReader(text, base, sampled, problems).read();
+  for (const std::string& text : texts) {
+    auto axis = AxisReader(text, base, use, problems).read();
     if (!axis) continue;
     const bool repeated = std::any_of(
         axes.begin(), axes.end(), [&](const SweepAxis& other) { return other.name == axis->name; });
-    if (repeated) problems.add("--vary " + text, axis->name + " is varied twice");
+    const auto [option, verb] =
+        use == AxisUse::searched ? std::pair{"--free ", "freed"} : std::pair{"--vary ", "varied"};
+    if (repeated) problems.add(option + text, fmt::format("{} is {} twice", axis->name, verb));
     axes.push_back(std::move(*axis));
   }
   problems.throw_if_any();
   return axes;
 }
 
-void check_sweep_rows(const SweepSpace& space, const DesignFile& base) {
+void check_sweep_rows(const SweepSpace& space, const DesignFile& base, const std::string& option) {
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   // Where the ends of the axes, each with each, are free of conflicts, so is all between them.
   std::size_t fields = conflicts_in(corner_space(space), base.design, all).size();
@@ -525,7 +440,7 @@ void check_sweep_rows(const SweepSpace& space, const DesignFile& base) {
   Problems problems;
   for (const auto& [field, message] :
        conflicts_in(space.sample() ? space : conflict_space(space), base.design, fields)) {
-    problems.add("--vary", message);
+    problems.add(option, message);
   }
   problems.throw_if_any();
 }

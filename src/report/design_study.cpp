@@ -6,12 +6,15 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "io/closest_name.hpp"
 #include "solve/cable_limits.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/io/spec_writer.hpp"
+#include "tethercalc/io/sweep_axes.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
@@ -34,25 +37,6 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-std::vector<std::string> parts_of(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == separator) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
-/// A free field with the JSON values of its alternatives, for the ready spec.
-struct FreeField {
-  const SpecField* field = nullptr;
-  bool is_range = false;
-  std::vector<ordered_json> values;
-};
-
 /// Turns a request into a problem.
 class ProblemReader {
  public:
@@ -62,12 +46,13 @@ class ProblemReader {
   }
 
   DesignProblem problem;
-  std::vector<FreeField> range_fields;   ///< as problem.ranges
-  std::vector<FreeField> choice_fields;  ///< as problem.choices
+  std::vector<SweepAxis> ranges;   ///< as problem.ranges
+  std::vector<SweepAxis> choices;  ///< as problem.choices
 
   void read() {
-    for (const std::string& text : request_.free) attempt([&] { read_free(text); });
-    attempt([&] { read_standard(); });
+    std::vector<SweepAxis> axes;
+    attempt([&] { axes = read_axes(request_.free, file_, AxisUse::searched); });
+    attempt([&] { read_standard(axes); });
     attempt([&] {
       problem.objective =
           candidate_quantity(request_.minimize, file_.design, "--minimize " + request_.minimize);
@@ -77,8 +62,20 @@ class ProblemReader {
     if (request_.free.empty() && request_.standard.empty()) {
       throw InputError("--free", "is needed: which fields may the search change?");
     }
+    // A motor or material replaces all of its numbers, which other fields may free.
+    std::stable_partition(axes.begin(), axes.end(), [](const SweepAxis& axis) {
+      return std::holds_alternative<NamedChoices>(axis.values);
+    });
+    for (const SweepAxis& axis : axes) add(axis);
+    check_choices();
     free_cross_section_where_needed();
     add_lower_bound();
+  }
+
+  [[nodiscard]] bool is_free(std::string_view path) const {
+    const auto same = [&](const SweepAxis& axis) { return axis.name == path; };
+    return std::any_of(ranges.begin(), ranges.end(), same) ||
+           std::any_of(choices.begin(), choices.end(), same);
   }
 
  private:
@@ -91,109 +88,47 @@ class ProblemReader {
     }
   }
 
-  void read_free(const std::string& text) {
-    const std::string where = "--free " + text;
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw InputError(where,
-                       "expected PATH=lo..hi or PATH=a,b,c, such as supply.voltage_V=40..400");
+  void add(const SweepAxis& axis) {
+    if (const auto* range = std::get_if<Uniform>(&axis.values)) {
+      problem.ranges.push_back({axis.name, {range->lo, range->hi}, axis.apply});
+      ranges.push_back(axis);
+      return;
     }
-    const std::string path = text.substr(0, equals);
-    const std::string rest = text.substr(equals + 1);
-    const SpecField* field = find_field(path);
-    if (field == nullptr) {
-      const auto closest = closest_field_path(path);
-      throw InputError(where, fmt::format("no field \"{}\" in a spec{}", path,
-                                          closest ? "; did you mean \"" + *closest + "\"?" : ""));
+    FreeChoice choice{axis.name, {}};
+    const std::uint64_t count = *value_count(axis);
+    combinations_ *= static_cast<double>(count);
+    constexpr double most = 1e5;
+    if (combinations_ > most) {
+      throw InputError("--free", fmt::format("the lists and steps have more than {} combinations, "
+                                             "each of which is searched: write lo..hi for a range",
+                                             most));
     }
-    const std::size_t dots = rest.find("..");
-    if (dots != std::string::npos && is_numeric(*field)) {
-      return read_range(where, *field, rest.substr(0, dots), rest.substr(dots + 2));
-    }
-    read_choice(where, *field, rest);
-  }
-
-  void check(const std::string& where, const SpecField& field, double value) {
-    Design copy = file_.design;
-    try {
-      set_field(copy, field, value);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(where, error.what());
-    }
-  }
-
-  void read_range(const std::string& where, const SpecField& field, const std::string& lo_text,
-                  const std::string& hi_text) {
-    const auto lo = number_of(lo_text);
-    const auto hi = number_of(hi_text);
-    if (!lo || !hi || !(*lo <= *hi)) {
-      throw InputError(where, "expected two numbers, the smaller one first: lo..hi");
-    }
-    check(where, field, *lo);
-    check(where, field, *hi);
-    const SpecField* pointer = &field;
-    if (field.kind == FieldKind::integer) {
-      std::string list;
-      for (double value = *lo; value <= *hi; ++value) list += fmt::format(",{}", value);
-      return read_choice(where, field, list.substr(1));
-    }
-    problem.ranges.push_back({dot_path(field.pointer), {*lo, *hi}, [pointer](Design& d, double x) {
-                                set_field(d, *pointer, x);
-                              }});
-    range_fields.push_back({pointer, true, {}});
-  }
-
-  void add_number(const std::string& where, const SpecField& field, double value, std::string label,
-                  FreeChoice& choice, FreeField& values) {
-    check(where, field, value);
-    const SpecField* pointer = &field;
-    choice.alternatives.push_back(
-        {std::move(label), [pointer, value](Design& d) { set_field(d, *pointer, value); }});
-    values.values.emplace_back(value);
-  }
-
-  void read_choice(const std::string& where, const SpecField& field, const std::string& list) {
-    FreeChoice choice{dot_path(field.pointer), {}};
-    FreeField values{&field, false, {}};
-    std::vector<std::string> items = parts_of(list, ',');
-    if (field.kind == FieldKind::motor && list == "all") {
-      items.clear();
-      for (const MotorEntry& motor : library_motors()) items.push_back(motor.id);
-    }
-    for (const std::string& item : items) {
-      if (field.kind == FieldKind::motor) {
-        const MotorCurve curve = find_motor(item, file_.folder, where).curve;
-        choice.alternatives.push_back({item, [curve](Design& d) { d.drone.motor = curve; }});
-        values.values.emplace_back(item);
-      } else if (field.kind == FieldKind::conductor) {
-        const Conductor conductor = find_conductor(item, file_.folder, where).conductor;
-        choice.alternatives.push_back(
-            {item, [conductor](Design& d) { d.tether.conductor = conductor; }});
-        values.values.emplace_back(item);
-      } else if (field.kind == FieldKind::insulation_material) {
-        const InsulationEntry material = find_insulation(item, file_.folder, where);
-        choice.alternatives.push_back(
-            {item, [material](Design& d) { apply_material(d.tether.insulation, material); }});
-        values.values.emplace_back(item);
-      } else if (const auto number = number_of(item); number && is_numeric(field)) {
-        add_number(where, field, *number, item, choice, values);
-      } else {
-        throw InputError(
-            where, fmt::format("\"{}\" cannot be chosen for {}", item, dot_path(field.pointer)));
-      }
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const double value = value_at(axis, i);
+      choice.alternatives.push_back(
+          {fmt::to_string(value), [apply = axis.apply, value](Design& d) { apply(d, value); }});
     }
     problem.choices.push_back(std::move(choice));
-    choice_fields.push_back(std::move(values));
+    choices.push_back(axis);
   }
 
-  static void apply_material(Insulation& insulation, const InsulationEntry& material) {
-    insulation.density = material.density;
-    insulation.rated_temperature_C = material.rated_temperature_C;
-    insulation.thermal_conductivity = material.thermal_conductivity.value_or(0);
-    insulation.breakdown_strength = material.breakdown_strength.value_or(0);
+  /// Refuses choices in conflict with each other or with the spec, whatever the ranges.
+  void check_choices() const {
+    std::vector<SweepAxis> at_lo = choices;
+    std::vector<SweepAxis> at_hi = choices;
+    for (const FreeRange& free : problem.ranges) {
+      at_lo.push_back({free.name, std::vector{free.range.lo}, free.set});
+      at_hi.push_back({free.name, std::vector{free.range.hi}, free.set});
+    }
+    try {
+      check_sweep_rows(SweepSpace(std::move(at_lo)), file_);
+    } catch (const InputError&) {
+      check_sweep_rows(SweepSpace(std::move(at_hi)), file_, "--free");
+    }
   }
 
-  void read_standard() {
+  /// Sizes in which the cross-section comes take the place of its range.
+  void read_standard(std::vector<SweepAxis>& axes) {
     if (request_.standard.empty()) return;
     const std::string where = "--standard " + request_.standard;
     if (request_.standard != "awg" && request_.standard != "iec") {
@@ -201,24 +136,26 @@ class ProblemReader {
     }
     const std::string name = request_.standard == "awg" ? "AWG" : "IEC 60228";
     const SpecField& field = *find_field("tether.cross_section_mm2");
-    VariableRange range{0, 1000};
-    for (std::size_t i = 0; i < problem.ranges.size(); ++i) {
-      if (range_fields[i].field != &field) continue;
-      range = problem.ranges[i].range;
-      problem.ranges.erase(problem.ranges.begin() + static_cast<std::ptrdiff_t>(i));
-      range_fields.erase(range_fields.begin() + static_cast<std::ptrdiff_t>(i));
-      break;
+    Uniform range{0, 1000};
+    const auto freed = std::find_if(axes.begin(), axes.end(), [](const SweepAxis& axis) {
+      return axis.name == "tether.cross_section_mm2";
+    });
+    if (freed != axes.end()) {
+      const auto* given = std::get_if<Uniform>(&freed->values);
+      if (given == nullptr) {
+        throw InputError(where, freed->name + " is freed twice; --free may give it a range lo..hi");
+      }
+      range = *given;
+      axes.erase(freed);
     }
-    FreeChoice choice{dot_path(field.pointer), {}};
-    FreeField values{&field, false, {}};
+    std::vector<double> sizes;
     for (const WireSize& size : wire_sizes()) {
       const double mm2 = size.area / unit::square_millimetre;
-      if (size.standard != name || mm2 < range.lo || mm2 > range.hi) continue;
-      add_number(where, field, mm2, size.name, choice, values);
+      if (size.standard == name && mm2 >= range.lo && mm2 <= range.hi) sizes.push_back(mm2);
     }
-    if (choice.alternatives.empty()) throw InputError(where, "no size lies in the given range");
-    problem.choices.push_back(std::move(choice));
-    choice_fields.push_back(std::move(values));
+    if (sizes.empty()) throw InputError(where, "no size lies in the given range");
+    axes.push_back({dot_path(field.pointer), std::move(sizes),
+                    [&field](Design& d, double mm2) { set_field(d, field, mm2); }});
   }
 
   void read_limit(const std::string& text) {
@@ -236,12 +173,7 @@ class ProblemReader {
   /// heat and the like are demands it would do, but finding it takes a thousand evaluations.
   void free_cross_section_where_needed() {
     const SpecField& area = *find_field("tether.cross_section_mm2");
-    const auto is_area = [&](const FreeField& f) { return f.field == &area; };
-    if (file_.design.tether.cross_section ||
-        std::any_of(range_fields.begin(), range_fields.end(), is_area) ||
-        std::any_of(choice_fields.begin(), choice_fields.end(), is_area)) {
-      return;
-    }
+    if (file_.design.tether.cross_section || is_free(dot_path(area.pointer))) return;
     const bool at_hover = file_.design.requirements.power_at == Condition::hover;
     const std::string& key = request_.minimize;
     const bool least_power = key == "total_power_W" ||
@@ -256,10 +188,8 @@ class ProblemReader {
     const bool quickly_found = !has_cable_limits(some);
     if (least_power && only_fields && request_.pareto.empty() && quickly_found) return;
     // From below AWG 36 to what no drone lifts.
-    problem.ranges.push_back({dot_path(area.pointer), {0.01, 100}, [&area](Design& d, double x) {
-                                set_field(d, area, x);
-                              }});
-    range_fields.push_back({&area, true, {}});
+    add({dot_path(area.pointer), Uniform{0.01, 100},
+         [&area](Design& d, double x) { set_field(d, area, x); }});
   }
 
   /// For the supplied power: that of the drone with the lightest and least resistive tether that
@@ -275,9 +205,10 @@ class ProblemReader {
                                                              : file_.design.requirements.power_at;
     std::vector<std::pair<const SpecField*, double>> best_ends;
     bool area_is_free = false;
-    for (std::size_t i = 0; i < range_fields.size(); ++i) {
-      const std::string_view pointer = range_fields[i].field->pointer;
-      const VariableRange& range = problem.ranges[i].range;
+    for (const FreeRange& free : problem.ranges) {
+      const SpecField* const field = find_field(free.name);
+      const std::string_view pointer = field->pointer;
+      const VariableRange& range = free.range;
       if (pointer == "/supply/voltage_V") {
         double highest = range.hi;
         for (const UserLimit& limit : problem.limits) {
@@ -285,11 +216,11 @@ class ProblemReader {
             highest = std::clamp(limit.bound, range.lo, highest);
           }
         }
-        best_ends.emplace_back(range_fields[i].field, highest);
+        best_ends.emplace_back(field, highest);
       } else if (pointer == "/tether/cross_section_mm2") {
         area_is_free = true;
       } else if (pointer.starts_with("/tether/")) {
-        best_ends.emplace_back(range_fields[i].field, range.lo);
+        best_ends.emplace_back(field, range.lo);
       } else {
         return;
       }
@@ -316,31 +247,33 @@ class ProblemReader {
 
   const DesignFile& file_;
   const DesignRequest& request_;
+  double combinations_ = 1;
   std::vector<InputProblem> problems_;
 };
 
 ordered_json free_values(const ProblemReader& reader, const std::vector<std::size_t>& choice,
                          const std::vector<double>& x) {
   ordered_json values = ordered_json::object();
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    values[dot_path(reader.range_fields[i].field->pointer)] = x[i];
-  }
+  for (std::size_t i = 0; i < x.size(); ++i) values[reader.ranges[i].name] = x[i];
   for (std::size_t i = 0; i < choice.size(); ++i) {
-    values[dot_path(reader.choice_fields[i].field->pointer)] =
-        reader.choice_fields[i].values[choice[i]];
+    const SweepAxis& axis = reader.choices[i];
+    if (const auto* names = std::get_if<NamedChoices>(&axis.values)) {
+      values[axis.name] = names->names[choice[i]];
+    } else {
+      values[axis.name] = value_at(axis, choice[i]);
+    }
   }
   return values;
 }
 
 ordered_json ready_spec(const DesignFile& file, const ordered_json& values, const Candidate& best) {
-  ordered_json spec = file.document;
+  Design design = best.design;
+  if (std::isfinite(best.area)) design.tether.cross_section = best.area;
+  std::map<std::string, std::string> names;
   for (const auto& [path, value] : values.items()) {
-    spec[ordered_json::json_pointer(std::string(find_field(path)->pointer))] = value;
+    if (value.is_string()) names[path] = value.get<std::string>();
   }
-  if (std::isfinite(best.area)) {
-    spec["tether"]["cross_section_mm2"] = best.area / unit::square_millimetre;
-  }
-  return spec;
+  return spec_with(file, design, names);
 }
 
 /// Unit in which a key's name ends, as people write it; empty where it has none.
@@ -402,7 +335,7 @@ class Prices {
     const bool at_hi = free.range.hi - x <= binding * width;
     if (!at_lo && !at_hi) return;
     const double step = (at_lo ? -0.01 : 0.01) * std::abs(x);
-    if (step == 0 || !reader_.range_fields[i].field->range.contains(x + step)) return;
+    if (step == 0 || !find_field(free.name)->range.contains(x + step)) return;
     add(fmt::format("{} at the {} end of its range", free.name, at_lo ? "low" : "high"),
         fmt::format("{} is at the {} end of its range", free.name, at_lo ? "low" : "high"), step,
         step_words(step, unit_of_key(free.name)),
@@ -467,16 +400,10 @@ class Prices {
     });
   }
 
-  [[nodiscard]] bool is_free(const SpecField* field) const {
-    const auto same = [&](const FreeField& f) { return f.field == field; };
-    return std::any_of(reader_.range_fields.begin(), reader_.range_fields.end(), same) ||
-           std::any_of(reader_.choice_fields.begin(), reader_.choice_fields.end(), same);
-  }
-
   template <typename Change>
   void add_requirement(const std::string& name, const std::string& subject, double step,
                        const std::string& unit, Change change) {
-    if (const SpecField* field = find_field(name); field != nullptr && is_free(field)) return;
+    if (reader_.is_free(name)) return;
     add(name, subject + " binds", step, step_words(step, unit), [&](DesignProblem& p) {
       p.choices.push_back({name, {{name, change}}});
     });
@@ -485,7 +412,7 @@ class Prices {
   void add_field(const char* path, double step, const char* subject) {
     const SpecField& field = *find_field(path);
     const auto value = field_value(reader_.problem.base, field);
-    if (is_free(&field) || !value || !field.range.contains(*value + step)) return;
+    if (reader_.is_free(path) || !value || !field.range.contains(*value + step)) return;
     add(path, "", step, subject, [&](DesignProblem& p) {
       p.choices.push_back({path, {{path, [&](Design& d) { set_field(d, field, *value + step); }}}});
     });

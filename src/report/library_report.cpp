@@ -61,11 +61,13 @@ LibraryListing list_insulation() {
                           {"breakdown_kV_mm", "breakdown\nkV/mm"},
                           {"source", ""}},
                          {}};
+  const auto stated = [](double value) { return value > 0 ? value : unstated; };
   for (const InsulationEntry& entry : library_insulation()) {
-    listing.rows.push_back({entry.id, entry.density / unit::gram_per_cubic_centimetre,
-                            entry.rated_temperature_C.value_or(unstated),
-                            entry.thermal_conductivity.value_or(unstated),
-                            entry.breakdown_strength.value_or(unstated) / 1e6, entry.source});
+    const Insulation& i = entry.insulation;
+    listing.rows.push_back({entry.id, i.density / unit::gram_per_cubic_centimetre,
+                            i.rated_temperature_C.value_or(unstated),
+                            stated(i.thermal_conductivity), stated(i.breakdown_strength) / 1e6,
+                            entry.source});
   }
   return listing;
 }

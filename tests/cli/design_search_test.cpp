@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "support/run_program.hpp"
 
@@ -247,12 +249,70 @@ TEST_CASE("systems that exist are feasible, and take about the power that their 
   CHECK(maker["greatest"]["height_m"]["value"].get<double>() > 12.2);
 }
 
+TEST_CASE("whatever a sweep can vary a design can free") {
+  const std::vector<std::string> axes{"tether.conductor=all",
+                                      "requirements.headroom_at=hover,forward",
+                                      "tether.strength_member.material=none,aramid",
+                                      "requirements.buffer_battery=true,false",
+                                      "supply.voltage_V=60:75:5",
+                                      "drone.motor_count=4:6:2",
+                                      "tether.conductor.density_g_cm3=2.7,8.9",
+                                      "tether.cross_section_mm2=1.1,1.5",
+                                      "supply.converter.efficiency=0.8,0.95"};
+  for (const std::string& axis : axes) {
+    INFO(axis);
+    const Ran swept = run_tethercalc({"sweep", published, "--vary", axis, "--format", "jsonl"});
+    REQUIRE(swept.exit_code == 0);
+    double least = std::numeric_limits<double>::infinity();
+    std::istringstream lines(swept.out);
+    for (std::string line; std::getline(lines, line);) {
+      const json row = json::parse(line);
+      if (row["status"] != "infeasible") {
+        least = std::min(least, row["forward.total_power_W"].get<double>());
+      }
+    }
+    const json best = json::parse(design({"--free", axis, "--format", "json"}).out);
+    REQUIRE(best["status"] == "optimal");
+    CHECK(best["value"].get<double>() == Approx(least).epsilon(1e-9));
+    const TemporaryFolder folder;
+    const std::string spec = (folder.path() / "ready.json").string();
+    write_file(spec, best["spec"].dump());
+    const json flown = json::parse(run_tethercalc({"evaluate", spec, "--format", "json"}).out);
+    CHECK(flown["table"][0]["forward"]["total_power_W"].get<double>() ==
+          Approx(least).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a field is freed once, within one range") {
+  const Ran twice =
+      design({"--free", "supply.voltage_V=40..60", "--free", "supply.voltage_V=100..200"});
+  CHECK(twice.exit_code == 2);
+  CHECK(twice.out.empty());
+  CHECK_THAT(twice.err, Contains("supply.voltage_V is freed twice"));
+  const Ran sizes = design({"--free", "tether.cross_section_mm2=1,2", "--standard", "awg"});
+  CHECK(sizes.exit_code == 2);
+  CHECK_THAT(sizes.err, Contains("tether.cross_section_mm2 is freed twice"));
+  const Ran many = design({"--free", "supply.voltage_V=1:1000:0.001"});
+  CHECK(many.exit_code == 2);
+  CHECK_THAT(many.err, Contains("write lo..hi for a range"));
+}
+
+TEST_CASE("a choice that conflicts with the spec is refused, not flown without what it asks for") {
+  const Ran run = design({"--free", "tether.insulation.material=all", "--set",
+                          "tether.insulation.dielectric_safety_factor=3"});
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("--free: asks for a wall by the voltage"));
+}
+
 TEST_CASE("a mistyped study is refused with everything that is wrong") {
-  const Ran run = design({"--free", "supply.volt=20..25", "--minimize", "total_powr_W",
-                          "--subject-to", "x<3", "--standard", "bwg"});
+  const Ran run = design({"--free", "supply.volt=20..25", "--free", "drone.motor=x500", "--free",
+                          "tether.length_m=60..0", "--minimize", "total_powr_W", "--subject-to",
+                          "x<3", "--standard", "bwg"});
   CHECK(run.exit_code == 2);
   CHECK(run.out.empty());
   CHECK_THAT(run.err, Contains("did you mean \"supply.voltage_V\"?"));
+  CHECK_THAT(run.err, Contains("no motor \"x500\" in the library"));
+  CHECK_THAT(run.err, Contains("60 must be below"));
   CHECK_THAT(run.err, Contains("did you mean \"total_power_W\"?"));
   CHECK_THAT(run.err, Contains("expected KEY<=VALUE"));
   CHECK_THAT(run.err, Contains("allowed are awg and iec"));

@@ -18,7 +18,7 @@ const DesignFile& base() {
 
 SweepAxis axis_of(const std::string& text, bool sampled = false) {
   const std::vector<std::string> varied{text};
-  auto axes = read_sweep_axes(varied, base(), sampled);
+  auto axes = read_axes(varied, base(), sampled ? AxisUse::sampled : AxisUse::enumerated);
   REQUIRE(axes.size() == 1);
   return std::move(axes.front());
 }
@@ -35,7 +35,7 @@ std::vector<double> values_of(const std::string& text) {
 std::string refusal_of(const std::string& text, bool sampled = false) {
   const std::vector<std::string> varied{text};
   try {
-    (void)read_sweep_axes(varied, base(), sampled);
+    (void)read_axes(varied, base(), sampled ? AxisUse::sampled : AxisUse::enumerated);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -149,7 +149,7 @@ TEST_CASE("every pair of fields in conflict anywhere in a sweep is told at once"
   unknown.design.tether.insulation.breakdown_strength = 0;
   const std::vector<std::string> varied{"supply.voltage_V=75:10:-1",
                                         "tether.insulation.dielectric_safety_factor=0,3"};
-  const SweepSpace space(read_sweep_axes(varied, unknown, false));
+  const SweepSpace space(read_axes(varied, unknown, AxisUse::enumerated));
   CHECK_NOTHROW(check_sweep_rows(SweepSpace({space.axes()[1]}), base()));
   try {
     check_sweep_rows(space, unknown);

@@ -160,10 +160,15 @@ TEST_CASE("the unit in a field's name is the unit on the axis") {
     const std::size_t open = label.find(" (");
     return open == std::string::npos ? "" : label.substr(open + 2, label.size() - open - 3);
   };
-  for (const auto fields : {spec_fields(), conductor_fields(), insulation_fields()}) {
+  const std::pair<std::string, std::span<const SpecField>> groups[] = {
+      {"", spec_fields()},
+      {"/tether/conductor", conductor_fields()},
+      {"/tether/insulation/material", insulation_fields()}};
+  for (const auto& [place, fields] : groups) {
     for (const SpecField& field : fields) {
-      INFO(field.pointer);
-      if (is_numeric(field)) CHECK(unit_of(field.pointer) == field.unit);
+      const std::string path = dot_path(place + std::string(field.pointer));
+      INFO(path);
+      if (is_numeric(field)) CHECK(unit_of(path) == field.unit);
     }
   }
   for (const OperatingPointField& field : operating_point_fields()) {

@@ -61,7 +61,7 @@ TEST_CASE("a sample's quantiles and infeasible share are those of plain random d
   const std::vector<std::string> varied{"supply.voltage_V=90~4", "tether.length_m=15..40",
                                         "drone.mass_g=1700~50"};
   for (const SampleMethod method : {SampleMethod::sobol, SampleMethod::latin_hypercube}) {
-    const SweepSpace space(read_sweep_axes(varied, base(), true),
+    const SweepSpace space(read_axes(varied, base(), AxisUse::sampled),
                            {1 << 17, method, run_seed() + 1});
     const SweepSummary summary = summary_of(space, base().design);
     const double infeasible =
@@ -93,7 +93,7 @@ TEST_CASE("mean and standard deviation are those of the values") {
 TEST_CASE("a summary of infeasible draws alone says so instead of inventing numbers") {
   const DesignFile file = base();
   const std::vector<std::string> varied{"drone.mass_g=20000..30000"};
-  const SweepSpace space(read_sweep_axes(varied, file, true), {300, SampleMethod::sobol, 0});
+  const SweepSpace space(read_axes(varied, file, AxisUse::sampled), {300, SampleMethod::sobol, 0});
   SweepSummary summary = summary_of(space, file.design);
   summary.sensitivity = sweep_sensitivity(space, file.design, 2);
   CHECK(summary.infeasible == 300);

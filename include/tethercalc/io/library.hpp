@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tethercalc/model/motor_curve.hpp"
-#include "tethercalc/model/tether.hpp"
+#include "tethercalc/model/design.hpp"
 #include "tethercalc/study/wire_sizes.hpp"
 
 namespace tethercalc {
@@ -23,14 +22,18 @@ struct ConductorEntry {
 
 /// An insulation material. Texts are empty where the file gives none.
 struct InsulationEntry {
-  std::string id;                                ///< what specs and options call it
-  std::string name;                              ///< what people call it
-  std::string source;                            ///< where its numbers come from
-  double density = 0;                            ///< kg/m³
-  std::optional<double> rated_temperature_C{};   ///< highest continuous conductor temperature
-  std::optional<double> thermal_conductivity{};  ///< W/(m·K)
-  std::optional<double> breakdown_strength{};    ///< V/m, of a short test
+  std::string id;         ///< what specs and options call it
+  std::string name;       ///< what people call it
+  std::string source;     ///< where its numbers come from
+  Insulation insulation;  ///< its physics; the wall is the spec's
 };
+
+/// Puts an entry into a design; the wall and the safety factor of its insulation stay.
+void put_entry(Design& design, const MotorEntry& entry);
+/// Likewise.
+void put_entry(Design& design, const ConductorEntry& entry);
+/// Likewise.
+void put_entry(Design& design, const InsulationEntry& entry);
 
 /// All motors of the library, by id. They are part of the program, which needs no files for them.
 [[nodiscard]] std::vector<MotorEntry> library_motors();

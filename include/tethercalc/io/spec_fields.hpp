@@ -43,11 +43,11 @@ struct FieldRange {
   [[nodiscard]] bool contains(double value) const;  ///< false for NaN
 };
 
-/// Where in a Design the field lives; nothing for fields that the physics does not see.
+/// Where in a Design the field lives; nothing for texts and for what a library entry fills. An
+/// `optional_number` without one is nothing there, or 0 where the design knows no nothing.
 using FieldAccess =
     std::variant<std::monostate, double& (*)(Design&), std::optional<double>& (*)(Design&),
                  int& (*)(Design&), bool& (*)(Design&), Condition& (*)(Design&),
-                 MotorCurve& (*)(Design&), Conductor& (*)(Design&), Insulation& (*)(Design&),
                  Converter& (*)(Design&), StrengthMaterial& (*)(Design&)>;
 
 /// One field: how a spec writes it, what it may hold, and where it goes.
@@ -86,9 +86,13 @@ struct SpecField {
 /// The fields of one row of a converter's table of masses.
 [[nodiscard]] std::span<const SpecField> converter_mass_fields();
 
-/// The field of a spec at `path`, either "supply.voltage_V" or "/supply/voltage_V"; null where
-/// there is none.
+/// The field of a spec at `path`, either "supply.voltage_V" or "/supply/voltage_V", or the number
+/// of a material in it, such as "tether.conductor.density_g_cm3"; null where there is none. Its
+/// pointer is that in the spec.
 [[nodiscard]] const SpecField* find_field(std::string_view path);
+
+/// "no field X in a spec; did you mean Y?", Y by `closest_field_path`.
+[[nodiscard]] std::string no_such_field(std::string_view path);
 
 /// "supply.voltage_V" of "/supply/voltage_V": how options name a field.
 [[nodiscard]] std::string dot_path(std::string_view pointer);
@@ -110,8 +114,21 @@ void set_field(Design& design, const SpecField& field, double value);
 /// number: a field that takes none, an optional one that is not set, an efficiency curve.
 [[nodiscard]] std::optional<double> field_value(const Design& design, const SpecField& field);
 
+/// The same in SI, as the design holds it.
+[[nodiscard]] std::optional<double> field_value_si(const Design& design, const SpecField& field);
+
 /// True where `set_field` accepts numbers.
 [[nodiscard]] bool is_numeric(const SpecField& field);
+
+/// The words that a boolean, condition or strength material is written with, by rising value; empty
+/// for every other kind.
+[[nodiscard]] std::span<const std::string> field_words(FieldKind kind);
+
+/// The index of the word for what is where the field lives; it must be of a kind that has words.
+[[nodiscard]] std::size_t field_word(const Design& design, const SpecField& field);
+
+/// Puts the value of word `index` where the field lives; it must be of a kind that has words.
+void set_word(Design& design, const SpecField& field, std::size_t index);
 
 /// Two fields that are each in range and do not go together.
 struct FieldConflict {

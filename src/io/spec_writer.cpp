@@ -1,0 +1,158 @@
+// Which fields of a design changed, and how a spec writes them. What fields there are stands in
+// spec_fields.cpp.
+#include "tethercalc/io/spec_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "tethercalc/io/spec_fields.hpp"
+
+namespace tethercalc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The number with the fewest digits that the reader turns into `si`; the nearest one where
+/// rounding leaves none.
+double practical_number(double si, double si_factor) {
+  const double nearest = si / si_factor;
+  for (int digits = 1; digits <= 17; ++digits) {
+    const double value = std::strtod(fmt::format("{:.{}g}", nearest, digits).c_str(), nullptr);
+    if (value * si_factor == si) return value;
+  }
+  for (const double end : {-HUGE_VAL, HUGE_VAL}) {
+    const double neighbour = std::nextafter(nearest, end);
+    if (neighbour * si_factor == si) return neighbour;
+  }
+  return nearest;
+}
+
+Json number_json(const Design& design, const SpecField& field) {
+  const auto si = field_value_si(design, field);
+  if (!si) return nullptr;
+  if (field.kind == FieldKind::integer) return static_cast<int>(*si);
+  return practical_number(*si, field.si_factor);
+}
+
+/// How a spec writes a field that is no motor or material.
+Json plain_json(const Design& design, const SpecField& field) {
+  const Converter& converter = design.supply.converter;
+  if (field.kind == FieldKind::boolean) return field_word(design, field) != 0;
+  if (const auto words = field_words(field.kind); !words.empty()) {
+    return words[field_word(design, field)];
+  }
+  Json list = Json::array();
+  if (field.kind == FieldKind::converter_masses) {
+    for (const ConverterMassPoint& point : converter.masses) {
+      list.push_back({{"rated_output_W", point.rated_output_power},
+                      {"mass_g", practical_number(point.mass, unit::gram)}});
+    }
+    return list;
+  }
+  if (field.kind != FieldKind::efficiency || converter.efficiency.size() == 1) {
+    return number_json(design, field);
+  }
+  for (const EfficiencyPoint& point : converter.efficiency) {
+    list.push_back({{"output_W", point.output_power}, {"efficiency", point.efficiency}});
+  }
+  return list;
+}
+
+/// How a spec writes the numbers of a motor or material, names left out.
+Json entry_numbers(const Design& design, FieldKind kind) {
+  Json numbers = Json::object();
+  if (kind == FieldKind::motor) {
+    Json points = Json::array();
+    for (const MotorPoint& point : design.drone.motor.vertices().subspan(1)) {
+      points.push_back({{"thrust_g", practical_number(point.thrust, unit::gram_force)},
+                        {"power_W", point.power}});
+    }
+    return {{"points", points}};
+  }
+  for (const SpecField& field :
+       kind == FieldKind::conductor ? conductor_fields() : insulation_fields()) {
+    if (!is_numeric(field)) continue;
+    if (Json value = number_json(design, field); !value.is_null()) {
+      numbers[std::string(field.pointer.substr(1))] = std::move(value);
+    }
+  }
+  return numbers;
+}
+
+/// Writes a changed motor or material.
+template <class Entry, class Library, class Find>
+Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
+                const SpecField& field, const std::string& reference, const Library& library,
+                const Find& find) {
+  const Json numbers = entry_numbers(design, field.kind);
+  const auto is = [&](const Entry& entry) {
+    Design other;
+    put_entry(other, entry);
+    return entry_numbers(other, field.kind) == numbers;
+  };
+  const Entry& base =
+      reference.empty() ? old : find(reference, file.folder, dot_path(field.pointer));
+  if (!reference.empty() && is(base)) return reference;
+  for (const Entry& entry : library()) {
+    if (is(entry)) return entry.id;
+  }
+  Json changed{{"name", (base.name.empty() ? base.id : base.name) + ", changed"},
+               {"source", base.source}};
+  const Json::json_pointer pointer{std::string(field.pointer)};
+  if (const Json& there = file.document.at(pointer); there.is_object() && reference.empty()) {
+    // Its own object stays, but for the numbers.
+    changed = there;
+    for (const SpecField& part : field.kind == FieldKind::conductor ? conductor_fields()
+                                 : field.kind == FieldKind::motor   ? motor_fields()
+                                                                    : insulation_fields()) {
+      const std::string key(part.pointer.substr(1));
+      if (is_numeric(part) && !numbers.contains(key)) changed.erase(key);
+    }
+  }
+  changed.update(numbers);
+  return changed;
+}
+
+}  // namespace
+
+Json spec_with(const DesignFile& file, const Design& design,
+               const std::map<std::string, std::string>& references) {
+  Json document = file.document;
+  for (const SpecField& field : spec_fields()) {
+    const auto write = [&](Json value) {
+      document[Json::json_pointer(std::string(field.pointer))] = std::move(value);
+    };
+    const auto named = references.find(dot_path(field.pointer));
+    const std::string reference = named == references.end() ? "" : named->second;
+    switch (field.kind) {
+      case FieldKind::text:
+      case FieldKind::motor_points:
+        break;
+      case FieldKind::motor:
+      case FieldKind::conductor:
+      case FieldKind::insulation_material:
+        if (entry_numbers(design, field.kind) == entry_numbers(file.design, field.kind)) break;
+        write(field.kind == FieldKind::motor ? entry_json(file, file.motor, design, field,
+                                                          reference, library_motors, find_motor)
+              : field.kind == FieldKind::conductor
+                  ? entry_json(file, file.conductor, design, field, reference, library_conductors,
+                               find_conductor)
+                  : entry_json(file, file.insulation, design, field, reference, library_insulation,
+                               find_insulation));
+        break;
+      default:
+        if (Json value = plain_json(design, field); value != plain_json(file.design, field)) {
+          write(std::move(value));
+        }
+    }
+  }
+  return document;
+}
+
+}  // namespace tethercalc
