@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "diagnose/channels.hpp"
 #include "support/simulated_flight.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
-#include "diagnose/channels.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;
