@@ -129,10 +129,15 @@ double ConductorHeat::given_off(double surface_C) const {
   const double rayleigh = around_.gravity * std::max(rise, 0.0) / kelvin(film) * diameter_ *
                           diameter_ * diameter_ /
                           (air.kinematic_viscosity * air.kinematic_viscosity) * air.prandtl;
-  double nusselt = hanging * churchill_chu(rayleigh, air.prandtl);
+  double nusselt = 0;
   if (around_.wind > 0) {
     const double reynolds = around_.wind * diameter_ / air.kinematic_viscosity;
-    nusselt = std::max(nusselt, churchill_bernstein(reynolds, air.prandtl));
+    nusselt = churchill_bernstein(reynolds, air.prandtl);
+  }
+  // Without the factor below 1 by which the Prandtl number enters, natural convection is more.
+  const double root = 0.6 + 0.387 * std::cbrt(std::sqrt(rayleigh));
+  if (nusselt < hanging * root * root) {
+    nusselt = std::max(nusselt, hanging * churchill_chu(rayleigh, air.prandtl));
   }
   const double convected = pi * air.conductivity * nusselt * rise;
   const double radiated =
@@ -154,6 +159,12 @@ ConductorHeat::Surface ConductorHeat::cold_surface() const {
   surface.temperature_C = around_.temperature_C + rise;
   surface.heat = given_off(surface.temperature_C);
   surface.heat_slope = (surface.heat + from_sun) / rise;
+  return surface;
+}
+
+ConductorHeat::Surface ConductorHeat::surface_like(const Surface& other) const {
+  Surface surface = other;
+  surface.heat = given_off(surface.temperature_C);
   return surface;
 }
 

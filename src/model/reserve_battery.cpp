@@ -46,13 +46,14 @@ double reserve_battery_mass(const Drone& drone, double mass, double height, doub
   // The mass carried is a line over the take-off mass on each piece of the motor curve. From the
   // drone without a battery upwards, the first piece that reaches `mass` holds the least solution.
   double lower = mass;
+  // What is missing at `lower` is the battery for the power there, less the mass gained so far.
+  double missing = per_watt * landing_power(drone, mass, gravity);
   for (std::size_t i = drone.motor.piece(mass * gravity / drone.motor_count);
        i + 1 < vertices.size(); ++i) {
-    const double missing = mass - carried_mass(drone, lower, per_watt, gravity);
-    if (missing <= 0) return lower - mass;
     const double rate = 1 - per_watt * power_per_kilogram(drone, i, gravity);
     const double upper = vertices[i + 1].thrust * drone.motor_count / gravity;
-    if (rate > 0 && missing <= rate * (upper - lower)) return lower + missing / rate - mass;
+    if (missing <= rate * (upper - lower)) return lower + missing / rate - mass;
+    missing -= rate * (upper - lower);
     lower = upper;
   }
   return std::numeric_limits<double>::infinity();

@@ -57,11 +57,15 @@ std::size_t SteadyFlight::battery_piece(double radius) const {
   return design_->drone.motor.piece(landed_mass(radius) * gravity_ * per_motor_);
 }
 
-double SteadyFlight::weight_slope(double radius) const {
+SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
   const double slope = tether_.mass_slope(radius) * gravity_;
-  if (!has_battery_) return slope;
-  return slope * (1 + reserve_battery_growth(design_->drone, landed_mass(radius),
-                                             design_->tether.length, gravity_));
+  const double mass = fixed_mass_ + tether_.mass(radius);
+  if (!has_battery_) return {mass * gravity_ + tether_.winch_pull(), slope};
+  const double length = design_->tether.length;
+  const double bare = fixed_mass_ + tether_.mass_of(length, radius);
+  const double battery = reserve_battery_mass(design_->drone, bare, length, gravity_);
+  const double growth = reserve_battery_growth(design_->drone, bare + battery, length, gravity_);
+  return {(mass + battery) * gravity_ + tether_.winch_pull(), slope * (1 + growth)};
 }
 
 double SteadyFlight::radius_of_weight(double weight) const {
@@ -71,11 +75,13 @@ double SteadyFlight::radius_of_weight(double weight) const {
       fixed_mass_);
 }
 
-double SteadyFlight::balanced_tan_pitch(double radius, double tan_limit, double guess) const {
+double SteadyFlight::balanced_tan_pitch(double radius, double weight, double tan_limit,
+                                        double guess) const {
+  if (area_force_factor_ == 0 && tether_.drag_slope() == 0) return 0;
   const AirframeDrag& drag = design_->drone.drag;
   return equilibrium_tan_pitch(
-      {weight(radius), area_force_factor_, tether_.drag(radius), drag.front_area, drag.top_area},
-      tan_limit, guess);
+      {weight, area_force_factor_, tether_.drag(radius), drag.front_area, drag.top_area}, tan_limit,
+      guess);
 }
 
 SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
@@ -95,20 +101,18 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   return {std::max(0.0, std::min(far, near)), std::max(0.0, std::max(far, near))};
 }
 
-SteadyFlight::Thrust SteadyFlight::necessary_thrust_with_slope(double radius,
-                                                               double tan_pitch) const {
+SteadyFlight::Thrust SteadyFlight::inclined_thrust(Weight weight, double tan_pitch) const {
+  if (tan_pitch == 0) return {weight.value * per_motor_, weight.slope * per_motor_, 0};
   const AirframeDrag& drag = design_->drone.drag;
-  const double weight = this->weight(radius);
-  const double weight_slope = this->weight_slope(radius);
   const double secant_squared = 1 + tan_pitch * tan_pitch;
   const double secant = std::sqrt(secant_squared);
   // The force balance W·t − q·g(t) − F_t = 0, differentiated by r: tan_slope/secant.
   const double tan_slope_cosine =
-      (tether_.drag_slope() - weight_slope * tan_pitch) * secant_squared /
-      (weight * secant_squared * secant -
+      (tether_.drag_slope() - weight.slope * tan_pitch) * secant_squared /
+      (weight.value * secant_squared * secant -
        area_force_factor_ * (drag.top_area - drag.front_area * tan_pitch));
-  return {weight * secant * per_motor_,
-          (weight_slope * secant + weight * tan_pitch * tan_slope_cosine) * per_motor_,
+  return {weight.value * secant * per_motor_,
+          (weight.slope * secant + weight.value * tan_pitch * tan_slope_cosine) * per_motor_,
           tan_slope_cosine * secant};
 }
 

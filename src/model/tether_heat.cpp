@@ -53,6 +53,14 @@ TetherHeat::Surfaces TetherHeat::cold_surfaces() const {
   return surfaces;
 }
 
+TetherHeat::Surfaces TetherHeat::surfaces_like(const Surfaces& others) const {
+  Surfaces surfaces;
+  if (measured_) return surfaces;
+  surfaces.in_air = in_air_.surface_like(others.in_air);
+  if (wound_) surfaces.on_drum = on_drum_.surface_like(others.on_drum);
+  return surfaces;
+}
+
 std::optional<TetherTemperatures> TetherHeat::temperatures(double current) const {
   Surfaces surfaces = cold_surfaces();
   const auto warm = warmed(current, surfaces);
@@ -97,42 +105,73 @@ double TetherHeat::resistance(const TetherTemperatures& t) const {
 }
 
 double TetherHeat::resistance_slope(const TetherHeatState& state) const {
-  const double step = 1e-5 * radius_;
-  const TetherHeat thicker(flight_, radius_ + step);
-  const auto cooler = thicker.temperatures(state.current);
-  return cooler ? (thicker.resistance(*cooler) - state.resistance) / step
-                : flight_.tether().resistance_slope(radius_);
+  // The conductors' resistance goes about with a power of the radius.
+  constexpr double step = 2e-6;
+  const double contacts = flight_.tether().contact_resistance();
+  const TetherHeat thicker(flight_, radius_ * (1 + step));
+  Surfaces surfaces = thicker.surfaces_like(state.surfaces);
+  const auto cooler = thicker.warmed(state.current, surfaces);
+  if (!cooler) return flight_.tether().resistance_slope(radius_);
+  const double line = state.resistance - contacts;
+  const double power =
+      std::log((thicker.resistance(cooler->temperatures) - contacts) / line) / std::log1p(step);
+  return power * line / radius_;
+}
+
+double TetherHeat::demanded_current(double load_power, double resistance) const {
+  const double voltage = flight_.design().supply.voltage;
+  const double power = supplied_power(voltage, resistance, load_power);
+  return power >= 0 ? power / voltage : infinity;
 }
 
 TetherHeatState TetherHeat::carrying(double load_power) const {
+  const double current =
+      demanded_current(load_power, resistance({flight_.state().ambient_temperature_C, {}}));
+  return current < infinity ? settled(load_power, current, cold_surfaces()) : TetherHeatState{};
+}
+
+TetherHeatState TetherHeat::carrying(double load_power, const TetherHeatState& near) const {
+  if (near.steady) {
+    const TetherHeatState state = settled(load_power, near.current, surfaces_like(near.surfaces));
+    if (state.steady) return state;
+  }
+  return carrying(load_power);
+}
+
+/// The state that Newton's steps from a current lead to. Where they overshoot it, which the air's
+/// properties may make them do, they go back half-way.
+TetherHeatState TetherHeat::settled(double load_power, double current,
+                                    const Surfaces& surfaces) const {
+  constexpr int most_retreats = 4;
   const double voltage = flight_.design().supply.voltage;
-  const auto demanded_current = [&](double resistance) {
-    const double power = supplied_power(voltage, resistance, load_power);
-    return power >= 0 ? power / voltage : infinity;
-  };
   TetherHeatState state;
-  double current =
-      demanded_current(resistance({flight_.state().ambient_temperature_C, std::nullopt}));
-  if (!(current < infinity)) return state;
-  Surfaces surfaces = cold_surfaces();
+  state.surfaces = surfaces;
+  double lo = current;
+  int retreats = 0;
   for (int step = 0; step < 100; ++step) {
-    const auto warm = warmed(current, surfaces);
-    if (!warm) return {};
-    state.temperatures = warm->temperatures;
-    state.resistance = resistance(warm->temperatures);
-    state.current = demanded_current(state.resistance);
-    if (!(state.current < infinity)) return {};
-    const double change = state.current - current;
-    // dI/dR = I²/(U − 2RI) of U·I − R·I² = P.
-    const double slope = state.current * state.current /
-                         (voltage - 2 * state.resistance * state.current) * warm->resistance_growth;
-    if (std::abs(change) <= same_current * current) {
-      state.steady = true;
-      return state;
+    const auto warm = warmed(current, state.surfaces);
+    double next = infinity;
+    if (warm) {
+      state.temperatures = warm->temperatures;
+      state.resistance = resistance(warm->temperatures);
+      state.current = demanded_current(load_power, state.resistance);
+      const double change = state.current - current;
+      // dI/dR = I²/(U − 2RI) of U·I − R·I² = P.
+      const double slope = state.current * state.current /
+                           (voltage - 2 * state.resistance * state.current) *
+                           warm->resistance_growth;
+      if (slope < 1) next = current + change / (1 - slope);
+      if (std::abs(next - current) <= same_current * current) {
+        state.steady = true;
+        return state;
+      }
+      if (next > current) lo = current;
     }
-    if (!(slope < 1)) return {};
-    current += change / (1 - slope);
-    if (!(current > 0 && current < infinity)) return {};
+    if (!(next > 0 && next < infinity)) {
+      if (lo == current || ++retreats > most_retreats) return {};
+      next = 0.5 * (lo + current);
+    }
+    current = next;
   }
   return {};
 }

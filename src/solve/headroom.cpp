@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "solve/thrust_at.hpp"
 #include "tethercalc/model/operating_point.hpp"
@@ -34,37 +35,40 @@ struct Range {
 class FlightDemands {
  public:
   FlightDemands(const SteadyFlight& flight, double headroom, bool of_cable)
-      : flight_(flight),
-        headroom_(headroom),
-        heated_(is_heated(flight.design().tether)),
-        with_battery_(flight.design().drone.reserve_battery.specific_energy > 0),
-        of_cable_(of_cable),
-        strength_factor_(of_cable ? flight.design().requirements.strength_safety_factor : 0) {}
+      : flight_(flight), tether_(flight), headroom_(headroom), of_cable_(of_cable) {
+    const Design& design = flight.design();
+    heated_ = is_heated(design.tether);
+    convex_weight_ =
+        design.drone.reserve_battery.specific_energy == 0 || design.drone.motor.is_convex();
+  }
 
   [[nodiscard]] const SteadyFlight& flight() const { return flight_; }
   [[nodiscard]] double headroom() const { return headroom_; }
+  [[nodiscard]] bool heated() const { return heated_; }
 
   /// N, the most that may be necessary, whatever the cable.
   [[nodiscard]] double most_thrust() const { return flight_.most_thrust() / headroom_; }
 
-  /// The least margin, relative, at a radius at which there is what there is at `supply` while what
-  /// is asked for is that at `need`.
-  [[nodiscard]] double margin(const ThrustAt& need, const ThrustAt& supply) const {
-    double least = infinity;
-    if (strength_factor_ > 0) least = strength_margin(need.radius, supply.radius);
+  struct Margin {
+    double value = 0;      ///< relative; −1 where there is no steady state
+    double warming = 1;    ///< the loop's resistance over that of a cold one
+    double hottest_C = 0;  ///< °C, of a warm one
+  };
+
+  /// The least margin at a radius at which there is what there is at `supply` while what is asked
+  /// for is that at `need`.
+  [[nodiscard]] Margin margin(const ThrustAt& need, const ThrustAt& supply) const {
     const double asked = power_for_headroom(need);
     const double cold = flight_.tether().resistance(supply.radius);
-    least = std::min(least, flight_.available_power(cold) / asked - 1);
-    if (!heated_ || least < 0) return least;
-    const TetherHeat heat(flight_, supply.radius, need.radius);
-    const TetherHeatState state = heat.carrying(flight_.drone_power(need.thrust.value));
-    if (!state.steady) return -1;
-    least = std::min(least, flight_.available_power(state.resistance) / asked - 1);
+    const double power_margin = flight_.available_power(cold) / asked - 1;
+    if (!heated_ || power_margin < 0) return {power_margin};
+    const TetherHeatState state =
+        tether_.state(flight_.drone_power(need.thrust.value), supply.radius, need.radius);
+    if (!state.steady) return {-1, infinity, infinity};
+    const double least = flight_.available_power(state.resistance) / asked - 1;
     const auto rated = flight_.design().tether.insulation.rated_temperature_C;
-    if (!of_cable_ || !rated) return least;
-    const TetherTemperatures& warm = state.temperatures;
-    return std::min(least,
-                    (*rated - std::max(warm.in_air, warm.on_drum.value_or(-infinity))) / 100);
+    const double cooler = of_cable_ && rated ? (*rated - state.hottest()) / 100 : infinity;
+    return {std::min(least, cooler), state.resistance / cold, state.hottest()};
   }
 
   /// The radius that would make the power asked for at `need` available over a cold cable.
@@ -72,14 +76,12 @@ class FlightDemands {
     return flight_.radius_of_available_power(power_for_headroom(need));
   }
 
-  /// Whether only the available power is to be looked at, and is known in closed form.
-  [[nodiscard]] bool only_power() const {
-    return !heated_ && !with_battery_ && strength_factor_ == 0;
-  }
-
-  /// −1 or 1 where the margin is certain to fall or to rise all the way from a to b, else 0.
+  /// −1 or 1 where the margin of a cold cable is certain to fall or to rise all the way from a to
+  /// b, else 0.
   [[nodiscard]] int trend(const ThrustAt& a, const ThrustAt& b) const {
-    if (!only_power()) return 0;
+    if (!convex_weight_ && flight_.battery_piece(a.radius) != flight_.battery_piece(b.radius)) {
+      return 0;
+    }
     const Range price = price_of_thrust(a, b);
     const StraightTether& tether = flight_.tether();
     // V²/R = V²/(c + k/r²) rises with V²·2k·r/(c·r² + k)².
@@ -99,18 +101,11 @@ class FlightDemands {
     return flight_.drone_power(headroom_ * need.thrust.value);
   }
 
-  [[nodiscard]] double strength_margin(double need, double supply) const {
-    const Tether& tether = flight_.design().tether;
-    return breaking_load(tether, area_of(supply)) /
-               (strength_factor_ * flight_.tether().load(need).greatest_tension()) -
-           1;
-  }
-
   /// W at the converter's input for one more N of one motor, between a and b.
   [[nodiscard]] Range price_of_thrust(const ThrustAt& a, const ThrustAt& b) const {
     constexpr std::size_t most_pieces = 16;
     const MotorCurve& motor = flight_.design().drone.motor;
-    if (!is_proportional(flight_.design().supply.converter)) return {0, infinity};
+    const Converter& converter = flight_.design().supply.converter;
     const std::size_t first = motor.piece(headroom_ * a.thrust.value);
     const std::size_t last = motor.piece(headroom_ * b.thrust.value);
     if (last - first > most_pieces) return {0, infinity};
@@ -119,16 +114,21 @@ class FlightDemands {
       price.least = std::min(price.least, motor.slope(i));
       price.most = std::max(price.most, motor.slope(i));
     }
-    const double per_watt = flight_.input_power(1) - flight_.input_power(0);
-    return {price.least * per_watt, price.most * per_watt};
+    // On a piece of the efficiency curve the slope of the input power is monotone.
+    const double from = flight_.output_power(motor.power(headroom_ * a.thrust.value));
+    const double to = flight_.output_power(motor.power(headroom_ * b.thrust.value));
+    if (!std::isnan(converter_kink(converter, from, to))) return {0, infinity};
+    const EfficiencyPiece piece = efficiency_piece(converter, 0.5 * (from + to));
+    const auto [least, most] = std::minmax({piece.input_slope(from), piece.input_slope(to)});
+    return {price.least * flight_.output_power(least), price.most * flight_.output_power(most)};
   }
 
   const SteadyFlight& flight_;
+  WarmTether tether_;
   double headroom_;
+  bool of_cable_;  ///< rated temperatures as well
   bool heated_;
-  bool with_battery_;
-  bool of_cable_;  ///< strength and rated temperatures as well
-  double strength_factor_;
+  bool convex_weight_;  ///< over the radius
 };
 
 /// The radii at which demands on one flight are met.
@@ -158,16 +158,16 @@ class RadiiSearch {
     if (first.radius < last.radius) collect(end_at(first), end_at(last));
   }
 
-  [[nodiscard]] const IntervalSet& radii() const { return radii_; }
+  [[nodiscard]] IntervalSet found() { return std::move(radii_); }
 
  private:
   struct End {
     ThrustAt at;
-    double margin = 0;
+    FlightDemands::Margin margin;
 
-    [[nodiscard]] bool met() const { return margin >= 0; }
+    [[nodiscard]] bool met() const { return margin.value >= 0; }
     /// About the logarithm of what there is over what is asked for, in (−2, 2).
-    [[nodiscard]] double excess() const { return 2 * margin / (2 + margin); }
+    [[nodiscard]] double excess() const { return 2 * margin.value / (2 + margin.value); }
   };
 
   [[nodiscard]] End end_at(const ThrustAt& at) const { return {at, demands_.margin(at, at)}; }
@@ -181,14 +181,15 @@ class RadiiSearch {
   static constexpr int most_stretches = 5000;
 
   void collect(const End& a, const End& b) {
-    const int trend = demands_.trend(a.at, b.at);
-    if (trend != 0) return collect_monotone(a, b);
-    if (demands_.margin(a.at, b.at) < 0) return;
-    if (demands_.margin(b.at, a.at) >= 0) return append(radii_, {a.at.radius, b.at.radius});
+    if (monotone(a, b)) return collect_monotone(a, b);
+    if (a.met() && b.met() && demands_.margin(b.at, a.at).value >= 0) {
+      return append(radii_, {a.at.radius, b.at.radius});
+    }
+    if (!a.met() && !b.met() && demands_.margin(a.at, b.at).value < 0) return;
     const double ratio = b.at.radius / a.at.radius;
     if (++stretches_ > most_stretches || ratio < 1 + 1e-12) return collect_monotone(a, b);
     // Where the cable runs away there is no margin that could point to what lies between.
-    const bool runs_away = !a.met() && !b.met() && std::min(a.margin, b.margin) == -1;
+    const bool runs_away = !a.met() && !b.met() && std::min(a.margin.value, b.margin.value) == -1;
     if (ratio < narrow && !runs_away &&
         on_one_piece(demands_.flight(), a.at, b.at, demands_.headroom())) {
       return collect_narrow(a, b);
@@ -196,6 +197,16 @@ class RadiiSearch {
     const End middle = between(a, std::sqrt(a.at.radius * b.at.radius));
     collect(a, middle);
     collect(middle, b);
+  }
+
+  /// Whether the margin only rises or only falls from a to b. A cable that gets cooler from a to b,
+  /// and not much thicker, is taken to do so all the way.
+  [[nodiscard]] bool monotone(const End& a, const End& b) const {
+    constexpr double not_much = 1.5;
+    const int trend = demands_.trend(a.at, b.at);
+    if (a.margin.warming == 1 && b.margin.warming == 1) return trend != 0 && !demands_.heated();
+    return trend == 1 && b.at.radius < not_much * a.at.radius && a.margin.warming < infinity &&
+           b.margin.warming <= a.margin.warming && b.margin.hottest_C <= a.margin.hottest_C;
   }
 
   /// From a to b the margin only rises or only falls.
@@ -213,17 +224,17 @@ class RadiiSearch {
     constexpr double nearby = 1e-6;
     const double sign = a.met() ? 1 : -1;
     const auto approaches = [&](const End& end, double radius) {
-      return sign * between(a, radius).margin < sign * end.margin;
+      return sign * between(a, radius).margin.value < sign * end.margin.value;
     };
     if (!approaches(a, a.at.radius * (1 + nearby)) || !approaches(b, b.at.radius * (1 - nearby))) {
       return collect_monotone(a, b);
     }
     // Half of the digits: at a smooth extreme the value is then exact to all of them.
     constexpr int bits = std::numeric_limits<double>::digits / 2;
-    const double radius =
-        boost::math::tools::brent_find_minima([&](double r) { return sign * between(a, r).margin; },
-                                              a.at.radius, b.at.radius, bits)
-            .first;
+    const double radius = boost::math::tools::brent_find_minima(
+                              [&](double r) { return sign * between(a, r).margin.value; },
+                              a.at.radius, b.at.radius, bits)
+                              .first;
     const End extreme = between(a, radius);
     collect_monotone(a, extreme);
     collect_monotone(extreme, b);
@@ -238,8 +249,8 @@ class RadiiSearch {
     const bool enters = b.met();
     End before = a;
     End now = b;
-    if (std::abs(a.margin) < std::abs(b.margin)) std::swap(before, now);
-    for (int step = 1; step < 200 && now.margin != 0; ++step) {
+    if (std::abs(a.margin.value) < std::abs(b.margin.value)) std::swap(before, now);
+    for (int step = 1; step < 200 && now.margin.value != 0; ++step) {
       const double change =
           now.excess() * (now.at.radius - before.at.radius) / (now.excess() - before.excess());
       double next = now.at.radius - change;
@@ -259,28 +270,54 @@ class RadiiSearch {
   int stretches_ = 0;
 };
 
-IntervalSet areas_meeting(const FlightDemands& demands) {
-  const SteadyFlight& flight = demands.flight();
-  const Design& design = flight.design();
-  // The necessary thrust, even in still air, exceeds what may be necessary from here on.
-  const double heaviest = flight.radius_of_weight(design.drone.motor_count * demands.most_thrust());
+IntervalSet areas_meeting(const FlightDemands& demands, const IntervalSet& radii) {
   RadiiSearch search(demands);
-  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
-    search.search(range.lo, range.hi);
-  }
-  IntervalSet areas = search.radii();
+  for (const Interval& range : radii) search.search(range.lo, range.hi);
+  IntervalSet areas = search.found();
   for (Interval& range : areas) range = {area_of(range.lo), area_of(range.hi)};
   return areas;
+}
+
+/// The radii up to which the necessary thrust, in still air, is what it may be at most.
+double heaviest_radius(const FlightDemands& demands) {
+  const SteadyFlight& flight = demands.flight();
+  return flight.radius_of_weight(flight.design().drone.motor_count * demands.most_thrust());
+}
+
+/// The radii up to `hi` at which the tether is strong enough. Its tension grows with the square of
+/// the radius at most: metal gets the better the thicker it is, a strength member the worse.
+IntervalSet strong_radii(const SteadyFlight& flight, double hi) {
+  const Design& design = flight.design();
+  const double factor = design.requirements.strength_safety_factor;
+  if (factor == 0 || !(hi > 0)) return {{0, hi}};
+  const auto strong = [&](double radius) {
+    return breaking_load(design.tether, area_of(radius)) >=
+           factor * flight.tether().load(radius).greatest_tension();
+  };
+  const bool metal = strength_member_data(design.tether.strength_member).strength == 0;
+  if (!strong(metal ? hi : 0)) return {};
+  if (!metal && strong(hi)) return {{0, hi}};
+  double weak_end = metal ? 0 : hi;
+  double strong_end = metal ? hi : 0;
+  for (double middle = 0.5 * hi; middle != weak_end && middle != strong_end;
+       middle = 0.5 * (weak_end + strong_end)) {
+    (strong(middle) ? strong_end : weak_end) = middle;
+  }
+  return metal ? IntervalSet{{strong_end, hi}} : IntervalSet{{0, strong_end}};
 }
 
 }  // namespace
 
 IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
-  return areas_meeting({flight, required, false});
+  const FlightDemands demands(flight, required, false);
+  return areas_meeting(demands, radii_within_tilt(flight, heaviest_radius(demands)));
 }
 
 IntervalSet areas_meeting_demands(const SteadyFlight& flight, double required) {
-  return areas_meeting({flight, required, true});
+  const FlightDemands demands(flight, required, true);
+  const double heaviest = heaviest_radius(demands);
+  return areas_meeting(
+      demands, intersection(radii_within_tilt(flight, heaviest), strong_radii(flight, heaviest)));
 }
 
 namespace {
@@ -289,7 +326,7 @@ namespace {
 /// is available at the upper over what is necessary at the lower.
 class BestHeadroomSearch {
  public:
-  explicit BestHeadroomSearch(const SteadyFlight& flight) : flight_(flight) {}
+  explicit BestHeadroomSearch(const SteadyFlight& flight) : flight_(flight), tether_(flight) {}
 
   void search(double lo, double hi) {
     // Below, not even a millionth of what is necessary is available.
@@ -344,7 +381,7 @@ class BestHeadroomSearch {
     const auto over = [&](double resistance) {
       return flight_.available_thrust(flight_.available_power(resistance)) / a.necessary;
     };
-    const double warm = over(least_resistance(flight_, a.radius, a.necessary, b.radius));
+    const double warm = over(least_resistance(tether_, flight_, a.radius, a.necessary, b.radius));
     const bool delivered =
         supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(a.radius),
                        flight_.drone_power(b.necessary)) > 0;
@@ -364,6 +401,7 @@ class BestHeadroomSearch {
   }
 
   const SteadyFlight& flight_;
+  WarmTether tether_;
   BestHeadroom best_{0, std::numeric_limits<double>::quiet_NaN()};
   int stretches_ = 0;
 };

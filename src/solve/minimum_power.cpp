@@ -21,11 +21,11 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
-double total_power(const SteadyFlight& flight, const ThrustAt& at) {
+double total_power(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& at) {
   const double voltage = flight.design().supply.voltage;
   const double power = flight.drone_power(at.thrust.value);
   if (is_heated(flight.design().tether)) {
-    const TetherHeatState state = TetherHeat(flight, at.radius).carrying(power);
+    const TetherHeatState state = tether.state(power, at.radius, at.radius);
     return state.steady ? state.current * voltage : infinity;
   }
   const double total = supplied_power(voltage, flight.tether().resistance(at.radius), power);
@@ -37,7 +37,8 @@ double total_power(const SteadyFlight& flight, const ThrustAt& at) {
 /// known are split until they are one valley.
 class LeastPowerSearch {
  public:
-  LeastPowerSearch(const SteadyFlight& flight, const ThrustAt& first) : flight_(flight) {
+  LeastPowerSearch(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& first)
+      : flight_(flight), tether_(tether) {
     consider(first);
   }
 
@@ -48,7 +49,7 @@ class LeastPowerSearch {
   }
 
   void consider(const ThrustAt& candidate) {
-    const double power = total_power(flight_, candidate);
+    const double power = total_power(flight_, tether_, candidate);
     if (power < power_) {
       power_ = power;
       best_ = candidate;
@@ -69,12 +70,13 @@ class LeastPowerSearch {
                             flight_.drone_power(a.thrust.value));
     };
     if (!(power_over(flight_.tether().resistance(b.radius)) < power_)) return;
-    if (!(power_over(least_resistance(flight_, a.radius, a.thrust.value, b.radius)) < power_)) {
+    if (!(power_over(least_resistance(tether_, flight_, a.radius, a.thrust.value, b.radius)) <
+          power_)) {
       return;
     }
     if (one_valley(a, b)) {
       const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
-      return consider(valley_bottom(flight_, motor, pieces, {a.radius, b.radius}, a));
+      return consider(valley_bottom(flight_, tether_, motor, pieces, {a.radius, b.radius}, a));
     }
     const ThrustAt middle = split(a, b);
     consider(middle);
@@ -90,7 +92,7 @@ class LeastPowerSearch {
     const MotorCurve& motor = flight_.design().drone.motor;
     const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
     double thrust = motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
-    if (pieces.first == pieces.last) {
+    if (motor.is_convex() || pieces.first == pieces.last) {
       const double per_output = 1 / flight_.output_power(1);
       thrust = motor.thrust(per_output *
                             converter_kink(flight_.design().supply.converter,
@@ -106,10 +108,15 @@ class LeastPowerSearch {
   }
 
   [[nodiscard]] bool one_valley(const ThrustAt& a, const ThrustAt& b) const {
-    if (!on_one_piece(flight_, a, b)) return false;
+    if (!smooth_but_for_motors(a, b)) return false;
     // Nothing is proved of warm cables, but their power bends no more sharply than its parts.
-    constexpr double narrow = 1.3;
-    if (is_heated(flight_.design().tether)) return b.radius < narrow * a.radius;
+    constexpr double narrow = 1.5;
+    constexpr double very_narrow = 1.01;
+    if (is_heated(flight_.design().tether)) {
+      const bool steady = total_power(flight_, tether_, a) < infinity &&
+                          total_power(flight_, tether_, b) < infinity;
+      return b.radius < (steady ? narrow : very_narrow) * a.radius;
+    }
     if (is_proportional(flight_.design().supply.converter)) return true;
     // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
     // efficiency gains twice over where it rises with the load.
@@ -121,11 +128,22 @@ class LeastPowerSearch {
     const double high = efficiency_at(converter, flight_.output_power(hi));
     const double gain = std::max(0.0, (high - low) / (hi - lo));
     const double more_power =
-        motor.slope(pieces_between(motor, a.thrust.value, b.thrust.value).first) * b.thrust.slope;
+        motor.slope(pieces_between(motor, a.thrust.value, b.thrust.value).last) * b.thrust.slope;
     return b.radius < narrow * a.radius || !(3 * low < 2 * gain * more_power * b.radius);
   }
 
+  /// A convex motor curve keeps one valley one.
+  [[nodiscard]] bool smooth_but_for_motors(const ThrustAt& a, const ThrustAt& b) const {
+    const Design& design = flight_.design();
+    const MotorCurve& motor = design.drone.motor;
+    if (!motor.is_convex()) return on_one_piece(flight_, a, b);
+    return std::isnan(converter_kink(design.supply.converter,
+                                     flight_.output_power(motor.power(a.thrust.value)),
+                                     flight_.output_power(motor.power(b.thrust.value))));
+  }
+
   const SteadyFlight& flight_;
+  const WarmTether& tether_;
   ThrustAt best_;
   double power_ = infinity;
   int stretches_ = 0;
@@ -179,24 +197,23 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   radii.lo = std::max(lightest,
                       flight.tether().radius_of_resistance(voltage * voltage / (4 * hover_power)));
   if (!(radii.lo <= radii.hi)) return none;
-  const ThrustAt first = thrust_at(flight, radii.lo, 0);
-  if (!(first.thrust.value <= motor.max_thrust() * (1 + 1e-12))) return none;
 
   const double thrust = std::min(
       motor.max_thrust(), flight.necessary_thrust(lightest, flight.level_drag_tan_pitch(lightest)));
   const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
   const double start = guess > radii.lo && guess < radii.hi ? guess : 0.5 * (radii.lo + radii.hi);
   const MotorCurve& convex = motor.convex_hull();
-  ThrustAt best = thrust_at(flight, start, first.tan_pitch);
+  const WarmTether tether(flight);
+  ThrustAt best = thrust_at(flight, start, 0);
   const bool one_valley = hull_is_one_valley(design);
   if (one_valley) {
-    best = valley_bottom(flight, convex, {0, convex.vertices().size() - 2, 0}, radii, best);
-  } else if (best.thrust.value > motor.max_thrust()) {
-    best = first;
+    best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, 0}, radii, best);
   }
-  LeastPowerSearch search(flight, best);
+  LeastPowerSearch search(flight, tether, best);
   if (!(search.power() < infinity) || !one_valley ||
       motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
+    const ThrustAt first = thrust_at(flight, radii.lo, 0);
+    if (!(first.thrust.value <= motor.max_thrust() * (1 + 1e-12))) return none;
     ThrustAt last = thrust_at(flight, radii.hi, best.tan_pitch);
     if (last.thrust.value > motor.max_thrust()) {
       last = at_thrust(flight, motor.max_thrust(), radii.lo, radii.hi, last);
@@ -211,7 +228,8 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
                               area * (1 - 1e-15), area * (1 + 1e-15)}) {
     if (one_valley) break;
     const ThrustAt there = thrust_at(flight, conductor_radius(inside), search.best().tan_pitch);
-    if (total_power(flight, there) <= search.power() * (1 + 1e-9)) return {inside, search.power()};
+    if (total_power(flight, tether, there) <= search.power() * (1 + 1e-9))
+      return {inside, search.power()};
   }
   return {area, search.power()};
 }

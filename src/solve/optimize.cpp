@@ -51,12 +51,9 @@ void take(Optimization& result, const Flights& flights, double area) {
 void take_within(Optimization& result, const Flights& flights, const IntervalSet& areas,
                  double area) {
   take(result, flights, area);
-  const Design& design = flights.hover.design();
-  const bool steep = is_heated(design.tether) || design.drone.reserve_battery.specific_energy > 0;
-  if (result.feasible || !steep) return;
   for (const Interval& range : areas) {
     if (area != range.lo && area != range.hi) continue;
-    for (double share = 1e-15; share < 1e-6 && !result.feasible; share *= 10) {
+    for (double share = 1e-15; share < 1e-5 && !result.feasible; share *= 10) {
       const double inside = area * (area == range.lo ? 1 + share : 1 - share);
       if (range.contains(inside)) take(result, flights, inside);
     }
@@ -216,7 +213,7 @@ Optimization optimize(const Design& design) {
   // The cheapest of more areas than are feasible is the optimum if it is feasible, as it mostly is
   // where the headroom is met.
   const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-  if (area > 0) take_within(result, flights, result.feasible_areas, area);
+  if (area > 0) take(result, flights, area);
   if (!result.feasible) {
     result.feasible_areas = intersection(
         areas_meeting_demands(hover, demanded_headroom(need, Condition::hover)),

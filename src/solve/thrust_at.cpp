@@ -4,14 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tethercalc/model/tether_heat.hpp"
-
 namespace tethercalc {
 
 ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
-  const double tangent =
-      flight.tan_pitch(radius, std::numeric_limits<double>::infinity(), tan_guess);
-  return {radius, tangent, flight.necessary_thrust_with_slope(radius, tangent)};
+  const SteadyFlight::Balance balance = flight.balance(radius, tan_guess);
+  return {radius, balance.tan_pitch, balance.thrust};
 }
 
 ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double hi, ThrustAt from) {
@@ -81,14 +78,15 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
          flight.battery_piece(a.radius) == flight.battery_piece(b.radius);
 }
 
-double least_resistance(const SteadyFlight& flight, double thinner, double thrust, double thicker) {
-  const double cold = flight.tether().resistance(thicker);
+double least_resistance(const WarmTether& tether, const SteadyFlight& flight, double thinner,
+                        double thrust, double thicker) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double power = flight.drone_power(thrust);
-  if (!is_heated(flight.design().tether) || !(power < std::numeric_limits<double>::infinity())) {
-    return cold;
+  if (!is_heated(flight.design().tether) || !(power < infinity)) {
+    return flight.tether().resistance(thicker);
   }
-  const TetherHeatState state = TetherHeat(flight, thicker, thinner).carrying(power);
-  return state.steady ? state.resistance : std::numeric_limits<double>::infinity();
+  const TetherHeatState state = tether.state(power, thicker, thinner);
+  return state.steady ? state.resistance : infinity;
 }
 
 IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {

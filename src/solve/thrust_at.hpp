@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "tethercalc/model/steady_flight.hpp"
+#include "tethercalc/model/tether_heat.hpp"
 #include "tethercalc/solve/interval.hpp"
 
 namespace tethercalc {
@@ -48,11 +49,29 @@ struct Pieces {
 /// NaN where there is none.
 [[nodiscard]] double converter_kink(const Converter& converter, double lo, double hi);
 
+/// The heat of the tether of one flight, asked for at one place after another nearby.
+class WarmTether {
+ public:
+  explicit WarmTether(const SteadyFlight& flight) : flight_(flight) {}
+
+  /// The state with `power` W at the drone and conductors of `radius`, in the sun as broad as those
+  /// of `sunlit_radius`.
+  [[nodiscard]] TetherHeatState state(double power, double radius, double sunlit_radius) const {
+    const TetherHeatState state = TetherHeat(flight_, radius, sunlit_radius).carrying(power, last_);
+    if (state.steady) last_ = state;
+    return state;
+  }
+
+ private:
+  const SteadyFlight& flight_;
+  mutable TetherHeatState last_;
+};
+
 /// No more than the loop's resistance, Ω, at any radius between a `thinner` one, where `thrust` N
 /// per motor are necessary, and a `thicker` one; +infinity where the current heats the cable
 /// without end at all of them.
-[[nodiscard]] double least_resistance(const SteadyFlight& flight, double thinner, double thrust,
-                                      double thicker);
+[[nodiscard]] double least_resistance(const WarmTether& tether, const SteadyFlight& flight,
+                                      double thinner, double thrust, double thicker);
 
 /// The radii up to `hi` at which the tilt is within its limit.
 [[nodiscard]] IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi);

@@ -23,8 +23,10 @@ double near_exp(double x) { return (2 + x) / (2 - x); }
 
 class ValleySearch {
  public:
-  ValleySearch(const SteadyFlight& flight, const MotorCurve& motor, Pieces pieces, Interval radii)
+  ValleySearch(const SteadyFlight& flight, const WarmTether& tether, const MotorCurve& motor,
+               Pieces pieces, Interval radii)
       : flight_(flight),
+        tether_(tether),
         motor_(motor),
         vertices_(motor.vertices()),
         pieces_(pieces),
@@ -32,8 +34,10 @@ class ValleySearch {
         idle_(flight.input_power(0)),
         input_slope_(flight.input_power(1) - idle_),
         constant_efficiency_(is_proportional(flight.design().supply.converter)),
-        efficiency_(efficiency_piece(flight.design().supply.converter,
-                                     flight.output_power(motor.power(pieces.within)))),
+        efficiency_(constant_efficiency_
+                        ? EfficiencyPiece{}
+                        : efficiency_piece(flight.design().supply.converter,
+                                           flight.output_power(motor.power(pieces.within)))),
         heated_(is_heated(flight.design().tether)),
         left_{radii.lo, false},
         right_{radii.hi, false} {}
@@ -48,7 +52,7 @@ class ValleySearch {
  private:
   [[nodiscard]] bool runs_away(const ThrustAt& at) const {
     const double power = flight_.input_power(motor_.power(at.thrust.value));
-    return !TetherHeat(flight_, at.radius).carrying(power).steady;
+    return !tether_.state(power, at.radius, at.radius).steady;
   }
 
   ThrustAt descend(ThrustAt at) {
@@ -119,12 +123,16 @@ class ValleySearch {
     }
     const double resistance = flight_.tether().resistance(at.radius);
     if (heated_) {
-      const TetherHeat heat(flight_, at.radius);
-      const TetherHeatState state = heat.carrying(power);
-      const double saved = state.steady
-                               ? -state.current * state.current * heat.resistance_slope(state)
-                               : -power / resistance * flight_.tether().resistance_slope(at.radius);
-      return {saved, slope * at.thrust.slope};
+      const TetherHeatState state = tether_.state(power, at.radius, at.radius);
+      const double spent = slope * at.thrust.slope;
+      if (state.steady) {
+        const TetherHeat heat(flight_, at.radius);
+        return {-state.current * state.current * heat.resistance_slope(state), spent};
+      }
+      // Where it runs away, a thicker cable is cooler as long as P²/r² falls.
+      if (supplied_power(flight_.design().supply.voltage, resistance, power) > 0) {
+        return {power / at.radius, spent};
+      }
     }
     const double least_current = power * per_voltage_;
     const double discriminant = 1 - 4 * resistance * least_current * per_voltage_;
@@ -192,6 +200,7 @@ class ValleySearch {
   /// at yet, else the middle; the middle every eighth step, so that the search cannot crawl.
   [[nodiscard]] double inside_bracket(double next, int step) const {
     const double middle = 0.5 * (left_.radius + right_.radius);
+    if (std::isnan(next)) return middle;  // where the tilt has no slope
     if (next <= left_.radius) return left_.known ? middle : left_.radius;
     if (next >= right_.radius) return right_.known ? middle : right_.radius;
     return (step % 8 == 0 || (step > 30 && step % 2 == 0)) && left_.known && right_.known ? middle
@@ -199,6 +208,7 @@ class ValleySearch {
   }
 
   const SteadyFlight& flight_;
+  const WarmTether& tether_;
   const MotorCurve& motor_;
   std::span<const MotorPoint> vertices_;
   Pieces pieces_;
@@ -217,9 +227,10 @@ class ValleySearch {
 
 }  // namespace
 
-ThrustAt valley_bottom(const SteadyFlight& flight, const MotorCurve& motor, Pieces pieces,
-                       Interval radii, const ThrustAt& start) {
-  return ValleySearch(flight, motor, pieces, radii).bottom(start);
+ThrustAt valley_bottom(const SteadyFlight& flight, const WarmTether& tether,
+                       const MotorCurve& motor, Pieces pieces, Interval radii,
+                       const ThrustAt& start) {
+  return ValleySearch(flight, tether, motor, pieces, radii).bottom(start);
 }
 
 }  // namespace tethercalc

@@ -17,7 +17,8 @@ namespace tethercalc {
 /// ratio would be 1 if it fell with a power of r lands close; what is known is kept as a bracket;
 /// and a vertex is visited where a step would leave its piece but a step with the next piece's
 /// slope would not reach it.
-[[nodiscard]] ThrustAt valley_bottom(const SteadyFlight& flight, const MotorCurve& motor,
-                                     Pieces pieces, Interval radii, const ThrustAt& start);
+[[nodiscard]] ThrustAt valley_bottom(const SteadyFlight& flight, const WarmTether& tether,
+                                     const MotorCurve& motor, Pieces pieces, Interval radii,
+                                     const ThrustAt& start);
 
 }  // namespace tethercalc

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "support/reference_data.hpp"
-#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
 using namespace tethercalc;

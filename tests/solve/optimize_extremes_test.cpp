@@ -57,7 +57,7 @@ void check_against_areas(const Design& design, int count) {
   CHECK(tried.other_headroom == 0);
   const BestHeadroom best = best_headroom(design, need.headroom_at);
   // Less than a millionth of what is necessary counts as none.
-  if (tried.headroom > 1e-6) CHECK(best.value >= tried.headroom * (1 - 1e-9));
+  if (tried.headroom > 1e-6) CHECK(best.value >= tried.headroom * (1 - 1e-8));
   if (best.value > 0) {
     CHECK(evaluate(design, best.area, need.headroom_at).headroom == best.value);
   }

@@ -86,16 +86,19 @@ class ConductorHeat {
   /// A surface whose heat balance was struck, and how its heat changes about there: where the next
   /// search begins.
   struct Surface {
-    double temperature_C = 0;
-    double heat = 0;        ///< W/m given off
-    double heat_slope = 0;  ///< W/(m·K)
-    double inside_C = 0;    ///< °C of the conductor
+    double temperature_C = 0;  ///< °C
+    double heat = 0;           ///< W/m given off
+    double heat_slope = 0;     ///< W/(m·K)
+    double inside_C = 0;       ///< °C of the conductor
     /// K/A, how much warmer the conductor gets with more current.
     double warming = 0;
   };
 
   /// Where a search begins of which nothing is known.
   [[nodiscard]] Surface cold_surface() const;
+
+  /// One as warm as that of a conductor nearby, whose heat changes about as that one's does.
+  [[nodiscard]] Surface surface_like(const Surface& other) const;
 
   /// The steady surface at `current` A; nothing where there is none, as above. `near` only saves
   /// time.

@@ -61,7 +61,7 @@ class SteadyFlight {
     return takeoff_mass(radius) * gravity_ + tether_.winch_pull();
   }
   /// Derivative of the weight by the radius, N/m.
-  [[nodiscard]] double weight_slope(double radius) const;
+  [[nodiscard]] double weight_slope(double radius) const { return weighed(radius).slope; }
   /// The largest radius at which the motors lift no more than `weight` N; negative where even the
   /// thinnest tether is heavier. For a design in one of its conditions.
   [[nodiscard]] double radius_of_weight(double weight) const;
@@ -74,9 +74,7 @@ class SteadyFlight {
 
   /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
   [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const {
-    return area_force_factor_ == 0 && tether_.drag_slope() == 0
-               ? 0
-               : balanced_tan_pitch(radius, tan_limit, guess);
+    return balanced_tan_pitch(radius, weight(radius), tan_limit, guess);
   }
   /// First approximation of `tan_pitch`: with the drag of the level drone.
   [[nodiscard]] double level_drag_tan_pitch(double radius) const {
@@ -112,7 +110,20 @@ class SteadyFlight {
     return weight(radius) * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
   }
   /// The same with its derivative, where `tan_pitch` is that of the equilibrium at `radius`.
-  [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const;
+  [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const {
+    return inclined_thrust(weighed(radius), tan_pitch);
+  }
+  /// Both without a tilt limit, sooner than one after the other.
+  struct Balance {
+    double tan_pitch = 0;
+    Thrust thrust;
+  };
+  [[nodiscard]] Balance balance(double radius, double tan_guess) const {
+    const Weight weight = weighed(radius);
+    const double tangent = balanced_tan_pitch(radius, weight.value,
+                                              std::numeric_limits<double>::infinity(), tan_guess);
+    return {tangent, inclined_thrust(weight, tangent)};
+  }
 
   // --- Power ---
 
@@ -151,9 +162,17 @@ class SteadyFlight {
 
  private:
   void set_airspeed(double speed);
+  /// N, and N/m of the radius.
+  struct Weight {
+    double value = 0;
+    double slope = 0;
+  };
+  [[nodiscard]] Weight weighed(double radius) const;
+  [[nodiscard]] Thrust inclined_thrust(Weight weight, double tan_pitch) const;
   [[nodiscard]] double sized_battery(double radius) const;
   [[nodiscard]] double landed_mass(double radius) const;
-  [[nodiscard]] double balanced_tan_pitch(double radius, double tan_limit, double guess) const;
+  [[nodiscard]] double balanced_tan_pitch(double radius, double weight, double tan_limit,
+                                          double guess) const;
 
   const Design* design_;
   FlightState state_;

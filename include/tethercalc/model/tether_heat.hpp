@@ -1,6 +1,7 @@
 // How warm a tether's own current makes it in a flight, and what that does to its resistance.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "tethercalc/model/conductor_heat.hpp"
@@ -22,6 +23,18 @@ struct TetherHeatState {
   double current = 0;                 ///< A
   double resistance = 0;              ///< Ω, loop
   TetherTemperatures temperatures{};  ///< of the conductors
+
+  /// Where the surfaces were found, from which those of a state nearby are found sooner.
+  struct Surfaces {
+    ConductorHeat::Surface in_air;
+    ConductorHeat::Surface on_drum;
+  };
+  Surfaces surfaces{};  ///< of the part in the air and of that on the drum
+
+  /// °C, of the warmer part.
+  [[nodiscard]] double hottest() const {
+    return std::max(temperatures.in_air, temperatures.on_drum.value_or(temperatures.in_air));
+  }
 };
 
 /// The heat of a tether with one conductor in one flight: by the balance of conductor_heat.hpp in
@@ -53,23 +66,27 @@ class TetherHeat {
   /// away from it proves that there is none: the tether runs away.
   [[nodiscard]] TetherHeatState carrying(double load_power) const;
 
+  /// The same, sooner where `near` is a steady state of about this cable and load.
+  [[nodiscard]] TetherHeatState carrying(double load_power, const TetherHeatState& near) const;
+
   /// Derivative of the loop's resistance by the conductors' radius, Ω/m, in a steady state, at the
-  /// same current. Relative error about 1e-5.
+  /// same current. Relative error about 1e-6.
   [[nodiscard]] double resistance_slope(const TetherHeatState& state) const;
 
  private:
-  /// Where the surfaces were found last.
-  struct Surfaces {
-    ConductorHeat::Surface in_air;
-    ConductorHeat::Surface on_drum;
-  };
+  using Surfaces = TetherHeatState::Surfaces;
   [[nodiscard]] Surfaces cold_surfaces() const;
+  [[nodiscard]] Surfaces surfaces_like(const Surfaces& others) const;
   /// Temperatures, and Ω/A by which more current warms the loop.
   struct Warm {
     TetherTemperatures temperatures;
     double resistance_growth = 0;
   };
   [[nodiscard]] std::optional<Warm> warmed(double current, Surfaces& surfaces) const;
+  [[nodiscard]] TetherHeatState settled(double load_power, double current,
+                                        const Surfaces& surfaces) const;
+  /// Infinite where the power cannot be delivered.
+  [[nodiscard]] double demanded_current(double load_power, double resistance) const;
 
   const SteadyFlight& flight_;
   double radius_;

@@ -55,8 +55,8 @@ struct Optimization {
 /// - do not ask more of the converter than its rated output.
 ///
 /// This is the paper's larger-of-two rule (section IV-A) where the headroom has only a lower edge;
-/// where it has an upper edge too, the area stays below it. Takes about a microsecond, with every
-/// demand and heat about ten.
+/// where it has an upper edge too, the area stays below it. Takes about a microsecond, some
+/// microseconds with an efficiency curve or a reserve battery, and some tens of them with heat.
 [[nodiscard]] Optimization optimize(const Design& design);
 
 }  // namespace tethercalc
