@@ -115,9 +115,10 @@ class SteadyFlight {
   }
   /// Both without a tilt limit, sooner than one after the other.
   struct Balance {
-    double tan_pitch = 0;
-    Thrust thrust;
+    double tan_pitch = 0;  ///< of the tilt
+    Thrust thrust;         ///< N per motor, and how it changes
   };
+  /// The balance at `radius`; `tan_guess` saves iterations.
   [[nodiscard]] Balance balance(double radius, double tan_guess) const {
     const Weight weight = weighed(radius);
     const double tangent = balanced_tan_pitch(radius, weight.value,

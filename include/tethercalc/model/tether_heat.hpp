@@ -26,8 +26,8 @@ struct TetherHeatState {
 
   /// Where the surfaces were found, from which those of a state nearby are found sooner.
   struct Surfaces {
-    ConductorHeat::Surface in_air;
-    ConductorHeat::Surface on_drum;
+    ConductorHeat::Surface in_air;   ///< of the part in the air
+    ConductorHeat::Surface on_drum;  ///< of the wound part
   };
   Surfaces surfaces{};  ///< of the part in the air and of that on the drum
 
