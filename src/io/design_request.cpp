@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "io/closest_name.hpp"
-#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 namespace tethercalc {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 #include "tethercalc/report/text_table.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 namespace tethercalc {
 namespace {

@@ -8,9 +8,9 @@
 #include "support/gnuplot.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/study/result_keys.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/csv_cell.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 using namespace tethercalc;
 using namespace tethercalc::test;
