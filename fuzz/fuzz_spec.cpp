@@ -10,6 +10,7 @@
 #include "io/json_document.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/model/demands.hpp"
 #include "tethercalc/model/operating_point.hpp"
 
 namespace {
@@ -33,7 +34,8 @@ void require_usable(const DesignFile& file) {
   require(file.design.drone.motor.vertices().size() >= 3);
   for (const Condition condition : {Condition::hover, Condition::forward}) {
     const OperatingPoint point = evaluate(file.design, 1e-6, condition);
-    require(!point.flyable || std::isfinite(point.total_power));
+    require(!demand_margins(file.design, point, condition).met() ||
+            std::isfinite(point.total_power));
   }
 }
 
