@@ -159,14 +159,14 @@ std::vector<Index> columns_not_held(const FreedModel& model, const VectorXd& gra
   return kept;
 }
 
-struct Minimum {
+struct WeightedMinimum {
   FreedModel model;
   VectorXd residual;
   MatrixXd jacobian;
   VectorXd weight;
 };
 
-Minimum minimise(FreedModel model, const Record& record) {
+WeightedMinimum minimise(FreedModel model, const Record& record) {
   VectorXd residual(record.rows());
   model.residuals(residual);
   MatrixXd jacobian;
@@ -305,7 +305,7 @@ VectorXd Record::scaled_column(const std::vector<double>& column) const {
 }
 
 BlockFit fit_blocks(const Record& record, const Freed& freed, std::vector<double> start) {
-  Minimum minimum = minimise(FreedModel(record, freed, std::move(start)), record);
+  WeightedMinimum minimum = minimise(FreedModel(record, freed, std::move(start)), record);
   const FreedModel& model = minimum.model;
 
   BlockFit fit;

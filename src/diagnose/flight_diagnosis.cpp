@@ -28,7 +28,7 @@ constexpr double shortest_block = 12.0;  // s
 /// above the normal one.
 constexpr std::size_t most_blocks = 30;
 /// A step longer than this times the median one separates neighbours.
-constexpr double gap_factor = 1.5;
+constexpr double step_tolerance = 1.5;
 /// Part of a sampling interval within which the log does not say when a reading was taken, and by
 /// which an estimator's own integration step shifts it: a standard deviation, the same for the
 /// whole log.
@@ -48,12 +48,6 @@ struct FlightData {
   std::size_t blocks = 0;
 };
 
-double median_step(const std::vector<double>& time) {
-  std::vector<double> steps(time.size() - 1);
-  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = time[i + 1] - time[i];
-  return median(std::move(steps));
-}
-
 /// Samples whose central difference and average rest on three trustworthy samples.
 std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
                                  const Observations& o, double step) {
@@ -66,8 +60,8 @@ std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
   std::vector<bool> usable(o.size(), false);
   for (std::size_t i = 1; i + 1 < o.size(); ++i) {
     usable[i] = trusted[i - 1] && trusted[i] && trusted[i + 1] &&
-                o.time[i] - o.time[i - 1] <= gap_factor * step &&
-                o.time[i + 1] - o.time[i] <= gap_factor * step;
+                o.time[i] - o.time[i - 1] <= step_tolerance * step &&
+                o.time[i + 1] - o.time[i] <= step_tolerance * step;
   }
   return usable;
 }
@@ -282,7 +276,7 @@ double Report::speed_rmse(const ModelFit& fit, double window) const {
       const FlightRecord part = part_of(record, first, last);
       const auto& values = fit.without_block[static_cast<std::size_t>(block)];
       const std::vector<double> speed = simulate_speed(
-          part, flight_base(values), model_.freed(values), window, gap_factor * data_.step);
+          part, flight_base(values), model_.freed(values), window, step_tolerance * data_.step);
       for (std::size_t i = 0; i < speed.size(); ++i) {
         sum += std::pow(speed[i] - part.forward_speed[i], 2);
       }

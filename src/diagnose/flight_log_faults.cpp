@@ -71,16 +71,16 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
   faults.level_assumed = constant(log.roll, range);
   faults.height_unknown = constant(log.down_velocity, range);
 
-  struct Channel {
+  struct LoggedChannel {
     const char* name;
     std::vector<double>& series;
   };
-  const std::array<Channel, 5> channels{{{"roll", log.roll},
-                                         {"pitch", log.pitch},
-                                         {"north velocity", log.north_velocity},
-                                         {"east velocity", log.east_velocity},
-                                         {"down velocity", log.down_velocity}}};
-  for (const Channel& channel : channels) {
+  const std::array<LoggedChannel, 5> channels{{{"roll", log.roll},
+                                               {"pitch", log.pitch},
+                                               {"north velocity", log.north_velocity},
+                                               {"east velocity", log.east_velocity},
+                                               {"down velocity", log.down_velocity}}};
+  for (const LoggedChannel& channel : channels) {
     if (constant(channel.series, range)) continue;
     if (const std::size_t spikes = repair_spikes(channel.series, range, faults.sample)) {
       faults.notes.push_back(fmt::format("{} of {} samples left out: spikes in the {}", spikes,

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 FlightState state_at(const Design& design, const PowerLog& log, std::size_t i) {
   std::optional<double> ambient;

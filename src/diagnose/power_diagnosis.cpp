@@ -24,10 +24,10 @@ namespace {
 
 /// Stretches of the log that are left out one at a time. Long against the seconds that the motors'
 /// deviation lasts, short against the minutes at one height.
-constexpr double shortest_block = 30;  // s
-constexpr std::size_t most_blocks = 24;
+constexpr double shortest_power_block = 30;  // s
+constexpr std::size_t most_power_blocks = 24;
 /// A tenth of a log of the shortest length at 1 Hz would be too few to estimate noise from.
-constexpr std::ptrdiff_t fewest_samples = 100;
+constexpr std::ptrdiff_t fewest_power_samples = 100;
 /// Of a false name in the whole catalogue, were the noise known exactly. Its memory is estimated
 /// from some 200 rows, which makes the tails heavier; measured rates stand in
 /// docs/diagnosis-power.md.
@@ -67,8 +67,8 @@ std::string lacking(const Effect& effect, const PowerLog& log) {
 
 /// Equal stretches of time.
 std::size_t block_count(double duration) {
-  return std::clamp<std::size_t>(static_cast<std::size_t>(duration / shortest_block), fewest_blocks,
-                                 most_blocks);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(duration / shortest_power_block),
+                                 fewest_blocks, most_power_blocks);
 }
 
 int block_at(const PowerLog& log, std::size_t sample) {
@@ -91,7 +91,7 @@ std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
       if ((*usable)[i]) blocks.insert(block_at(screened.log, i));
     }
     const auto healthy = std::count(usable->begin(), usable->end(), char{1});
-    if (blocks.size() >= fewest_blocks && healthy >= fewest_samples) continue;
+    if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) continue;
     dropped[stage] = fmt::format("instruments that work for longer: of {} samples {} are healthy",
                                  usable->size(), healthy);
     usable->clear();
@@ -391,7 +391,7 @@ void check_base(const std::vector<Effect>& catalogue, std::span<const std::strin
 /// True where nothing can be judged from a log this short, which is then told.
 bool too_short(const PowerLog& log, const std::vector<Effect>& catalogue, Diagnosis& diagnosis) {
   const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
-  if (duration >= shortest_power_log && log.time.size() >= fewest_samples) return false;
+  if (duration >= shortest_power_log && log.time.size() >= fewest_power_samples) return false;
   const std::string needs =
       fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
                   shortest_power_log, duration, log.time.size());

@@ -11,7 +11,7 @@
 namespace tethercalc {
 namespace {
 
-struct Shape {
+struct PowerShape {
   std::string channel;
   std::string words;
   std::function<double(std::size_t)> at;  ///< by sample
@@ -20,19 +20,19 @@ struct Shape {
 /// Steps that are tried throughout the log.
 constexpr int coarse_steps = 40;
 
-Shape step_at(const PowerLog& log, double share) {
+PowerShape step_at(const PowerLog& log, double share) {
   const double at = log.time.front() + share * (log.time.back() - log.time.front());
   return {"time_s", fmt::format("a step at {:.0f} s", at),
           [&log, at](std::size_t i) { return log.time[i] >= at ? 1.0 : 0.0; }};
 }
 
-std::vector<Shape> shapes_of(const PowerLog& log) {
+std::vector<PowerShape> shapes_of(const PowerLog& log) {
   const double first = log.time.front();
   const double duration = log.time.back() - first;
   const auto share = [&log, first, duration](std::size_t i) {
     return (log.time[i] - first) / duration;
   };
-  std::vector<Shape> shapes;
+  std::vector<PowerShape> shapes;
 
   for (int k = 1; k < coarse_steps; ++k) {
     shapes.push_back(step_at(log, static_cast<double>(k) / coarse_steps));
@@ -94,7 +94,8 @@ const char* stage_unit(Stage stage) {
 }
 
 /// `shape` in stage `k` as rows.
-UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const Shape& shape) {
+UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k,
+                           const PowerShape& shape) {
   const PowerStage& stage = residuals.stages()[k];
   std::vector<double> column(residuals.samples());
   for (std::size_t i = 0; i < column.size(); ++i) {
@@ -119,7 +120,7 @@ std::size_t shapes_per_stage(const PowerResiduals& residuals) {
 std::vector<UnnamedRegressor> power_shapes(const PowerResiduals& residuals) {
   std::vector<UnnamedRegressor> regressors;
   for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
-    for (const Shape& shape : shapes_of(residuals.log())) {
+    for (const PowerShape& shape : shapes_of(residuals.log())) {
       regressors.push_back(regressor(residuals, k, shape));
     }
   }

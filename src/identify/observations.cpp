@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <string_view>
 #include <utility>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -39,14 +40,6 @@ std::array<NamedSeries, 7> named_series(const FlightLog& log) {
 
 double forward_speed(const FlightLog& log, std::size_t i) {
   return std::cos(log.yaw[i]) * log.north_velocity[i] + std::sin(log.yaw[i]) * log.east_velocity[i];
-}
-
-double median_step(const std::vector<double>& time) {
-  std::vector<double> steps(time.size());
-  std::adjacent_difference(time.begin(), time.end(), steps.begin());
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin() + 1, middle, steps.end());
-  return *middle;
 }
 
 /// Derivative at the middle of three points, exact for a parabola.
@@ -88,6 +81,14 @@ void reserve(Observations& out, std::size_t count) {
 }
 
 }  // namespace
+
+double median_step(const std::vector<double>& time) {
+  std::vector<double> steps(time.size());
+  std::adjacent_difference(time.begin(), time.end(), steps.begin());
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin() + 1, middle, steps.end());
+  return *middle;
+}
 
 void validate(const FlightLog& log) {
   const std::size_t size = log.time.size();
@@ -147,7 +148,6 @@ SampleRange range_in_percent(const FlightLog& log, double from, double to) {
 
 SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
                          std::optional<LogPosition> to) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto range_of = [&log](std::optional<LogPosition> lower, std::optional<LogPosition> upper) {
     const bool percent = (lower && lower->percent) || (upper && upper->percent);
     if (percent) {

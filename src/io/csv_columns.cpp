@@ -15,16 +15,16 @@ namespace tethercalc {
 namespace {
 
 // More would scroll the first, which is usually the cause, off the screen.
-constexpr std::size_t most_problems = 20;
+constexpr std::size_t most_cell_problems = 20;
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-class Problems {
+class CellProblems {
  public:
-  explicit Problems(std::string_view file_name) : file_name_(file_name) {}
+  explicit CellProblems(std::string_view file_name) : file_name_(file_name) {}
 
   void add(std::size_t line, std::string message) {
-    if (found_.size() < most_problems) {
+    if (found_.size() < most_cell_problems) {
       found_.push_back({fmt::format("{}:{}", file_name_, line), std::move(message)});
     } else {
       ++untold_;
@@ -61,7 +61,7 @@ std::string_view take_line(std::string_view& text) {
 }
 
 /// What a message can show of a cell: short, and without bytes that would disturb a terminal.
-std::string shown(std::string_view cell) {
+std::string shown_cell(std::string_view cell) {
   constexpr std::size_t longest = 40;
   std::string text(cell.substr(0, longest));
   for (char& c : text) {
@@ -82,15 +82,16 @@ std::string names_of(std::span<const CsvColumn> wanted) {
 /// For each cell of a row, which wanted column it fills, if any.
 using CellMeaning = std::vector<std::optional<std::size_t>>;
 
-void report_unknown(std::string_view name, std::span<const CsvColumn> wanted, Problems& problems) {
+void report_unknown(std::string_view name, std::span<const CsvColumn> wanted,
+                    CellProblems& problems) {
   std::vector<std::string> names;
   for (const CsvColumn& column : wanted) names.emplace_back(column.name);
-  problems.add(1, fmt::format("unknown column \"{}\", known are {}{}", shown(name),
+  problems.add(1, fmt::format("unknown column \"{}\", known are {}{}", shown_cell(name),
                               names_of(wanted), did_you_mean(name, names)));
 }
 
 CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted,
-                        OtherCsvColumns others, Problems& problems) {
+                        OtherCsvColumns others, CellProblems& problems) {
   CellMeaning meaning;
   std::vector<bool> found(wanted.size(), false);
   for (const std::string_view name : split_csv_line(line)) {
@@ -122,9 +123,9 @@ std::string allowed_values(const CsvColumn& column) {
 
 /// The number in `cell`, or the reason why it is none that `column` can hold.
 std::optional<double> parse_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
-                                 Problems& problems) {
+                                 CellProblems& problems) {
   const auto reject = [&](const std::string& expected) {
-    const std::string found = cell.empty() ? "empty" : "\"" + shown(cell) + "\"";
+    const std::string found = cell.empty() ? "empty" : "\"" + shown_cell(cell) + "\"";
     problems.add(line, fmt::format("{} is {}, expected {}", column.name, found, expected));
     return std::nullopt;
   };
@@ -142,7 +143,7 @@ std::optional<double> parse_cell(std::string_view cell, const CsvColumn& column,
 
 /// Whether `value` may stand below the column's last; a value that is out of order is told.
 bool in_order(double value, const std::vector<double>& above, const CsvColumn& column,
-              std::size_t line, Problems& problems) {
+              std::size_t line, CellProblems& problems) {
   if (!column.increasing || above.empty() || value > above.back()) return true;
   problems.add(line, fmt::format("{} is {}, expected more than the {} before it", column.name,
                                  value, above.back()));
@@ -164,7 +165,7 @@ std::vector<std::string_view> split_csv_line(std::string_view line) {
 std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
                                                   std::span<const CsvColumn> wanted,
                                                   OtherCsvColumns others) {
-  Problems problems(file_name);
+  CellProblems problems(file_name);
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   if (text.empty()) {
     problems.add(1, fmt::format("the file is empty, expected the header {}", names_of(wanted)));

@@ -1,15 +1,13 @@
 #include "tethercalc/model/operating_point.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/model/power_line.hpp"
 #include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double or_nan(double value) { return std::isfinite(value) ? value : nan; }
 

@@ -55,6 +55,8 @@ StrengthMemberData strength_member_data(const StrengthMember& member) {
 
 double conductor_radius(double area) { return std::sqrt(area / std::numbers::pi); }
 
+double conductor_area(double radius) { return std::numbers::pi * radius * radius; }
+
 double breaking_load(const Tether& tether, double area) {
   const double member = strength_member_data(tether.strength_member).strength;
   return member > 0 ? member : 2 * area * tether.conductor.tensile_strength;

@@ -1,15 +1,13 @@
 #include "tethercalc/model/tether_heat.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "model/constants.hpp"
 #include "tethercalc/model/power_line.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Relative. Temperatures are exact to 1e-11 K, and a kelvin is 0.4 % of the resistance.
 constexpr double same_current = 1e-12;

@@ -8,8 +8,6 @@
 namespace tethercalc {
 namespace {
 
-double square_millimetres(double area) { return area / unit::square_millimetre; }
-
 std::string headroom_words(double headroom) {
   return headroom > 1 ? fmt::format("a thrust headroom of {}", significant(headroom, 3))
                       : std::string("level flight");
@@ -72,8 +70,8 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
   const MinimumPower& least = result.minimum_power;
   if (least.power > 0) {
     sentence += fmt::format(" Power alone would ask for {} mm² ({} W in {}).",
-                            significant(square_millimetres(least.area), 4), fixed(least.power, 1),
-                            condition_words(design.requirements.power_at));
+                            significant(least.area / unit::square_millimetre, 4),
+                            fixed(least.power, 1), condition_words(design.requirements.power_at));
   }
   return sentence;
 }
@@ -198,7 +196,7 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
     return fmt::format(
         "No cross-section gives {}. The most is a headroom of {} at {} mm², where the converter "
         "gives its rated {} W: a thicker conductor would only weigh more.",
-        demand, significant(best.value, 3), significant(square_millimetres(best.area), 4),
+        demand, significant(best.value, 3), significant(best.area / unit::square_millimetre, 4),
         significant(*design.supply.converter.rated_output_power, 4));
   }
   const char* reason = refusal.limit == Limit::motor_thrust
@@ -210,7 +208,7 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
                              "more than they deliver";
   return fmt::format("No cross-section gives {}. The most is a headroom of {} at {} mm², {}.",
                      demand, significant(best.value, 3),
-                     significant(square_millimetres(best.area), 4), reason);
+                     significant(best.area / unit::square_millimetre, 4), reason);
 }
 
 }  // namespace tethercalc

@@ -102,12 +102,12 @@ std::string name_of(const MotorOptimum& motor, std::size_t index) {
 }
 
 /// What a motor's best tether is and draws; a word where there is none.
-struct Answer {
+struct Labels {
   std::string area;
   std::string power;
 };
 
-Answer answer_of(const MotorOptimum& motor) {
+Labels labels_of(const MotorOptimum& motor) {
   if (!motor.result.feasible) return {"", "infeasible"};
   const bool by_hover = motor.design.requirements.power_at == Condition::hover;
   const OperatingPoint& judged = by_hover ? motor.result.hover : motor.result.forward;
@@ -116,9 +116,9 @@ Answer answer_of(const MotorOptimum& motor) {
 }
 
 std::string words_of(const MotorOptimum& motor, std::size_t index) {
-  const Answer answer = answer_of(motor);
-  if (answer.area.empty()) return name_of(motor, index) + ": " + answer.power;
-  return fmt::format("{}: {} mm², {} W", name_of(motor, index), answer.area, answer.power);
+  const Labels labels = labels_of(motor);
+  if (labels.area.empty()) return name_of(motor, index) + ": " + labels.power;
+  return fmt::format("{}: {} mm², {} W", name_of(motor, index), labels.area, labels.power);
 }
 
 /// A place in shares of the frame.
@@ -214,9 +214,9 @@ std::vector<gp::LegendEntry> legend_of(std::span<const MotorOptimum> ranking,
   std::vector<gp::LegendEntry> legend{{gp::LegendEntry::Sample::none, "", "", {"mm²", "W"}}};
   legend.insert(legend.end(), plotted.begin(), plotted.end());
   for (std::size_t i = 0; i < ranking.size(); ++i) {
-    const Answer answer = answer_of(ranking[i]);
+    const Labels labels = labels_of(ranking[i]);
     legend[i + 1].words = name_of(ranking[i], i);
-    legend[i + 1].cells = {answer.area, answer.power};
+    legend[i + 1].cells = {labels.area, labels.power};
   }
   return legend;
 }

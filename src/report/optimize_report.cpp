@@ -17,9 +17,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double square_millimetres(double area) { return area / unit::square_millimetre; }
-
-std::string area_words(double area) { return significant(square_millimetres(area), 4) + " mm²"; }
+std::string area_words(double area) {
+  return significant(area / unit::square_millimetre, 4) + " mm²";
+}
 
 std::string lost_share(const OperatingPoint& point) {
   return significant(100 * point.tether_loss / point.total_power, 3);
@@ -136,7 +136,7 @@ ordered_json remedies_json(std::span<const Remedy> remedies) {
 
 ordered_json optimum_json(const Optimization& result) {
   return {
-      {"cross_section_mm2", number_or_null(square_millimetres(result.area))},
+      {"cross_section_mm2", number_or_null(result.area / unit::square_millimetre)},
       {"limited_by", limit_name(result.limited_by)},
       {"limiting_condition", condition_name(result.limiting_condition)},
       {"hover", result.feasible ? operating_point_json(result.hover) : ordered_json(nullptr)},
@@ -167,7 +167,7 @@ std::string csv_header() {
 std::string csv_row(const Optimization& result) {
   std::string row = fmt::format(
       "{},{},{},{}", status_name(result.feasible), limit_name(result.limited_by),
-      condition_name(result.limiting_condition), csv_number(square_millimetres(result.area)));
+      condition_name(result.limiting_condition), csv_number(result.area / unit::square_millimetre));
   const std::size_t empty_cells = 2 * operating_point_fields().size();
   row += result.feasible ? csv_values(result.hover) + csv_values(result.forward)
                          : std::string(empty_cells, ',');
@@ -216,7 +216,7 @@ TitledTable sizes_table(const OptimumStudy& study) {
   for (const SizePoints& size : study.sizes) {
     const AreaPoints& p = size.points;
     const std::string fault = shortcoming(design, p);
-    table.add({size.name, significant(square_millimetres(p.area), 4),
+    table.add({size.name, significant(p.area / unit::square_millimetre, 4),
                fixed(p.hover.tether_mass / unit::gram, 0), fixed(p.hover.total_power, 1),
                fixed(p.forward.total_power, 1), fixed(p.in(headroom_at).headroom, 2),
                fault.empty() ? "meets every requirement" : fault});
@@ -237,13 +237,13 @@ TitledTable power_table(const OptimumStudy& study) {
   const Condition headroom_at = study.design.requirements.headroom_at;
   for (const AreaPoints& row : study.table) {
     const OperatingPoint& judged = row.in(headroom_at);
-    table.add(
-        {significant(square_millimetres(row.area), 4), fixed(row.hover.tether_mass / unit::gram, 0),
-         fixed(judged.available_thrust / unit::gram_force, 0),
-         fixed(judged.necessary_thrust / unit::gram_force, 0), fixed(judged.headroom, 2),
-         fixed(row.hover.total_power, 1), fixed(row.forward.total_power, 1), lost_share(judged),
-         mark(study, row)},
-        row.area == study.result.area);
+    table.add({significant(row.area / unit::square_millimetre, 4),
+               fixed(row.hover.tether_mass / unit::gram, 0),
+               fixed(judged.available_thrust / unit::gram_force, 0),
+               fixed(judged.necessary_thrust / unit::gram_force, 0), fixed(judged.headroom, 2),
+               fixed(row.hover.total_power, 1), fixed(row.forward.total_power, 1),
+               lost_share(judged), mark(study, row)},
+              row.area == study.result.area);
   }
   return {fmt::format("Power against cross-section (thrust per motor, headroom and loss in {})",
                       condition_words(headroom_at)),
@@ -265,7 +265,7 @@ TitledTable operating_table(const Design& design, Condition condition,
                    {"V"}});
   for (const AreaPoints& row : areas) {
     const OperatingPoint& p = row.in(condition);
-    table.add({significant(square_millimetres(p.cross_section), 4),
+    table.add({significant(p.cross_section / unit::square_millimetre, 4),
                significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
                fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
                fixed(p.necessary_thrust / unit::gram_force, 0), fixed(p.headroom, 2),
@@ -295,13 +295,13 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
   ordered_json feasible = ordered_json::array();
   for (const Interval& range : result.headroom_areas) {
     feasible.push_back(
-        {square_millimetres(range.lo), number_or_null(square_millimetres(range.hi))});
+        {range.lo / unit::square_millimetre, number_or_null(range.hi / unit::square_millimetre)});
   }
   ordered_json sizes = ordered_json::array();
   for (const SizePoints& size : study.sizes) {
     const std::string fault = shortcoming(design, size.points);
     sizes.push_back({{"name", size.name},
-                     {"cross_section_mm2", square_millimetres(size.points.area)},
+                     {"cross_section_mm2", size.points.area / unit::square_millimetre},
                      {"feasible", fault.empty()},
                      {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)},
                      {"hover", operating_point_json(size.points.hover)},
@@ -317,10 +317,10 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
         {"condition", condition_name(need.headroom_at)},
         {"feasible_mm2", feasible},
         {"best", number_or_null(study.best_headroom.value)},
-        {"best_at_mm2", number_or_null(square_millimetres(study.best_headroom.area))}}},
+        {"best_at_mm2", number_or_null(study.best_headroom.area / unit::square_millimetre)}}},
       {"minimum_power",
        {{"condition", condition_name(need.power_at)},
-        {"cross_section_mm2", number_or_null(square_millimetres(result.minimum_power.area))},
+        {"cross_section_mm2", number_or_null(result.minimum_power.area / unit::square_millimetre)},
         {"total_power_W", number_or_null(result.minimum_power.power)}}},
       {"standard_sizes", sizes},
       {"table", table_json(study.table)}};
@@ -397,7 +397,7 @@ TitledTable motor_table(const Design& design, std::span<const MotorOptimum> rank
   for (const MotorOptimum& entry : ranking) {
     const Optimization& r = entry.result;
     if (!r.feasible) continue;
-    table.add({entry.motor.id, significant(square_millimetres(r.area), 4),
+    table.add({entry.motor.id, significant(r.area / unit::square_millimetre, 4),
                fixed(r.hover.tether_mass / unit::gram, 0), fixed(r.hover.total_power, 1),
                fixed(r.forward.total_power, 1), fixed((by_hover ? r.hover : r.forward).headroom, 2),
                std::string(limit_name(r.limited_by))});

@@ -13,8 +13,6 @@ namespace colour = gnuplot::colour;
 
 std::string feasible_style() { return gp::area(colour::green); }
 
-double square_millimetres(double area) { return area / unit::square_millimetre; }
-
 /// The cross-sections shown, mm².
 struct View {
   double lo = 0;
@@ -37,7 +35,7 @@ Curves curves_of(const Requirements& need, std::span<const AreaPoints> points) {
   Curves curves;
   for (const AreaPoints& row : points) {
     const OperatingPoint& judged = row.in(need.headroom_at);
-    curves.area.push_back(square_millimetres(row.area));
+    curves.area.push_back(row.area / unit::square_millimetre);
     curves.available.push_back(judged.available_thrust / unit::gram_force);
     curves.hover.push_back(row.hover.necessary_thrust / unit::gram_force);
     curves.forward.push_back(row.forward.necessary_thrust / unit::gram_force);
@@ -95,7 +93,7 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
   };
   std::vector<Tick> ticks;
   for (const WireSize& size : wire_sizes()) {
-    const double area = square_millimetres(size.area);
+    const double area = size.area / unit::square_millimetre;
     if (size.standard != standard || area <= view.lo || area > view.hi) continue;
     std::string name = size.name;
     // Thin sizes crowd at the beginning of a linear axis; there they say nothing.
@@ -127,7 +125,7 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
 /// The upper axis with the sizes of a standard.
 std::string top_axis(const OptimumStudy& study, const View& view, std::string_view standard) {
   const double middle = study.result.feasible
-                            ? square_millimetres(study.result.area)
+                            ? study.result.area / unit::square_millimetre
                             : std::sqrt(std::max(view.lo, 0.1 * view.hi) * view.hi);
   const std::string ticks = size_ticks(view, standard, middle);
   return ticks.empty() ? "unset x2tics\n" : fmt::format("set x2tics ({}) offset 0,-0.4\n", ticks);
@@ -137,21 +135,23 @@ std::string top_axis(const OptimumStudy& study, const View& view, std::string_vi
 std::string shading(const OptimumStudy& study, const View& view) {
   std::string out = "if (!characters) {\n";
   for (const Interval& range : study.result.feasible_areas) {
-    const double lo = std::max(view.lo, square_millimetres(range.lo));
-    const double hi = std::min(view.hi, square_millimetres(range.hi));
+    const double lo = std::max(view.lo, range.lo / unit::square_millimetre);
+    const double hi = std::min(view.hi, range.hi / unit::square_millimetre);
     if (!(lo < hi)) continue;
     out += fmt::format("  set object rectangle from {},graph 0 to {},graph 1 behind {}\n",
                        gp::number(lo), gp::number(hi), feasible_style());
   }
   if (study.result.feasible) {
-    const std::string at = gp::number(square_millimetres(study.result.area));
+    const std::string at = gp::number(study.result.area / unit::square_millimetre);
     out += fmt::format("  set arrow from {0},graph 0 to {0},graph 1 nohead {1}\n", at,
                        gp::line(colour::black, 3, 0.8));
   }
   return out + "}\n";
 }
 
-std::string area_words(double area) { return significant(square_millimetres(area), 3) + " mm²"; }
+std::string rounded_area(double area) {
+  return significant(area / unit::square_millimetre, 3) + " mm²";
+}
 
 gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> points) {
   const Requirements& need = study.design.requirements;
@@ -166,13 +166,13 @@ gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> poin
   const Optimization& result = study.result;
   if (result.feasible) {
     const OperatingPoint& judged = by_hover ? result.hover : result.forward;
-    plot.mark(square_millimetres(result.area), judged.available_thrust / unit::gram_force,
+    plot.mark(result.area / unit::square_millimetre, judged.available_thrust / unit::gram_force,
               gp::point(colour::black, 13, 0.9), "");
   } else if (study.best_headroom.value > 0) {
     const auto best = std::find_if(points.begin(), points.end(), [&](const AreaPoints& row) {
       return row.area == study.best_headroom.area;
     });
-    plot.mark(square_millimetres(best->area),
+    plot.mark(best->area / unit::square_millimetre,
               best->in(need.headroom_at).available_thrust / unit::gram_force,
               gp::point(colour::black, 9, 0.9),
               fmt::format("best headroom, {}×", significant(study.best_headroom.value, 3)));
@@ -187,13 +187,13 @@ gp::Plot power_plot(const OptimumStudy& study) {
   if (result.feasible) {
     const bool by_hover = study.design.requirements.power_at == Condition::hover;
     const OperatingPoint& judged = by_hover ? result.hover : result.forward;
-    plot.mark(square_millimetres(result.area), judged.total_power,
-              gp::point(colour::black, 13, 0.9), "optimum, " + area_words(result.area));
+    plot.mark(result.area / unit::square_millimetre, judged.total_power,
+              gp::point(colour::black, 13, 0.9), "optimum, " + rounded_area(result.area));
   }
   plot.curve("$curves using 1:7", gp::line(colour::orange, 5, 1.6), "forward flight");
   const MinimumPower& least = result.minimum_power;
-  plot.mark(square_millimetres(least.area), least.power, gp::point(colour::green, 7, 0.8),
-            "least power, " + area_words(least.area));
+  plot.mark(least.area / unit::square_millimetre, least.power, gp::point(colour::green, 7, 0.8),
+            "least power, " + rounded_area(least.area));
   if (!result.feasible_areas.empty())
     plot.entry({gp::LegendEntry::Sample::area, feasible_style(), "feasible"});
   return plot;
@@ -207,7 +207,7 @@ std::string description_of(const OptimumStudy& study) {
       "necessary and required; and power from the supply in hover and in forward flight. ";
   if (!result.feasible) return out + refusal_sentence(design, *study.refusal);
   out += fmt::format("The optimum is {}, drawing {} W in hover and {} W in forward flight. ",
-                     area_words(result.area), fixed(result.hover.total_power, 1),
+                     rounded_area(result.area), fixed(result.hover.total_power, 1),
                      fixed(result.forward.total_power, 1));
   return out + limit_sentence(design, result);
 }
@@ -215,7 +215,8 @@ std::string description_of(const OptimumStudy& study) {
 }  // namespace
 
 Figure optimum_figure(const std::string& name, const OptimumStudy& study, const AreaCurve& curve) {
-  const View view{square_millimetres(curve.lo), square_millimetres(curve.hi), curve.logarithmic};
+  const View view{curve.lo / unit::square_millimetre, curve.hi / unit::square_millimetre,
+                  curve.logarithmic};
   const Curves curves = curves_of(study.design.requirements, curve.points);
   Figure figure;
   figure.id = "optimum";

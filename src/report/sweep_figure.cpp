@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "io/closest_name.hpp"
+#include "model/constants.hpp"
 #include "report/gnuplot_script.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/report/text_table.hpp"
@@ -17,7 +17,6 @@ namespace {
 namespace gp = gnuplot;
 namespace colour = gnuplot::colour;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_curves = 7;
 constexpr std::size_t most_cells = 40000;
 

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
@@ -14,8 +14,6 @@
 
 namespace tethercalc {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // --- Cells -----------------------------------------------------------------------------------
 

@@ -4,17 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "model/constants.hpp"
 #include "tethercalc/report/json_results.hpp"
 
 namespace tethercalc {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr std::array shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 

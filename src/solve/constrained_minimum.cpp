@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlopt.hpp>
 #include <random>
 #include <stdexcept>
 
+#include "model/constants.hpp"
+
 namespace tethercalc {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// In place of what is not finite: far above any objective, far below what overflows in sums.
 constexpr double penalty_value = 1e30;
 /// In place of a constraint that is not finite: ten times a gross violation.

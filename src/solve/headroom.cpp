@@ -11,9 +11,9 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "model/constants.hpp"
 #include "solve/thrust_at.hpp"
 #include "tethercalc/model/operating_point.hpp"
 #include "tethercalc/model/power_line.hpp"
@@ -21,10 +21,6 @@
 
 namespace tethercalc {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
 struct Range {
   double least = infinity;
@@ -274,7 +270,7 @@ IntervalSet areas_meeting(const FlightDemands& demands, const IntervalSet& radii
   RadiiSearch search(demands);
   for (const Interval& range : radii) search.search(range.lo, range.hi);
   IntervalSet areas = search.found();
-  for (Interval& range : areas) range = {area_of(range.lo), area_of(range.hi)};
+  for (Interval& range : areas) range = {conductor_area(range.lo), conductor_area(range.hi)};
   return areas;
 }
 
@@ -291,7 +287,7 @@ IntervalSet strong_radii(const SteadyFlight& flight, double hi) {
   const double factor = design.requirements.strength_safety_factor;
   if (factor == 0 || !(hi > 0)) return {{0, hi}};
   const auto strong = [&](double radius) {
-    return breaking_load(design.tether, area_of(radius)) >=
+    return breaking_load(design.tether, conductor_area(radius)) >=
            factor * flight.tether().load(radius).greatest_tension();
   };
   const bool metal = strength_member_data(design.tether.strength_member).strength == 0;
@@ -347,8 +343,8 @@ class BestHeadroomSearch {
   };
 
   Look look(double radius) {
-    const OperatingPoint point = evaluate(flight_, area_of(radius));
-    if (point.headroom > best_.value) best_ = {point.headroom, area_of(radius)};
+    const OperatingPoint point = evaluate(flight_, conductor_area(radius));
+    if (point.headroom > best_.value) best_ = {point.headroom, conductor_area(radius)};
     return {radius, flight_.necessary_thrust(radius, flight_.tan_pitch(radius, infinity)),
             point.available_thrust, point.headroom > 0 ? point.headroom : 0,
             !std::isnan(point.conductor_temperature)};

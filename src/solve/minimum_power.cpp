@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "model/constants.hpp"
 #include "solve/valley_search.hpp"
 #include "tethercalc/model/power_line.hpp"
 #include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double area_of(double radius) { return std::numbers::pi * radius * radius; }
 
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
 double total_power(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& at) {
@@ -223,7 +218,7 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   if (!(search.power() < infinity)) return none;
   // The root of a square may miss its end by rounding, beyond which a warm cable runs away or a
   // reserve battery grows by leaps.
-  const double area = area_of(search.best().radius);
+  const double area = conductor_area(search.best().radius);
   for (const double inside : {area, std::nextafter(area, 0), std::nextafter(area, 1),
                               area * (1 - 1e-15), area * (1 + 1e-15)}) {
     if (one_valley) break;

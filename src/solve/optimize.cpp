@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/solve/headroom.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Relative distance at which a tilt is at its limit: a thousand times the accuracy of edges.
 constexpr double same_edge = 1e-9;

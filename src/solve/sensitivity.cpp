@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <stdexcept>
 
+#include "model/constants.hpp"
 #include "solve/random_bits.hpp"
 
 namespace tethercalc {
@@ -78,7 +78,6 @@ bool varies(std::span<const Triple> triples) {
 }
 
 Sensitivity sensitivity_of(std::span<const Triple> triples, std::uint64_t seed) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (!varies(triples)) return {{nan, nan}, {nan, nan}};
   Sums sums;
   for (const Triple& triple : triples) sums.add(triple);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/constants.hpp"
+
 namespace tethercalc {
 
 ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
@@ -33,7 +35,7 @@ ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double 
 namespace {
 
 /// What was solved for to lie on a kink may miss it by this much, relative.
-constexpr double rounding = 1e-12;
+constexpr double kink_rounding = 1e-12;
 
 /// Collects where the tilt is within its limit with a reserve battery, whose mass is no closed form
 /// of the radius. Weight and drag both rise with it, which bounds the tilt between two radii.
@@ -45,7 +47,7 @@ void collect_within_tilt(const SteadyFlight& flight, double a, double b, Interva
   if (!within(b, a)) return;
   if (within(a, b)) return append(radii, {a, b});
   const double middle = std::sqrt(a * b);
-  if (!(middle > a * (1 + rounding))) return;
+  if (!(middle > a * (1 + kink_rounding))) return;
   collect_within_tilt(flight, a, middle, radii);
   collect_within_tilt(flight, middle, b, radii);
 }
@@ -53,14 +55,14 @@ void collect_within_tilt(const SteadyFlight& flight, double a, double b, Interva
 }  // namespace
 
 Pieces pieces_between(const MotorCurve& motor, double lo, double hi) {
-  const std::size_t first = motor.piece(lo * (1 + rounding));
-  return {first, std::max(first, motor.piece(hi * (1 - rounding))), 0.5 * (lo + hi)};
+  const std::size_t first = motor.piece(lo * (1 + kink_rounding));
+  return {first, std::max(first, motor.piece(hi * (1 - kink_rounding))), 0.5 * (lo + hi)};
 }
 
 double converter_kink(const Converter& converter, double lo, double hi) {
   for (const EfficiencyPoint& point : converter.efficiency) {
     const double output = point.output_power;
-    if (lo * (1 + rounding) < output && output < hi * (1 - rounding)) return output;
+    if (lo * (1 + kink_rounding) < output && output < hi * (1 - kink_rounding)) return output;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -80,7 +82,6 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
 
 double least_resistance(const WarmTether& tether, const SteadyFlight& flight, double thinner,
                         double thrust, double thicker) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double power = flight.drone_power(thrust);
   if (!is_heated(flight.design().tether) || !(power < infinity)) {
     return flight.tether().resistance(thicker);

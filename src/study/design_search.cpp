@@ -5,18 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <span>
 #include <utility>
 
+#include "model/constants.hpp"
 #include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The demands of the design in both conditions.
 constexpr std::size_t fixed_demands = 2 * demand_count;

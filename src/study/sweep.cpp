@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 SweepOutcome given_cable(const Design& design) {
   SweepOutcome outcome;

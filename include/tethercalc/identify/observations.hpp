@@ -84,6 +84,9 @@ struct LogPosition {
 /// than 2 m/s for a fifth of the samples: it leans to do so.
 [[nodiscard]] double pitch_offset_from_hover(const FlightLog& hover);
 
+/// Median step in s of `time`, which has at least two entries and rises.
+[[nodiscard]] double median_step(const std::vector<double>& time);
+
 /// Turns samples `range` of `log` into observations.
 ///
 /// - θ = −(pitch − pitch_offset), `pitch_offset` in rad.

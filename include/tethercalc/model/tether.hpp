@@ -120,6 +120,9 @@ struct Tether {
 /// Radius in m of a round conductor of `area` m².
 [[nodiscard]] double conductor_radius(double area);
 
+/// Area in m² of a round conductor of `radius` m.
+[[nodiscard]] double conductor_area(double radius);
+
 /// Breaking load in N: that of the strength member where there is one, which is stiffer than metal
 /// and takes the load, else that of both conductors of `area` m²; 0 where their strength is
 /// unknown.
