@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
 #include "tethercalc/report/sweep_rows.hpp"
@@ -40,8 +41,12 @@ Prepared drawn(SampleMethod method) {
 void sweep(benchmark::State& state, const Prepared& prepared, RowFormat format, bool written) {
   const SweepRows rows(prepared.space.axes(), format);
   const RowWriter write = [&](std::string& text, const SweepRow& row) { rows.append(text, row); };
-  SweepJob job{&prepared.space, &prepared.base.design, write,
-               {0, designs},    written ? 0 : designs, static_cast<unsigned>(state.range(0))};
+  SweepJob job{&prepared.space,
+               &prepared.base.design,
+               write,
+               {0, designs},
+               written ? 0 : designs,
+               several_threads(static_cast<unsigned>(state.range(0)))};
   std::size_t bytes = 0;
   for (auto _ : state) {
     compute_sweep(job, [&](const SweepChunk& chunk) {
