@@ -1,10 +1,10 @@
 #include "diagnose/channels.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 #include "diagnose/series.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -31,7 +31,7 @@ std::vector<double> braking(const FlightRecord& record) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     // Signed like the motion, so that a force against it lies on a line.
     const double against = record.forward_speed[i] > 0 ? -out[i] : out[i];
-    out[i] = out[i] < 0 ? against : std::numeric_limits<double>::quiet_NaN();
+    out[i] = out[i] < 0 ? against : nan;
   }
   return out;
 }

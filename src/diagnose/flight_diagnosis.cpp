@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -15,6 +14,7 @@
 #include "diagnose/log_model.hpp"
 #include "diagnose/series.hpp"
 #include "diagnose/unit_checks.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
 
@@ -179,8 +179,7 @@ class FlightModel : public LogModel {
     std::vector<double> left(problem.measured.size());
     problem.predict(values, left);
     for (std::size_t i = 0; i < left.size(); ++i) {
-      left[i] = data_.block[i] < 0 ? std::numeric_limits<double>::quiet_NaN()
-                                   : problem.measured[i] - left[i];
+      left[i] = data_.block[i] < 0 ? nan : problem.measured[i] - left[i];
     }
     return left;
   }
@@ -300,8 +299,7 @@ ComparedSeries Report::compared() const {
   series.time = data_.record.time;
   series.measured = model_.problem.measured;
   for (std::size_t i = 0; i < series.time.size(); ++i) {
-    const double used =
-        data_.block[i] < 0 ? std::numeric_limits<double>::quiet_NaN() : series.measured[i];
+    const double used = data_.block[i] < 0 ? nan : series.measured[i];
     series.before.push_back(used - selection_.base.holdout_residual[i]);
     series.after.push_back(used - selection_.extended.holdout_residual[i]);
   }
@@ -355,7 +353,7 @@ Diagnosis too_short(const FlightData& data) {
   Diagnosis d;
   d.samples = static_cast<std::size_t>(
       std::count_if(data.block.begin(), data.block.end(), [](int b) { return b >= 0; }));
-  d.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+  d.base.holdout_rmse = nan;
   d.extended.holdout_rmse = d.base.holdout_rmse;
   const double needed = shortest_block * static_cast<double>(fewest_blocks);
   for (const Effect& effect : effect_catalogue()) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
 #include "diagnose/unit_checks.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/model/flight_state.hpp"
 
 namespace tethercalc {
@@ -199,7 +199,7 @@ class PowerLogModel : public LogModel {
     const std::vector<double> measured = measured_in(stage, residuals_.log());
     std::vector<double> left = predicted_in(stage, measured, r);
     for (std::size_t i = 0; i < left.size(); ++i) {
-      left[i] = stage.usable[i] ? measured[i] - left[i] : std::numeric_limits<double>::quiet_NaN();
+      left[i] = stage.usable[i] ? measured[i] - left[i] : nan;
     }
     return left;
   }
@@ -332,7 +332,7 @@ std::vector<double> held_out(const PowerResiduals& residuals, std::size_t k, con
                              const PowerLogModel& view) {
   const std::size_t n = residuals.samples();
   const PowerStage& stage = residuals.stages()[k];
-  std::vector<double> all(n, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> all(n, nan);
   std::vector<double> r(n);
   for (std::size_t b = 0; b < fit.without_block.size(); ++b) {
     residuals.standardised(k, view.model(fit.without_block[b]), r);
@@ -447,8 +447,8 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.unit = "standard deviations of the noise";
   diagnosis.quantity = "voltage lost in the tether, converter input, motor power";
   diagnosis.samples = log.time.size();
-  diagnosis.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
-  diagnosis.extended.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
+  diagnosis.base.holdout_rmse = nan;
+  diagnosis.extended.holdout_rmse = nan;
   if (too_short(log, catalogue, diagnosis)) return result;
   check_power_units(design, log);
 

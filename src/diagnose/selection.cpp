@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 
 #include "diagnose/fit_judgement.hpp"
 #include "diagnose/unnamed_structure.hpp"
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -294,7 +294,7 @@ void Search::step_forward() {
 void Search::drop_superfluous() {
   while (selected_.size() > 1) {
     std::optional<std::size_t> weakest;
-    double weakest_error = std::numeric_limits<double>::infinity();
+    double weakest_error = infinity;
     BlockFit rest_fit;
     for (const std::size_t g : selected_) {
       BlockFit without = fit(selected_without(g), &current_);

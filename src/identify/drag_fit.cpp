@@ -14,6 +14,7 @@
 #include <numeric>
 #include <utility>
 
+#include "model/constants.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
 
 // Notation, after the paper's section III-B: θ tilt, v forward speed over ground, w wind, u = v −
@@ -297,7 +298,7 @@ Box box(const DragBounds& bounds, Index flights) {
   Box out{VectorXd::Constant(shared + flights, -bounds.max_wind),
           VectorXd::Constant(shared + flights, bounds.max_wind)};
   out.lower.head<shared>().setZero();
-  out.upper.head<2>().setConstant(std::numeric_limits<double>::infinity());
+  out.upper.head<2>().setConstant(infinity);
   out.upper(linear) = bounds.max_linear_speed / (reference_speed + bounds.max_linear_speed);
   return out;
 }
@@ -705,7 +706,7 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
     FittedParameter parameter{names[static_cast<std::size_t>(i)], {}, Bound::none};
     parameter.at_bound = minimum.bounds[static_cast<std::size_t>(i)];
     if (parameter.at_bound != Bound::none) {
-      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      constexpr double none = nan;
       parameter.estimate = {minimum.x(i), none, none, none, none, none};
     } else {
       std::vector<double> gradient(static_cast<std::size_t>(size), 0.0);

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "io/closest_name.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
 #include "tethercalc/study/result_keys.hpp"
@@ -175,9 +175,7 @@ CandidateQuantity candidate_quantity(const std::string& key, const std::string& 
     }
   }
   if (const SpecField* field = find_field(key); field != nullptr && is_numeric(*field)) {
-    return [field](const Design& design) {
-      return field_value(design, *field).value_or(std::numeric_limits<double>::quiet_NaN());
-    };
+    return [field](const Design& design) { return field_value(design, *field).value_or(nan); };
   }
   throw InputError(where, fmt::format("there is no key \"{}\"{}", key, did_you_mean(name, known)));
 }

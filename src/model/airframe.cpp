@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 
@@ -22,7 +23,7 @@ namespace {
 /// `t`, or +infinity where it is beyond the limit by more than rounding.
 double limited(double t, double limit) {
   constexpr double rounding = 1e-12;
-  return t <= limit * (1 + rounding) ? t : std::numeric_limits<double>::infinity();
+  return t <= limit * (1 + rounding) ? t : infinity;
 }
 
 }  // namespace

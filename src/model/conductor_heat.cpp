@@ -109,7 +109,7 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              const Surroundings& around)
     : conductor_(tether.conductor),
       around_(around),
-      area_(pi * radius * radius),
+      area_(conductor_area(radius)),
       diameter_(2 * (radius + wall)),
       density_0C_(around.air_density * (1 + 0.00367 * around.temperature_C)) {
   const double known = tether.insulation.thermal_conductivity;

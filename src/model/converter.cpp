@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -88,8 +89,7 @@ double converter_mass(const Converter& converter) {
 }
 
 double converter_output_voltage(const Converter& converter, double input_voltage) {
-  return converter.fixed_ratio ? *converter.fixed_ratio * input_voltage
-                               : std::numeric_limits<double>::quiet_NaN();
+  return converter.fixed_ratio ? *converter.fixed_ratio * input_voltage : nan;
 }
 
 double lowest_input_voltage(const Converter& converter) {

@@ -111,9 +111,12 @@ const DemandMargin& Margins::worst() const {
   });
 }
 
+bool is_headroom_demanded(const Requirements& requirements, Condition condition) {
+  return condition == requirements.headroom_at && !requirements.buffer_battery;
+}
+
 double demanded_headroom(const Requirements& requirements, Condition condition) {
-  const bool asked = condition == requirements.headroom_at && !requirements.buffer_battery;
-  return asked ? requirements.thrust_headroom : 1;
+  return is_headroom_demanded(requirements, condition) ? requirements.thrust_headroom : 1;
 }
 
 Margins demand_margins(const Design& design, const OperatingPoint& hover,

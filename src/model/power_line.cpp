@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 
@@ -18,7 +19,7 @@ double available_power(double supply_voltage, double min_input_voltage, double r
 double supplied_power(double supply_voltage, double resistance, double load_power) {
   const double discriminant = 1 - 4 * resistance * load_power / (supply_voltage * supply_voltage);
   // A load at the very limit of the line, where optima may lie, is above it to rounding only.
-  if (!(discriminant >= -1e-9)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(discriminant >= -1e-9)) return nan;
   return 2 * load_power / (1 + std::sqrt(std::max(0.0, discriminant)));
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
@@ -56,7 +56,7 @@ double reserve_battery_mass(const Drone& drone, double mass, double height, doub
     missing -= rate * (upper - lower);
     lower = upper;
   }
-  return std::numeric_limits<double>::infinity();
+  return infinity;
 }
 
 double reserve_battery_growth(const Drone& drone, double takeoff_mass, double height,
@@ -65,7 +65,7 @@ double reserve_battery_growth(const Drone& drone, double takeoff_mass, double he
   if (per_watt == 0) return 0;
   const std::size_t piece = drone.motor.piece(takeoff_mass * gravity / drone.motor_count);
   const double more = per_watt * power_per_kilogram(drone, piece, gravity);
-  return more < 1 ? more / (1 - more) : std::numeric_limits<double>::infinity();
+  return more < 1 ? more / (1 - more) : infinity;
 }
 
 double mass_without_battery(const Drone& drone, double takeoff_mass, double height,

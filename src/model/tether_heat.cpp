@@ -1,7 +1,6 @@
 #include "tethercalc/model/tether_heat.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "model/constants.hpp"
 #include "tethercalc/model/power_line.hpp"
@@ -71,7 +70,7 @@ std::optional<TetherHeat::Warm> TetherHeat::warmed(double current, Surfaces& sur
   double growth_on_drum = 0;
   double growth_in_air = 0;
   if (measured_) {
-    const double area = std::numbers::pi * radius_ * radius_;
+    const double area = conductor_area(radius_);
     const double rise = settled_rise(tether, area, current, flight_.state().airspeed);
     warm.temperatures.in_air = flight_.state().ambient_temperature_C + rise;
     if (!(warm.temperatures.in_air <= highest_conductor_temperature_C)) return std::nullopt;

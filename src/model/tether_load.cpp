@@ -43,7 +43,7 @@ void StraightTether::set_airspeed(double airspeed) {
 }
 
 double StraightTether::mass_of(double length, double radius) const {
-  const double area = pi * radius * radius;
+  const double area = conductor_area(radius);
   const double insulation_area = pi * wall_ * (2 * radius + wall_);  // π((r+s)² − r²)
   return length *
          (2 * (tether_->conductor.density * area + tether_->insulation.density * insulation_area) +
@@ -59,7 +59,7 @@ double StraightTether::resistance(double radius, double in_air_C, double on_drum
   return contact_resistance() + 2 *
                                     (deployed_ * resistivity(tether_->conductor, in_air_C) +
                                      on_drum_ * resistivity(tether_->conductor, on_drum_C)) /
-                                    (pi * radius * radius);
+                                    conductor_area(radius);
 }
 
 }  // namespace tethercalc

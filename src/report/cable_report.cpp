@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "model/constants.hpp"
 #include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/text_table.hpp"
 
@@ -110,8 +110,7 @@ VoltageClass voltage_class(double voltage) {
           "low_voltage", 1500,
           "low voltage above the extra-low limit of 120 V DC: insulation, fault protection "
           "and disconnection are mandatory"},
-      VoltageClass{"high_voltage", std::numeric_limits<double>::infinity(),
-                   "high voltage above 1500 V DC"}};
+      VoltageClass{"high_voltage", infinity, "high voltage above 1500 V DC"}};
   return *std::find_if(classes.begin(), classes.end(),
                        [voltage](const VoltageClass& c) { return voltage <= c.up_to; });
 }

@@ -37,13 +37,12 @@ ReachWords words_of(Reach reach) {
 }
 
 std::string headroom_ends(const Design& design, Condition condition) {
-  const Requirements& need = design.requirements;
-  const bool asked = condition == need.headroom_at && !need.buffer_battery;
-  if (!asked || need.thrust_headroom == 1) {
+  const double demanded = demanded_headroom(design.requirements, condition);
+  if (demanded == 1) {
     return "the motors no longer get what " + condition_words(condition) + " takes";
   }
   return fmt::format("the thrust headroom in {} falls below {}", condition_words(condition),
-                     fixed(need.thrust_headroom, 2));
+                     fixed(demanded, 2));
 }
 
 /// What a limit means to somebody who pushes one of these further.

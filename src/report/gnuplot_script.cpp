@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/report/figure.hpp"
 
 namespace tethercalc::gnuplot {
@@ -213,7 +213,7 @@ Series outline(std::span<const double> x, std::span<const double> y, std::size_t
     }
     if (last + 1 < x.size() && x[last + 1] - x[last] > gap * mean_step) {
       out.x.push_back(x[last]);
-      out.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      out.y.push_back(nan);
     }
     first = last + 1;
   }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "model/constants.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/model/units.hpp"
@@ -15,7 +15,7 @@
 namespace tethercalc {
 namespace {
 
-constexpr double unstated = std::numeric_limits<double>::quiet_NaN();
+constexpr double unstated = nan;
 
 LibraryListing list_motors() {
   LibraryListing listing{{{"id", "id"},

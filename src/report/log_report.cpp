@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/closest_name.hpp"
+#include "report/characters.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/report/json_results.hpp"
@@ -72,14 +73,6 @@ std::string cell(const std::optional<double>& value, int decimals) {
 
 ordered_json value_or_null(const std::optional<double>& value) {
   return value ? number_or_null(*value) : ordered_json();
-}
-
-/// Text that a terminal and JSON can take, whatever bytes the log holds.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (c < 0x20 || c > 0x7E) c = '?';
-  }
-  return text;
 }
 
 std::string quoted_where_needed(const std::string& text) {

@@ -4,11 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "io/closest_name.hpp"
 #include "io/csv_rows.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
@@ -99,7 +99,7 @@ class Reader {
       problem(fmt::format("{}: \"{}\" is no number", table_.value_column, cell.substr(0, 40)));
     }
     if (!value) ++table_.infeasible;
-    table_.value.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+    table_.value.push_back(value.value_or(nan));
   }
 
   void varied_cell(SweepColumn& column, const std::string& cell) {

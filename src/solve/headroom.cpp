@@ -398,7 +398,7 @@ class BestHeadroomSearch {
 
   const SteadyFlight& flight_;
   WarmTether tether_;
-  BestHeadroom best_{0, std::numeric_limits<double>::quiet_NaN()};
+  BestHeadroom best_{0, nan};
   int stretches_ = 0;
 };
 

@@ -1,8 +1,8 @@
 #include "tethercalc/solve/optimize.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "model/constants.hpp"
 #include "tethercalc/solve/headroom.hpp"
@@ -31,8 +31,7 @@ double cheapest_area(const SteadyFlight& flight, const IntervalSet& areas,
     const double nearest = std::clamp(unconstrained.area, areas[0].lo, areas[0].hi);
     if (is_cheapest_beyond(flight, nearest)) return nearest;
   }
-  MinimumPower best{std::numeric_limits<double>::quiet_NaN(),
-                    std::numeric_limits<double>::quiet_NaN()};
+  MinimumPower best{nan, nan};
   for (const Interval& range : areas) best = lesser(best, minimum_power(flight, range));
   return best.area;
 }
@@ -157,17 +156,21 @@ void name_obstacle(Optimization& result, const Flights& flights) {
     Condition condition;
     double headroom;
   };
-  const Wanted asked{need.headroom_at, need.buffer_battery ? 1 : need.thrust_headroom};
+  const std::array best{best_headroom(flights.hover), best_headroom(flights.forward)};
+  const auto best_in = [&](Condition condition) {
+    return best[condition == Condition::hover ? 0 : 1];
+  };
+  const Wanted asked{need.headroom_at, demanded_headroom(need, need.headroom_at)};
   Wanted missed = asked;
   for (const Wanted& demand : {Wanted{Condition::hover, 1}, Wanted{Condition::forward, 1}, asked}) {
-    if (best_headroom(flights.in(demand.condition)).value < demand.headroom) {
+    if (best_in(demand.condition).value < demand.headroom) {
       missed = demand;
       break;
     }
   }
-  const SteadyFlight& flight = flights.in(missed.condition);
   result.limiting_condition = missed.condition;
-  result.limited_by = obstacle(flight, best_headroom(flight), missed.headroom);
+  result.limited_by =
+      obstacle(flights.in(missed.condition), best_in(missed.condition), missed.headroom);
 }
 
 }  // namespace
@@ -203,7 +206,7 @@ Optimization optimize(const Design& design) {
   const Flights flights{hover, hover.in(Condition::forward)};
   const Requirements& need = design.requirements;
   Optimization result;
-  result.area = std::numeric_limits<double>::quiet_NaN();
+  result.area = nan;
   result.headroom_areas = headroom_areas(flights.in(need.headroom_at), need.thrust_headroom);
   const SteadyFlight& priced = flights.in(need.power_at);
   result.minimum_power = minimum_power(priced);
@@ -223,7 +226,7 @@ Optimization optimize(const Design& design) {
   if (result.feasible) {
     name_limit(result, flights);
   } else {
-    result.area = std::numeric_limits<double>::quiet_NaN();
+    result.area = nan;
     name_obstacle(result, flights);
   }
   return result;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -44,7 +45,7 @@ void QuantileHistogram::add(double value) {
 }
 
 double QuantileHistogram::quantile(double p) const {
-  if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (count_ == 0) return nan;
   const double share = std::ceil(p * static_cast<double>(count_));
   const auto rank = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(share), 1, count_);
   if (rank == 1) return least_;

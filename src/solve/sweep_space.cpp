@@ -4,9 +4,10 @@
 #include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -81,7 +82,7 @@ double value_at(const SweepAxis& axis, std::uint64_t index) {
                  [index](const UniformInteger& r) {
                    return static_cast<double>(r.lo + static_cast<std::int64_t>(index));
                  },
-                 [](const auto&) { return std::numeric_limits<double>::quiet_NaN(); }},
+                 [](const auto&) { return nan; }},
       axis.values);
 }
 
@@ -128,7 +129,7 @@ SweepCursor::SweepCursor(const SweepSpace& space, const Design& base)
     : space_(&space),
       design_(base),
       order_(order_of_application(space.axes())),
-      values_(space.axes().size(), std::numeric_limits<double>::quiet_NaN()),
+      values_(space.axes().size(), nan),
       next_(space.axes().size()) {
   if (space.sample()) points_.emplace(*space.sample(), space.axes().size());
   move_to(0);

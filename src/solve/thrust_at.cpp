@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "model/constants.hpp"
 
@@ -64,7 +63,7 @@ double converter_kink(const Converter& converter, double lo, double hi) {
     const double output = point.output_power;
     if (lo * (1 + kink_rounding) < output && output < hi * (1 - kink_rounding)) return output;
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return nan;
 }
 
 bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,

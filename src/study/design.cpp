@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -84,10 +85,7 @@ const Movable* relaxation(const Design& design, const DemandMargin& margin) {
       return &tilt;
     case Demand::thrust_headroom:
       // Level flight is not negotiable.
-      return !design.requirements.buffer_battery &&
-                     margin.condition == design.requirements.headroom_at
-                 ? &headroom
-                 : nullptr;
+      return is_headroom_demanded(design.requirements, margin.condition) ? &headroom : nullptr;
     case Demand::conductor_temperature:
     case Demand::drum_temperature:
       return &rated_temperature;
@@ -186,8 +184,7 @@ class Prices {
   void add(ShadowPrice price, const DesignProblem& changed) {
     const double least = answer_.minimum.value;
     const DesignAnswer after = search_design(changed, search_);
-    price.price =
-        after.feasible ? after.minimum.value - least : std::numeric_limits<double>::quiet_NaN();
+    price.price = after.feasible ? after.minimum.value - least : nan;
     // What two searches may differ by.
     constexpr double noise = 1e-9;
     if (std::abs(price.price) <= noise * std::abs(least)) {

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "model/constants.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -31,7 +31,7 @@ std::span<const OperatingPointField> operating_point_fields() {
 
 double practical_value(const OperatingPoint& point, const OperatingPointField& field) {
   const double value = point.*field.member / field.si_factor;
-  return std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+  return std::isfinite(value) ? value : nan;
 }
 
 std::string_view condition_name(Condition condition) {

@@ -99,9 +99,9 @@ TEST_CASE("every kind is drawn in every format") {
 
     // The script is whole: alone in another folder it draws the same figure.
     const TemporaryFolder elsewhere;
-    const Ran drawn =
-        run_shell("cd " + shell_quoted(elsewhere.path().string()) + " && gnuplot -d " +
-                  shell_quoted(kinds.file(kind + ".gp")) + " > figure.pdf");
+    const Ran drawn = run_shell("cd " + shell_quoted(elsewhere.path().string()) +
+                                " && LC_ALL=C.UTF-8 gnuplot -d " +
+                                shell_quoted(kinds.file(kind + ".gp")) + " > figure.pdf");
     INFO(drawn.err);
     CHECK(drawn.exit_code == 0);
     CHECK(drawn.err.empty());

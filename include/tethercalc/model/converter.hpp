@@ -25,6 +25,9 @@ struct ConverterMassPoint {
 struct ConverterLosses {
   double fixed = 0;   ///< W, ≥ 0
   double square = 0;  ///< 1/W, ≥ 0
+
+  /// W that are lost at `output` W.
+  [[nodiscard]] double at(double output) const { return fixed + square * output * output; }
 };
 
 /// A converter by its efficiency over load and the input voltage at which it cuts off.
@@ -84,7 +87,7 @@ void validate(const std::vector<ConverterMassPoint>& masses);
 [[nodiscard]] inline double input_with_losses(const ConverterLosses& losses, double output_power) {
   // 0·∞ has no value.
   return output_power < std::numeric_limits<double>::infinity()
-             ? output_power + losses.fixed + losses.square * output_power * output_power
+             ? output_power + losses.at(output_power)
              : output_power;
 }
 
@@ -103,7 +106,7 @@ struct EfficiencyPiece {
 
   /// Input power in W for `output` W.
   [[nodiscard]] double input_power(double output) const {
-    return output / (offset + slope * output) + losses.fixed + losses.square * output * output;
+    return output / (offset + slope * output) + losses.at(output);
   }
   /// Its derivative.
   [[nodiscard]] double input_slope(double output) const {

@@ -74,8 +74,12 @@ class Margins {
 [[nodiscard]] Margins demand_margins(const Design& design, const OperatingPoint& point,
                                      Condition condition);
 
-/// The headroom demanded in `condition`: the required one where it is asked for and no buffer
-/// battery makes it a wish, elsewhere 1, below which the drone sinks.
+/// Whether the required headroom is demanded in `condition`: where it is asked for, and no buffer
+/// battery makes it a wish.
+[[nodiscard]] bool is_headroom_demanded(const Requirements& requirements, Condition condition);
+
+/// The headroom demanded in `condition`: the required one where it is demanded, elsewhere 1,
+/// below which the drone sinks.
 [[nodiscard]] double demanded_headroom(const Requirements& requirements, Condition condition);
 
 }  // namespace tethercalc

@@ -60,8 +60,6 @@ class SteadyFlight {
   [[nodiscard]] double weight(double radius) const {
     return takeoff_mass(radius) * gravity_ + tether_.winch_pull();
   }
-  /// Derivative of the weight by the radius, N/m.
-  [[nodiscard]] double weight_slope(double radius) const { return weighed(radius).slope; }
   /// The largest radius at which the motors lift no more than `weight` N; negative where even the
   /// thinnest tether is heavier. For a design in one of its conditions.
   [[nodiscard]] double radius_of_weight(double weight) const;
@@ -109,11 +107,7 @@ class SteadyFlight {
   [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const {
     return weight(radius) * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
   }
-  /// The same with its derivative, where `tan_pitch` is that of the equilibrium at `radius`.
-  [[nodiscard]] Thrust necessary_thrust_with_slope(double radius, double tan_pitch) const {
-    return inclined_thrust(weighed(radius), tan_pitch);
-  }
-  /// Both without a tilt limit, sooner than one after the other.
+  /// Tilt and thrust of the equilibrium, where no limit holds the tilt.
   struct Balance {
     double tan_pitch = 0;  ///< of the tilt
     Thrust thrust;         ///< N per motor, and how it changes
