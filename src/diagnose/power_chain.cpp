@@ -5,7 +5,6 @@
 
 #include "model/constants.hpp"
 #include "tethercalc/model/steady_flight.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
@@ -29,7 +28,10 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 
 }  // namespace
 
-std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log) {
+std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
+                                    std::vector<TetherHeatState::Surfaces>& near) {
+  const bool known = !near.empty();
+  near.resize(log.time.size());
   const Tether& tether = model.design.tether;
   const double radius = conductor_radius(*tether.cross_section);
   const bool measured = tether.heating.rise_per_loss > 0;
@@ -49,8 +51,9 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
       rise += (rise - settled) *
               std::expm1((log.time[i] - log.time[i + 1]) / tether.heating.time_constant);
     } else {
+      if (!known && i > 0) near[i] = near[i - 1];
       const TetherHeat heat(flight, radius);
-      const auto temperatures = heat.temperatures(std::abs(current));
+      const auto temperatures = heat.temperatures(std::abs(current), near[i]);
       resistance[i] = temperatures ? heat.resistance(*temperatures) : nan;
     }
   }

@@ -6,6 +6,7 @@
 
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/model/design.hpp"
+#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 
@@ -19,7 +20,10 @@ struct PowerModel {
 /// `flight_state_at` for the cable on a drum and the temperature of the air. A heated cable is as
 /// warm as the current of the log makes it: where its heating was measured it follows with its time
 /// constant from a cold start, otherwise at once. NaN where it would be too hot for any insulation.
-[[nodiscard]] std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log);
+/// `near` is where the heat balance of every sample was struck before, by this function on this log
+/// or, empty, never: a search of the model asks for the same balances hundreds of times.
+[[nodiscard]] std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
+                                                  std::vector<TetherHeatState::Surfaces>& near);
 
 /// Power in W at the bus in steady flight at every sample's height and airspeed. Above the motors'
 /// largest thrust their curve is continued straight, and the design's limit of the tilt does not

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -349,7 +349,7 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   const double gain = model.supply_current_gain;
   switch (stage.stage) {
     case Stage::tether: {
-      const std::vector<double> resistance = loop_resistance(model, log);
+      const std::vector<double> resistance = loop_resistance(model, log, warmed_);
       for (std::size_t i = 0; i < out.size(); ++i) {
         const double lost = log.supply_voltage[i] - log.drone_voltage[i];
         out[i] = (lost - log.supply_current[i] / gain * resistance[i]) / stage.noise;

@@ -81,8 +81,9 @@ class PowerResiduals {
   std::size_t rows_ = 0;
   std::vector<double> bus_power_;
   std::vector<double> log_bus_power_;
-  double input_variance_ = 1;   ///< W², of U_drone·I
-  double output_variance_ = 0;  ///< W², of the bus power
+  mutable std::vector<TetherHeatState::Surfaces> warmed_;  ///< see `loop_resistance`
+  double input_variance_ = 1;                              ///< W², of U_drone·I
+  double output_variance_ = 0;                             ///< W², of the bus power
 };
 
 }  // namespace tethercalc
