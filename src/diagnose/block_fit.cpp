@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {

@@ -67,9 +67,8 @@ std::vector<Effect> flight_effects() {
                        .lower = -20,
                        .upper = 20,
                        .scale = 0.5}},
-       .to_separate =
-           "hover through all headings in still air: the mean pitch is the offset, a wind "
-           "averages out",
+       .to_separate = "hover through all headings in still air: the mean pitch is the offset, a "
+                      "wind averages out",
        .change = "θ → θ + trim (pitch positive nose-up, θ positive leaning forward)",
        .channel = "tilt",
        .flight_phase = FlightPhase::attitude,
@@ -80,17 +79,16 @@ std::vector<Effect> flight_effects() {
   effects.push_back(
       {.id = "linear_drag",
        .title = "Drag in proportion to speed",
-       .mechanism =
-           "Propellers in a cross-flow lose momentum in proportion to the airspeed (induced "
-           "drag), beside the quadratic drag of the body.",
+       .mechanism = "Propellers in a cross-flow lose momentum in proportion to the airspeed "
+                    "(induced drag), beside the quadratic drag of the body.",
        .parameters = {{.name = "linear_m_s",
                        .unit = "m/s",
                        .lower = 0,
                        .upper = 1000,
                        .scale = 5,
                        .spec_field = "drone.drag.linear_m_s"}},
-       .to_separate = "fly at speeds from a walk to the fastest, so that linear and quadratic drag "
-                      "part",
+       .to_separate =
+           "fly at speeds from a walk to the fastest, so that linear and quadratic drag part",
        .change = "F_D: u|u| → u|u| + j·u",
        .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
@@ -99,9 +97,8 @@ std::vector<Effect> flight_effects() {
   effects.push_back(
       {.id = "wind",
        .title = "Steady wind along the flight axis",
-       .mechanism =
-           "The air moves along the forward axis, so airspeed differs from the logged speed "
-           "over ground.",
+       .mechanism = "The air moves along the forward axis, so airspeed differs from the logged "
+                    "speed over ground.",
        .parameters = {{.name = "wind_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "fly the same passes at the opposite heading: a wind changes its sign, what "
                       "belongs to the drone does not",
@@ -139,9 +136,8 @@ std::vector<Effect> flight_effects() {
   effects.push_back(
       {.id = "wind_drift",
        .title = "Wind that changes steadily during the flight",
-       .mechanism =
-           "The wind along the forward axis rises or falls from the beginning of the flight "
-           "to its end.",
+       .mechanism = "The wind along the forward axis rises or falls from the beginning of the "
+                    "flight to its end.",
        .parameters =
            {{.name = "wind_drift_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
        .to_separate = "repeat the first passes at the end of the flight",
@@ -167,8 +163,8 @@ std::vector<Effect> flight_effects() {
                        .scale = 0.05,
                        .spec_field = "drone.drag.fore_aft_asymmetry"}},
        .to_separate =
-           "fly the same passes at the opposite heading, and slow ones as well as fast "
-           "ones: a wind changes its sign, an offset of the pitch does not grow with speed",
+           "fly the same passes at the opposite heading, and slow ones as well as fast ones: a "
+           "wind changes its sign, an offset of the pitch does not grow with speed",
        .change = "F_D → F_D·(1 + a·sign u)",
        .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
@@ -192,26 +188,25 @@ std::vector<Effect> flight_effects() {
          }
        }});
 
-  effects.push_back(
-      {.id = "vertical_coupling",
-       .title = "Drag that depends on climbing and sinking",
-       .mechanism = "Flow through the propellers from below or above changes the force they feel "
-                    "from the side.",
-       .parameters = {{.name = "vertical_coupling",
-                       .unit = "N·s²/m²",
-                       .lower = -2,
-                       .upper = 2,
-                       .scale = 0.05}},
-       .needs = {"vd_m_s"},
-       .to_separate = "climb and sink at constant forward speed",
-       .change = "F_D → F_D + c·u·v_D",
-       .channel = "sinking",
-       .flight_phase = FlightPhase::force,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         for (std::size_t i = 0; i < p.drag.size(); ++i) {
-           p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
-         }
-       }});
+  effects.push_back({.id = "vertical_coupling",
+                     .title = "Drag that depends on climbing and sinking",
+                     .mechanism = "Flow through the propellers from below or above changes the "
+                                  "force they feel from the side.",
+                     .parameters = {{.name = "vertical_coupling",
+                                     .unit = "N·s²/m²",
+                                     .lower = -2,
+                                     .upper = 2,
+                                     .scale = 0.05}},
+                     .needs = {"vd_m_s"},
+                     .to_separate = "climb and sink at constant forward speed",
+                     .change = "F_D → F_D + c·u·v_D",
+                     .channel = "sinking",
+                     .flight_phase = FlightPhase::force,
+                     .on_flight = [](FlightPrediction& p, Values x) {
+                       for (std::size_t i = 0; i < p.drag.size(); ++i) {
+                         p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
+                       }
+                     }});
   return effects;
 }
 

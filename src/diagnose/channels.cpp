@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/model/units.hpp"
 

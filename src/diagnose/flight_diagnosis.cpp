@@ -12,7 +12,7 @@
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/flight_structure.hpp"
 #include "diagnose/log_model.hpp"
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 #include "diagnose/unit_checks.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"

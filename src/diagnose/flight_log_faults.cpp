@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -88,10 +88,9 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
     }
     const double stuck = mark_stuck(channel.series, log.time, range, faults.sample);
     if (stuck > 0) {
-      faults.notes.push_back(
-          fmt::format("{:.1f} s left out: the {} repeats one value there, as if its sensor were "
-                      "stuck",
-                      stuck, channel.name));
+      faults.notes.push_back(fmt::format(
+          "{:.1f} s left out: the {} repeats one value there, as if its sensor were stuck", stuck,
+          channel.name));
     }
   }
   return faults;

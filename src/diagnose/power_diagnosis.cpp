@@ -104,8 +104,7 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
   if (log.ambient_temperature_C.empty()) {
     notes.push_back(
         fmt::format("ambient_temperature_C is missing: the cable is taken to be at the spec's {:g} "
-                    "°C before it "
-                    "heats, so its resistivity may stand for the weather",
+                    "°C before it heats, so its resistivity may stand for the weather",
                     flight_state_at(design, 0, 0).ambient_temperature_C));
   }
   for (const auto& [name, values] :

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <utility>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -88,45 +90,42 @@ std::size_t mark_spikes(const std::vector<double>& x, std::vector<char>& bad) {
   return marked;
 }
 
+/// Values at the times `at`, which rise, on straight lines between samples; the first and the last
+/// beyond them.
+std::vector<double> interpolated(const std::vector<double>& time, const std::vector<double>& x,
+                                 std::vector<double> at) {
+  std::size_t k = 0;
+  for (double& value : at) {
+    const double t = std::clamp(value, time.front(), time.back());
+    while (k + 2 < x.size() && time[k + 1] <= t) ++k;
+    value =
+        x.size() < 2 ? x[0] : x[k] + (t - time[k]) / (time[k + 1] - time[k]) * (x[k + 1] - x[k]);
+  }
+  return at;
+}
+
 /// Replaces marked samples by the straight line between their neighbours.
 void fill_in(const std::vector<double>& time, const std::vector<char>& bad,
              std::vector<double>& x) {
-  const std::size_t n = x.size();
-  std::size_t previous = n;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!bad[i]) {
-      previous = i;
-      continue;
-    }
-    std::size_t next = i;
-    while (next < n && bad[next]) ++next;
-    if (previous == n && next == n) return;
-    for (; i < next; ++i) {
-      if (previous == n) {
-        x[i] = x[next];
-      } else if (next == n) {
-        x[i] = x[previous];
-      } else {
-        const double f = (time[i] - time[previous]) / (time[next] - time[previous]);
-        x[i] = x[previous] + f * (x[next] - x[previous]);
-      }
-    }
-    --i;
+  std::vector<double> good_time, good;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (bad[i]) continue;
+    good_time.push_back(time[i]);
+    good.push_back(x[i]);
+  }
+  if (good.empty() || good.size() == x.size()) return;
+  const std::vector<double> filled = interpolated(good_time, good, time);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (bad[i]) x[i] = filled[i];
   }
 }
 
-/// The channel as read `delay` seconds later on its own clock, linear between samples.
+/// The channel as read `delay` seconds later on its own clock.
 std::vector<double> advanced(const std::vector<double>& time, const std::vector<double>& x,
                              double delay) {
-  std::vector<double> out(x.size());
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double at = std::clamp(time[i] + delay, time.front(), time.back());
-    while (k + 2 < x.size() && time[k + 1] <= at) ++k;
-    const double f = (at - time[k]) / (time[k + 1] - time[k]);
-    out[i] = x[k] + f * (x[k + 1] - x[k]);
-  }
-  return out;
+  std::vector<double> at = time;
+  for (double& t : at) t += delay;
+  return interpolated(time, x, std::move(at));
 }
 
 /// Correlation of sample-to-sample changes over samples where all is well. Changes beyond ten times
@@ -144,21 +143,19 @@ double change_correlation(const std::vector<double>& a, const std::vector<double
   }
   if (da.size() < 8) return 0;
   const auto cut = [](std::vector<double>& d) {
-    std::vector<double> size(d.size());
-    std::transform(d.begin(), d.end(), size.begin(), [](double x) { return std::abs(x); });
-    const double limit = 10 * median(size);
+    std::vector<double> size = d;
+    for (double& x : size) x = std::abs(x);
+    const double limit = 10 * median(std::move(size));
     if (limit > 0) {
       for (double& x : d) x = std::clamp(x, -limit, limit);
     }
   };
   cut(da);
   cut(db);
-  double aa = 0, bb = 0, ab = 0;
-  for (std::size_t i = 0; i < da.size(); ++i) {
-    aa += da[i] * da[i];
-    bb += db[i] * db[i];
-    ab += da[i] * db[i];
-  }
+  const auto dot = [](const std::vector<double>& x, const std::vector<double>& y) {
+    return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+  };
+  const double aa = dot(da, da), bb = dot(db, db), ab = dot(da, db);
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
@@ -192,63 +189,44 @@ double best_delay(const std::function<double(double)>& agreement, std::size_t sa
   return clear && std::abs(best) > negligible ? best : 0;
 }
 
-void note_delay(const char* what, double delay, std::vector<std::string>& notes) {
-  notes.push_back(fmt::format("{} lagged {:.1f} s {} the supply current; {} shifted back", what,
-                              std::abs(delay), delay > 0 ? "behind" : "ahead of",
-                              "the channels were"));
-}
-
 /// Puts all channels on the clock of the supply current.
 void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& log,
            std::vector<std::string>& notes) {
-  const bool has_drone = !log.drone_voltage.empty();
-  const bool has_bus = !log.bus_voltage.empty() && !log.bus_current.empty();
   const std::size_t n = log.time.size();
   const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
+  using Series = std::vector<double> PowerLog::*;
 
+  // Shifts channels to where `compared`, made of a log with them shifted, changes as `with` does.
+  const auto shift = [&](const char* names, std::initializer_list<Series> channels_shifted,
+                         const std::vector<double>& with, const auto& compared) {
+    const auto shifted = [&](double delay) {
+      PowerLog result = log;
+      for (const Series x : channels_shifted) result.*x = advanced(log.time, log.*x, delay);
+      return result;
+    };
+    const double delay =
+        best_delay([&](double d) { return change_correlation(with, compared(shifted(d)), usable); },
+                   n, interval);
+    if (delay == 0) return;
+    notes.push_back(
+        fmt::format("{} lagged {:.1f} s {} the supply current; the channels were "
+                    "shifted back",
+                    names, std::abs(delay), delay > 0 ? "behind" : "ahead of"));
+    log = shifted(delay);
+  };
   const std::vector<double> supply_power = product(log.supply_voltage, log.supply_current);
-  std::vector<double> bus_power;
-  if (has_bus) {
-    bus_power = product(log.bus_voltage, log.bus_current);
-    const double delay = best_delay(
-        [&](double d) {
-          return change_correlation(supply_power, advanced(log.time, bus_power, d), usable);
-        },
-        n, interval);
-    if (delay != 0) {
-      note_delay("bus_voltage_V and bus_current_A", delay, notes);
-      log.bus_voltage = advanced(log.time, log.bus_voltage, delay);
-      log.bus_current = advanced(log.time, log.bus_current, delay);
-    }
+  if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
+    shift("bus_voltage_V and bus_current_A", {&PowerLog::bus_voltage, &PowerLog::bus_current},
+          supply_power, [](const PowerLog& l) { return product(l.bus_voltage, l.bus_current); });
   }
-
-  const double supply_delay = best_delay(
-      [&](double d) {
-        PowerLog shifted = log;
-        shifted.height = advanced(log.time, log.height, d);
-        shifted.airspeed = advanced(log.time, log.airspeed, d);
-        return change_correlation(supply_power, motor_power(model, shifted), usable);
-      },
-      n, interval);
-  if (supply_delay != 0) {
-    note_delay("height_m and airspeed_m_s", supply_delay, notes);
-    log.height = advanced(log.time, log.height, supply_delay);
-    log.airspeed = advanced(log.time, log.airspeed, supply_delay);
-  }
-
-  if (has_drone) {
-    const std::vector<double> resistance = loop_resistance(model, log);
-    const std::vector<double> drop = product(log.supply_current, resistance);
-    std::vector<double> received(n);
-    std::transform(log.drone_voltage.begin(), log.drone_voltage.end(), received.begin(),
-                   [](double v) { return -v; });
-    const double delay = best_delay(
-        [&](double d) { return change_correlation(drop, advanced(log.time, received, d), usable); },
-        n, interval);
-    if (delay != 0) {
-      note_delay("drone_voltage_V", delay, notes);
-      log.drone_voltage = advanced(log.time, log.drone_voltage, delay);
-    }
+  shift("height_m and airspeed_m_s", {&PowerLog::height, &PowerLog::airspeed}, supply_power,
+        [&model](const PowerLog& l) { return motor_power(model, l); });
+  if (!log.drone_voltage.empty()) {
+    const std::vector<double> lost = product(log.supply_current, loop_resistance(model, log));
+    shift("drone_voltage_V", {&PowerLog::drone_voltage}, lost, [](PowerLog l) {
+      for (double& v : l.drone_voltage) v = -v;
+      return l.drone_voltage;
+    });
   }
 }
 

@@ -8,19 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/series.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
-namespace {
-
-double quantile(std::vector<double> values, double part) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-}  // namespace
 
 void check_flight_units(const Observations& o, double step) {
   if (std::all_of(o.tilt.begin(), o.tilt.end(), [&o](double t) { return t == o.tilt.front(); })) {
@@ -54,10 +44,8 @@ void check_flight_units(const Observations& o, double step) {
     const char* hint = slope < 0.1  ? "is the time in milliseconds?"
                        : slope < 10 ? "are the velocities in km/h, or knots?"
                                     : "are the angles in radians?";
-    throw UnsuitableFlight(
-        fmt::format("the forward acceleration is {:.2g} times what the pitch "
-                    "makes expect; {}",
-                    slope, hint));
+    throw UnsuitableFlight(fmt::format(
+        "the forward acceleration is {:.2g} times what the pitch makes expect; {}", slope, hint));
   }
 }
 
@@ -95,10 +83,9 @@ void check_power_units(const Design& design, const PowerLog& log) {
   }
   const double highest = quantile(log.height, 0.99);
   if (highest > 1.5 * design.tether.length) {
-    report(
-        fmt::format("height_m reaches {:.3g} m, the tether of the spec {:.3g} m; is the height "
-                    "in feet?",
-                    highest, design.tether.length));
+    report(fmt::format(
+        "height_m reaches {:.3g} m, the tether of the spec {:.3g} m; is the height in feet?",
+        highest, design.tether.length));
   }
   if (!log.ambient_temperature_C.empty()) {
     const double ambient = median(log.ambient_temperature_C);

@@ -14,6 +14,7 @@
 #include <numeric>
 #include <utility>
 
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
 
@@ -63,17 +64,17 @@ void demand(bool holds, const char* field, double value, const char* allowed) {
   }
 }
 
+void demand_positive(const char* field, double value) {
+  demand(value > 0 && std::isfinite(value), field, value, "positive");
+}
+
 void validate(const DragFitConditions& conditions, const DragFitOptions& options,
               std::size_t flights) {
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  demand(positive(conditions.mass), "the mass in kg", conditions.mass, "positive");
-  demand(positive(conditions.air_density), "the air density in kg/m³", conditions.air_density,
-         "positive");
-  demand(positive(conditions.gravity), "gravity in m/s²", conditions.gravity, "positive");
-  demand(positive(options.bounds.max_linear_speed), "the largest linear speed in m/s",
-         options.bounds.max_linear_speed, "positive");
-  demand(positive(options.bounds.max_wind), "the largest wind in m/s", options.bounds.max_wind,
-         "positive");
+  demand_positive("the mass in kg", conditions.mass);
+  demand_positive("the air density in kg/m³", conditions.air_density);
+  demand_positive("gravity in m/s²", conditions.gravity);
+  demand_positive("the largest linear speed in m/s", options.bounds.max_linear_speed);
+  demand_positive("the largest wind in m/s", options.bounds.max_wind);
   if (options.start) {
     demand(options.start->wind.size() == flights, "the number of winds to start from",
            static_cast<double>(options.start->wind.size()), "the number of flights");
@@ -96,19 +97,12 @@ void demand_speed_spread(std::span<const Observations> flights) {
   for (const auto& flight : flights) {
     speeds.insert(speeds.end(), flight.forward_speed.begin(), flight.forward_speed.end());
   }
-  const auto quantile = [&speeds](double q) {
-    const auto nth =
-        speeds.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(speeds.size() - 1));
-    std::nth_element(speeds.begin(), nth, speeds.end());
-    return *nth;
-  };
-  const double slow = quantile(0.05);
-  const double fast = quantile(0.95);
+  const double slow = quantile(speeds, 0.05);
+  const double fast = quantile(speeds, 0.95);
   if (fast - slow < smallest_speed_spread) {
     throw UnsuitableFlight(fmt::format(
         "the forward speed stays between {:.2f} and {:.2f} m/s for 90 % of the samples; to tell "
-        "drag "
-        "from wind it must vary by at least {} m/s: fly forward and backward at several tilts",
+        "drag from wind it must vary by at least {} m/s: fly forward and backward at several tilts",
         slow, fast, smallest_speed_spread));
   }
 }
@@ -120,12 +114,6 @@ void demand_speed_spread(std::span<const Observations> flights) {
 struct Gram {
   Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
-
-  Gram& operator+=(const Gram& other) {
-    h += other.h;
-    b += other.b;
-    return *this;
-  }
 };
 
 struct SharedDrag {
@@ -169,28 +157,15 @@ SharedDrag best_shared(const Gram& gram, const std::vector<double>& linear_grid)
 }
 
 Gram gram_at(const Samples& samples, std::size_t stride, double k, double wind) {
-  std::array<double, 10> h{};
-  std::array<double, 4> b{};
+  Gram gram;
   for (std::size_t i = 0; i < samples.size(); i += stride) {
     const Sample& s = samples[i];
     const double u = s.speed - wind;
     const double q = u * std::abs(u);
-    const double x0 = s.cosine * q;
-    const double x1 = s.sine * q;
-    const double x2 = s.cosine * u;
-    const double x3 = s.sine * u;
-    h[0] += x0 * x0, h[1] += x0 * x1, h[2] += x0 * x2, h[3] += x0 * x3;
-    h[4] += x1 * x1, h[5] += x1 * x2, h[6] += x1 * x3;
-    h[7] += x2 * x2, h[8] += x2 * x3;
-    h[9] += x3 * x3;
-    b[0] += x0 * s.observed, b[1] += x1 * s.observed;
-    b[2] += x2 * s.observed, b[3] += x3 * s.observed;
+    const Eigen::Vector4d x(s.cosine * q, s.sine * q, s.cosine * u, s.sine * u);
+    gram.h += x * x.transpose();
+    gram.b += x * (s.observed / k);
   }
-  Gram gram;
-  gram.h << h[0], h[1], h[2], h[3], h[1], h[4], h[5], h[6], h[2], h[5], h[7], h[8], h[3], h[6],
-      h[8], h[9];
-  gram.b << b[0], b[1], b[2], b[3];
-  gram.b /= k;
   return gram;
 }
 
@@ -236,7 +211,10 @@ VectorXd grid_start(const std::vector<Samples>& flights, double k, const DragBou
       20;  // each turn improves the fit, so it settles; in practice in 2 or 3
   for (int turn = 0; turn < most_turns; ++turn) {
     Gram sum;
-    for (std::size_t f = 0; f < flights.size(); ++f) sum += grams[f][chosen[f]];
+    for (std::size_t f = 0; f < flights.size(); ++f) {
+      sum.h += grams[f][chosen[f]].h;
+      sum.b += grams[f][chosen[f]].b;
+    }
     drag = best_shared(sum, linear_speeds);
     const auto before = chosen;
     for (std::size_t f = 0; f < flights.size(); ++f) {
@@ -312,19 +290,22 @@ LocalDrag local(const VectorXd& x, Index flight) {
   return {{x(front), x(top), x(linear), 0}, x(shared + flight)};
 }
 
-/// One row of J and the residual.
+/// One row of J, by A_f, A_t, j and the wind, and the residual.
 struct Row {
-  double front_area;
-  double top_area;
-  double linear_speed;
-  double wind;
+  Eigen::Vector4d slopes;
   double residual;
 };
 
 inline Row row_at(const Sample& s, double k, const LocalDrag& drag) {
   const AirframeDragSlopes d =
       airframe_drag_slopes(drag.law, 2 * k, s.speed - drag.wind, s.cosine, s.sine);
-  return {d.by_front_area, d.by_top_area, d.by_linear_speed, -d.by_airspeed, s.observed - d.force};
+  return {{d.by_front_area, d.by_top_area, d.by_linear_speed, -d.by_airspeed},
+          s.observed - d.force};
+}
+
+/// Where the columns of a flight's rows stand among all parameters.
+std::array<Index, 4> places(std::size_t flight) {
+  return {front, top, linear, shared + static_cast<Index>(flight)};
 }
 
 struct NormalEquations {
@@ -336,30 +317,18 @@ struct NormalEquations {
 NormalEquations normal_equations(const std::vector<Samples>& flights, double k, const VectorXd& x) {
   NormalEquations out{MatrixXd::Zero(x.size(), x.size()), VectorXd::Zero(x.size()), 0};
   for (std::size_t f = 0; f < flights.size(); ++f) {
-    const Index w = shared + static_cast<Index>(f);
     const LocalDrag drag = local(x, static_cast<Index>(f));
-    std::array<double, 10> h{};
-    std::array<double, 4> g{};
-    double sse = 0;
+    Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d g = Eigen::Vector4d::Zero();
     for (const Sample& s : flights[f]) {
       const Row r = row_at(s, k, drag);
-      h[0] += r.front_area * r.front_area, h[1] += r.front_area * r.top_area;
-      h[2] += r.front_area * r.linear_speed, h[3] += r.front_area * r.wind;
-      h[4] += r.top_area * r.top_area, h[5] += r.top_area * r.linear_speed;
-      h[6] += r.top_area * r.wind, h[7] += r.linear_speed * r.linear_speed;
-      h[8] += r.linear_speed * r.wind, h[9] += r.wind * r.wind;
-      g[0] += r.front_area * r.residual, g[1] += r.top_area * r.residual;
-      g[2] += r.linear_speed * r.residual, g[3] += r.wind * r.residual;
-      sse += r.residual * r.residual;
+      h += r.slopes * r.slopes.transpose();
+      g += r.slopes * r.residual;
+      out.sse += r.residual * r.residual;
     }
-    out.h(front, front) += h[0], out.h(top, front) += h[1], out.h(linear, front) += h[2];
-    out.h(top, top) += h[4], out.h(linear, top) += h[5], out.h(linear, linear) += h[7];
-    out.h(w, front) = h[3], out.h(w, top) = h[6], out.h(w, linear) = h[8], out.h(w, w) = h[9];
-    out.g.head<shared>() += Eigen::Vector3d(g[0], g[1], g[2]);
-    out.g(w) = g[3];
-    out.sse += sse;
+    out.h(places(f), places(f)) += h;
+    out.g(places(f)) += g;
   }
-  out.h = out.h.selfadjointView<Eigen::Lower>();
   return out;
 }
 
@@ -479,8 +448,7 @@ void demand_drag(const VectorXd& x) {
   if (x(front) > 0 || x(top) > 0) return;
   throw UnsuitableFlight(
       "the flight shows no drag: the drone accelerates at least as its tilt alone would make it. "
-      "Is "
-      "the pitch positive nose-up, and is the pitch offset right?");
+      "Is the pitch positive nose-up, and is the pitch offset right?");
 }
 
 /// Throws where some combination of the free parameters leaves no trace in the residuals.
@@ -529,9 +497,7 @@ Scores scores_of(const Samples& samples, double k, const LocalDrag& drag) {
   for (const Sample& s : samples) {
     const Row r = row_at(s, k, drag);
     out.residuals.push_back(r.residual);
-    for (double column : {r.front_area, r.top_area, r.linear_speed, r.wind}) {
-      out.rows.push_back(column * r.residual);
-    }
+    for (const double slope : r.slopes) out.rows.push_back(slope * r.residual);
   }
   return out;
 }
@@ -548,19 +514,16 @@ VectorXd differentiation_correction(std::span<const Observations> flights,
   for (std::size_t f = 0; f < flights.size(); ++f) {
     const Observations& flight = flights[f];
     const LocalDrag drag = local(minimum.x, static_cast<Index>(f));
-    std::vector<double> predicted(flight.size());
+    std::vector<double> predicted = flight.forward_acceleration;
     for (std::size_t i = 0; i < flight.size(); ++i) {
-      const Row r = row_at(samples[f][i], k, drag);
-      predicted[i] = flight.forward_acceleration[i] + r.residual;
+      predicted[i] += row_at(samples[f][i], k, drag).residual;
     }
     for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
       const double before = flight.time[i] - flight.time[i - 1];
       const double after = flight.time[i + 1] - flight.time[i];
       if (before > 2 * after || after > 2 * before) continue;
       const double error = (predicted[i - 1] - 2 * predicted[i] + predicted[i + 1]) / 6;
-      const Row r = row_at(samples[f][i], k, drag);
-      pull.head<shared>() += error * Eigen::Vector3d(r.front_area, r.top_area, r.linear_speed);
-      pull(shared + static_cast<Index>(f)) += error * r.wind;
+      pull(places(f)) += error * row_at(samples[f][i], k, drag).slopes;
     }
   }
   return inverse * pull;
@@ -574,11 +537,9 @@ struct Variance {
 };
 
 double quadratic_form(std::span<const double> a, std::span<const double> matrix) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < a.size(); ++j) sum += a[i] * matrix[i * a.size() + j] * a[j];
-  }
-  return sum;
+  const auto size = static_cast<Index>(a.size());
+  const Eigen::Map<const VectorXd> x(a.data(), size);
+  return x.dot(Eigen::Map<const MatrixXd>(matrix.data(), size, size) * x);
 }
 
 Variance variance(const DragFit& fit, std::span<const double> a) {
@@ -601,16 +562,13 @@ AirframeDrag DragFit::drag() const {
 }
 
 double DragFit::correlation(std::size_t i, std::size_t j) const {
-  const std::size_t size = parameters.size();
-  double ij = differentiation_correction[i] * differentiation_correction[j];
-  double ii = differentiation_correction[i] * differentiation_correction[i];
-  double jj = differentiation_correction[j] * differentiation_correction[j];
-  for (const auto& covariance : covariance_by_flight) {
-    ij += covariance[i * size + j];
-    ii += covariance[i * size + i];
-    jj += covariance[j * size + j];
-  }
-  return ii > 0 && jj > 0 ? std::clamp(ij / std::sqrt(ii * jj), -1.0, 1.0) : 0;
+  const auto covariance = [this](std::size_t a, std::size_t b) {
+    double sum = differentiation_correction[a] * differentiation_correction[b];
+    for (const auto& part : covariance_by_flight) sum += part[a * parameters.size() + b];
+    return sum;
+  };
+  const double both = std::sqrt(covariance(i, i) * covariance(j, j));
+  return both > 0 ? std::clamp(covariance(i, j) / both, -1.0, 1.0) : 0;
 }
 
 Estimate propagate(const DragFit& fit, double value, std::span<const double> gradient) {
@@ -684,9 +642,8 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
     const std::size_t terms = cosine_terms(length, effective);
     const auto omega = long_run_covariance(scores.rows, 4, terms);
 
-    const Eigen::Matrix<Index, 4, 1> place(front, top, linear, shared + static_cast<Index>(f));
     MatrixXd middle = MatrixXd::Zero(size, size);
-    middle(place, place) = Eigen::Map<const Eigen::Matrix4d>(omega.data()) * length;
+    middle(places(f), places(f)) = Eigen::Map<const Eigen::Matrix4d>(omega.data()) * length;
     fit.covariance_by_flight.push_back(flatten(inverse * middle * inverse * correction));
     fit.degrees_of_freedom_by_flight.push_back(static_cast<double>(terms));
 
@@ -762,9 +719,8 @@ std::vector<EntangledPair> entangled_pairs(const DragFit& fit) {
 
 double dry_air_density(double pressure, double temperature) {
   constexpr double gas_constant = 287.05287;  // J/(kg·K), ISO 2533:1975
-  demand(pressure > 0 && std::isfinite(pressure), "the pressure in Pa", pressure, "positive");
-  demand(temperature > 0 && std::isfinite(temperature), "the temperature in K", temperature,
-         "positive");
+  demand_positive("the pressure in Pa", pressure);
+  demand_positive("the temperature in K", temperature);
   return pressure / (gas_constant * temperature);
 }
 

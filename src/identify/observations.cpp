@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -66,10 +67,10 @@ double derivative(const std::vector<double>& time, const std::vector<double>& x,
 
 void demand_carrying_thrust(double time, double tilt, double roll) {
   if (std::abs(tilt) <= steepest_angle && std::abs(roll) <= steepest_angle) return;
-  throw UnsuitableFlight(fmt::format(
-      "at {:.3f} s the drone pitches {:.1f}° and rolls {:.1f}°; beyond {:.0f}° thrust no "
-      "longer carries it: choose a range without this part of the log",
-      time, -tilt / unit::degree, roll / unit::degree, steepest_angle / unit::degree));
+  throw UnsuitableFlight(
+      fmt::format("at {:.3f} s the drone pitches {:.1f}° and rolls {:.1f}°; beyond {:.0f}° thrust "
+                  "no longer carries it: choose a range without this part of the log",
+                  time, -tilt / unit::degree, roll / unit::degree, steepest_angle / unit::degree));
 }
 
 void reserve(Observations& out, std::size_t count) {
@@ -85,9 +86,8 @@ void reserve(Observations& out, std::size_t count) {
 double median_step(const std::vector<double>& time) {
   std::vector<double> steps(time.size());
   std::adjacent_difference(time.begin(), time.end(), steps.begin());
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin() + 1, middle, steps.end());
-  return *middle;
+  steps.erase(steps.begin());  // the first time itself
+  return ordered(std::move(steps), time.size() / 2 - 1);
 }
 
 void validate(const FlightLog& log) {
@@ -186,10 +186,10 @@ SampleRange moving_part(const FlightLog& log) {
     if (best.size() == 0 || duration(part) > duration(best)) best = part;
   }
   if (best.size() == 0) {
-    throw UnsuitableFlight(fmt::format(
-        "the drone never flies forward or backward at {} m/s for {} s: there is no drag to "
-        "learn from; give a flight with passes in both directions, or a range",
-        moving_speed, moving_duration));
+    throw UnsuitableFlight(
+        fmt::format("the drone never flies forward or backward at {} m/s for {} s: there is no "
+                    "drag to learn from; give a flight with passes in both directions, or a range",
+                    moving_speed, moving_duration));
   }
   return best;
 }
@@ -200,14 +200,13 @@ double pitch_offset_from_hover(const FlightLog& hover) {
   std::vector<double> speeds(size);
   for (std::size_t i = 0; i < size; ++i) speeds[i] = std::abs(forward_speed(hover, i));
   // The way to the place of hover and back may be part of it.
-  const auto typical =
-      speeds.begin() + static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(size));
-  std::nth_element(speeds.begin(), typical, speeds.end());
-  if (*typical > fastest_hover) {
+  const double typical =
+      ordered(std::move(speeds), static_cast<std::size_t>(0.8 * static_cast<double>(size)));
+  if (typical > fastest_hover) {
     throw UnsuitableFlight(
         fmt::format("is no hover: a fifth of the time the drone flies forward or backward at more "
                     "than {:.1f} m/s, leaning as it does; its mean pitch is no offset",
-                    *typical));
+                    typical));
   }
   return std::accumulate(hover.pitch.begin(), hover.pitch.end(), 0.0) /
          static_cast<double>(hover.pitch.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace tethercalc {
@@ -12,12 +13,23 @@ namespace tethercalc {
 /// Median absolute deviation of a normal distribution over its standard deviation, inverted.
 inline constexpr double mad_to_sigma = 1.4826;
 
+/// The element at `place` of the sorted series.
+[[nodiscard]] inline double ordered(std::vector<double> values, std::size_t place) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 /// The median, of an even number the upper one; 0 of none.
 [[nodiscard]] inline double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const std::size_t middle = values.size() / 2;
+  return values.empty() ? 0 : ordered(std::move(values), middle);
+}
+
+/// What `part` of the values, in [0, 1], lie at or below; of at least one value.
+[[nodiscard]] inline double quantile(std::vector<double> values, double part) {
+  const auto place = static_cast<std::size_t>(part * static_cast<double>(values.size() - 1));
+  return ordered(std::move(values), place);
 }
 
 /// Element by element.
