@@ -127,10 +127,10 @@ int run_init(const Output& output) {
 }
 
 int run_list(const std::string& what, const Output& output) {
-  const LibraryListing listing = list_library(what);
+  const nlohmann::ordered_json entries = library_json(what);
   emit(
-      output, [&] { return listing_text(listing, style_for(output)); },
-      [&] { return listing_json(listing); }, [&] { return listing_csv(listing); });
+      output, [&] { return library_text(entries, style_for(output)); }, [&] { return entries; },
+      [&] { return library_csv(entries); });
   return done;
 }
 
