@@ -175,29 +175,46 @@ double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& w
 }
 
 /// Wald's statistic with the jackknife covariance, referred to Hotelling's distribution for as many
-/// blocks. Where all parameters rest on a bound, and so do not vary between blocks, the held-out
-/// errors of the blocks are compared by Student's test instead.
+/// blocks, in the quantities that enter the prediction linearly. Where all parameters rest on a
+/// bound, and so do not vary between blocks, the held-out errors of the blocks are compared by
+/// Student's test instead.
 double Search::wald_p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
-  std::vector<Index> columns;
+  const auto column_of = [&with](std::size_t parameter) {
+    return std::find(with.active.begin(), with.active.end(), parameter) - with.active.begin();
+  };
+  const auto active = static_cast<Index>(with.active.size());
   std::vector<double> distance;
+  std::vector<VectorXd> without_block;
   for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
     const std::size_t index = record_.first_parameter(g) + k;
     const ModelParameter& p = record_.parameters()[index];
-    const auto column = std::find(with.active.begin(), with.active.end(), index);
-    if (p.shape_only || column == with.active.end()) continue;
-    columns.push_back(column - with.active.begin());
+    const Index column = column_of(index);
+    if (p.shape_only || column == active) continue;
     distance.push_back((with.values[index] - p.neutral) / p.scale);
+    without_block.push_back(with.left_out.row(column).transpose());
+    if (!p.product_with) continue;
+    const double other = with.values[*p.product_with];
+    const Index other_column = column_of(*p.product_with);
+    without_block.back() *= other;
+    if (other_column != active) {
+      without_block.back() += distance.back() * record_.parameters()[*p.product_with].scale *
+                              with.left_out.row(other_column).transpose();
+    }
+    distance.back() *= other;
   }
-  if (columns.empty()) {
+  if (distance.empty()) {
     const BlockDifference gain = difference(without.block_error, with.block_error);
     return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
   }
-  const VectorXd offset = VectorXd::Map(distance.data(), static_cast<Index>(distance.size()));
-  const MatrixXd covariance = jackknife_covariance(with, columns);
+  const auto count = static_cast<Index>(distance.size());
+  MatrixXd spread(count, static_cast<Index>(record_.blocks()));
+  for (Index k = 0; k < count; ++k) spread.row(k) = without_block[static_cast<std::size_t>(k)];
+  const VectorXd offset = VectorXd::Map(distance.data(), count);
+  const MatrixXd covariance = jackknife_covariance(std::move(spread));
   const double t2 = offset.dot(covariance.completeOrthogonalDecomposition().solve(offset));
-  const auto count = static_cast<double>(columns.size());
-  const double denominator = degrees_ + 1 - count;
-  return fisher_p_value(t2 / count * denominator / degrees_, count, denominator);
+  const auto numerator = static_cast<double>(count);
+  const double denominator = degrees_ + 1 - numerator;
+  return fisher_p_value(t2 / numerator * denominator / degrees_, numerator, denominator);
 }
 
 Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit with,
