@@ -51,7 +51,7 @@ TEST_CASE("climbing harder and rolling raise the thrust and with it the expected
   for (std::size_t i = 0; i < 20; ++i) {
     log.pitch[i] = 0.1;
     log.roll[i] = -0.3;
-    log.down_velocity[i] = -2 * log.time[i];  // accelerating upward
+    log.down_velocity[i] = -2 * (log.time[i] - log.time[0]);  // accelerating upward
   }
   const Observations o = observe(log, whole(log), 0, 9.81);
   CHECK(o.down_acceleration[3] == Approx(-2));
