@@ -73,14 +73,6 @@ void demand_carrying_thrust(double time, double tilt, double roll) {
                   time, -tilt / unit::degree, roll / unit::degree, steepest_angle / unit::degree));
 }
 
-void reserve(Observations& out, std::size_t count) {
-  for (auto* series : {&out.time, &out.tilt, &out.roll, &out.yaw, &out.forward_speed,
-                       &out.right_speed, &out.down_speed, &out.forward_acceleration,
-                       &out.down_acceleration, &out.expected_acceleration}) {
-    series->reserve(count);
-  }
-}
-
 }  // namespace
 
 double median_step(const std::vector<double>& time) {
@@ -239,7 +231,6 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
   };
 
   Observations out;
-  reserve(out, range.size());
   for (std::size_t i = range.first; i < range.last; ++i) {
     const Neighbours use{i > 0 && connected(i - 1), i + 1 < size && connected(i)};
     if (!use.before && !use.after) continue;

@@ -59,16 +59,9 @@ TetherHeat::Surfaces TetherHeat::surfaces_like(const Surfaces& others) const {
 }
 
 std::optional<TetherTemperatures> TetherHeat::temperatures(double current) const {
-  Surfaces unknown;
-  return temperatures(current, unknown);
-}
-
-std::optional<TetherTemperatures> TetherHeat::temperatures(double current, Surfaces& near) const {
-  Surfaces surfaces = near.in_air.heat_slope > 0 ? surfaces_like(near) : cold_surfaces();
+  Surfaces surfaces = cold_surfaces();
   const auto warm = warmed(current, surfaces);
-  if (!warm) return std::nullopt;
-  near = surfaces;
-  return warm->temperatures;
+  return warm ? std::optional(warm->temperatures) : std::nullopt;
 }
 
 std::optional<TetherHeat::Warm> TetherHeat::warmed(double current, Surfaces& surfaces) const {

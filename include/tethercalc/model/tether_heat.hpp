@@ -54,11 +54,6 @@ class TetherHeat {
   /// `highest_conductor_temperature_C`.
   [[nodiscard]] std::optional<TetherTemperatures> temperatures(double current) const;
 
-  /// The same, sooner from the surfaces of about this cable, flight and current; those found take
-  /// their place. Surfaces at 0 W/m·K are of nothing known.
-  [[nodiscard]] std::optional<TetherTemperatures> temperatures(
-      double current, TetherHeatState::Surfaces& near) const;
-
   /// Resistance of the loop in Ω at these temperatures.
   [[nodiscard]] double resistance(const TetherTemperatures& temperatures) const;
 
