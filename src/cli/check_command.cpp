@@ -1,13 +1,8 @@
-#include "cli/check_command.hpp"
+#include "cli/commands.hpp"
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <span>
 #include <string_view>
-#include <system_error>
-#include <utility>
 
 #include "files/text_file.hpp"
 #include "files/whole_file.hpp"

@@ -3,22 +3,10 @@
 #include "cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <cstdio>
 #include <functional>
 #include <map>
-#include <memory>
-#include <span>
 
-#include "cli/check_command.hpp"
-#include "cli/design_commands.hpp"
-#include "cli/design_search_commands.hpp"
-#include "cli/diagnose_command.hpp"
-#include "cli/log_commands.hpp"
-#include "cli/output.hpp"
-#include "cli/plot_command.hpp"
-#include "cli/report_command.hpp"
-#include "cli/sweep_command.hpp"
+#include "cli/commands.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
 
@@ -42,20 +30,28 @@ Format parse_format(const std::string& text) {
                          did_you_mean(text, names));
 }
 
+void add_output_file(CLI::App& command, Output& output) {
+  command.add_option("--output", output.file, "Write to this file, whole or not at all");
+}
+
 /// Adds --format and --output.
 void add_output(CLI::App& command, Output& output) {
   command.add_option_function<std::string>(
       "--format", [&output](const std::string& text) { output.format = parse_format(text); },
       "table (default), json or csv");
-  command.add_option("--output", output.file, "Write to this file, whole or not at all");
+  add_output_file(command, output);
+}
+
+/// An option that takes one value, each time it is given.
+void add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
+                    const std::string& help) {
+  command.add_option(name, values, help)->allow_extra_args(false);
 }
 
 void add_spec(CLI::App& command, SpecOptions& spec) {
   command.add_option("SPEC", spec.file, "Design spec (JSON), - for standard input")->required();
-  command
-      .add_option("--set", spec.overrides,
-                  "Change a field of the spec: path=value, such as supply.voltage_V=60; repeatable")
-      ->allow_extra_args(false);
+  add_repeatable(command, "--set", spec.overrides,
+                 "Change a field of the spec: path=value, such as supply.voltage_V=60; repeatable");
 }
 
 /// The options that say which part of a flight counts and what is known about it.
@@ -78,7 +74,16 @@ void add_comma_list(CLI::App& command, const std::string& name, std::vector<std:
   command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
 }
 
-constexpr const char* base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]";
+/// The options that name measured logs and say how to look at them.
+void add_logs(
+    CLI::App& command, DiagnoseOptions& logs, const std::string& flight_help,
+    const std::string& power_help,
+    const std::string& base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]") {
+  command.add_option("--flight", logs.flight_log, flight_help);
+  command.add_option("--power", logs.power_log, power_help);
+  add_comma_list(command, "--base", logs.base, base_help);
+  add_flight(command, logs.flight);
+}
 
 std::vector<double> parse_areas(const std::vector<std::string>& texts) {
   std::vector<double> areas;
@@ -156,19 +161,17 @@ class CommandLine {
   }
 
   void add_evaluate() {
-    CLI::App& command = add(
-        "evaluate", "Operating points in hover and forward flight at given cross-sections", [this] {
-          return run_evaluate({spec_, parse_areas(areas_)}, output_);
-        });
+    CLI::App& command =
+        add("evaluate", "Operating points in hover and forward flight at given cross-sections",
+            [this] { return run_evaluate(spec_, parse_areas(areas_), output_); });
     add_spec(command, spec_);
     add_comma_list(command, "--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]");
     add_output(command, output_);
   }
 
   void add_compare() {
-    CLI::App& command = add("compare", "One optimum a motor, the most economical first", [this] {
-      return run_compare({spec_, motors_}, output_);
-    });
+    CLI::App& command = add("compare", "One optimum a motor, the most economical first",
+                            [this] { return run_compare(spec_, motors_, output_); });
     add_spec(command, spec_);
     add_comma_list(command, "--motors", motors_,
                    "all, or names of the library and files, separated by commas (default: all)");
@@ -180,11 +183,9 @@ class CommandLine {
         add("sweep", "One row a design, for every combination or a sample of values",
             [this] { return run_sweep(sweep_); });
     add_spec(command, sweep_.spec);
-    command
-        .add_option("--vary", sweep_.varied,
-                    "path=from:to:step, path=a,b,c or path=all; in a sample also path=lo..hi "
-                    "(uniform) and path=mean~sd (normal); repeatable, the last changes fastest")
-        ->allow_extra_args(false);
+    add_repeatable(command, "--vary", sweep_.varied,
+                   "path=from:to:step, path=a,b,c or path=all; in a sample also path=lo..hi "
+                   "(uniform) and path=mean~sd (normal); repeatable, the last changes fastest");
     command.add_option("--sample", sweep_.sample, "Draw N designs instead of every combination");
     command.add_option("--method", sweep_.method, "sobol (default) or lhs, a Latin hypercube");
     command.add_option("--seed", sweep_.seed, "Of the sample (default 0)");
@@ -210,17 +211,13 @@ class CommandLine {
     CLI::App& command = add("design", "The best whole design among those that free fields allow",
                             [this] { return run_design(spec_, request_, output_); });
     add_spec(command, spec_);
-    command
-        .add_option(
-            "--free", request_.free,
-            "A field the search may change: PATH=lo..hi, or what --vary of sweep takes; repeatable")
-        ->allow_extra_args(false);
+    add_repeatable(
+        command, "--free", request_.free,
+        "A field the search may change: PATH=lo..hi, or what --vary of sweep takes; repeatable");
     command.add_option("--minimize", request_.minimize,
                        "Key of a result or path of a field (default: total_power_W)");
-    command
-        .add_option("--subject-to", request_.subject_to,
-                    "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable")
-        ->allow_extra_args(false);
+    add_repeatable(command, "--subject-to", request_.subject_to,
+                   "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable");
     command.add_option("--standard", request_.standard,
                        "awg or iec: the cross-section is one of these sizes");
     add_comma_list(command, "--pareto", request_.pareto, "KEY,KEY: the front of two quantities");
@@ -231,15 +228,10 @@ class CommandLine {
   void add_envelope() {
     CLI::App& command =
         add("envelope", "How high, how heavy, how fast and in how much wind a given cable flies",
-            [this] {
-              const std::vector<double> areas = parse_areas(areas_);
-              return run_envelope({spec_, areas}, output_);
-            });
+            [this] { return run_envelope(spec_, parse_areas(areas_), output_); });
     add_spec(command, spec_);
-    command
-        .add_option("--area-mm2", areas_,
-                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
-        ->allow_extra_args(false);
+    add_repeatable(command, "--area-mm2", areas_,
+                   "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)");
     add_output(command, output_);
   }
 
@@ -247,21 +239,21 @@ class CommandLine {
     CLI::App& command = add("validate", "Check specs without computing anything",
                             [this] { return run_validate(files_, spec_.overrides, output_); });
     command.add_option("SPEC", files_, "Design specs (JSON), - for standard input")->required();
-    command.add_option("--set", spec_.overrides, "Change a field first: path=value; repeatable")
-        ->allow_extra_args(false);
+    add_repeatable(command, "--set", spec_.overrides,
+                   "Change a field first: path=value; repeatable");
     add_output(command, output_);
   }
 
   void add_schema() {
     CLI::App& command = add("schema", "The JSON Schema of design specs, for editors",
                             [this] { return run_schema(output_); });
-    command.add_option("--output", output_.file, "Write to this file, whole or not at all");
+    add_output_file(command, output_);
   }
 
   void add_init() {
     CLI::App& command =
         add("init", "A starting spec to edit", [this] { return run_init(output_); });
-    command.add_option("--output", output_.file, "Write to this file, whole or not at all");
+    add_output_file(command, output_);
   }
 
   void add_list() {
@@ -273,10 +265,10 @@ class CommandLine {
 
   void add_drag() {
     CLI::App& command = add("drag", "The drone's drag, learned from its own flight logs",
-                            [this] { return run_drag(drag_, output_); });
-    command.add_option("LOG", drag_.logs, "Flight logs: DataFlash (.bin) or CSV")->required();
-    add_flight(command, drag_.flight);
-    command.add_option("--into", drag_.into,
+                            [this] { return run_drag(files_, flight_, what_, output_); });
+    command.add_option("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")->required();
+    add_flight(command, flight_);
+    command.add_option("--into", what_,
                        "Print this spec with its drag replaced, instead of the fit");
     add_output(command, output_);
   }
@@ -284,20 +276,16 @@ class CommandLine {
   void add_diagnose() {
     CLI::App& command =
         add("diagnose", "What the simulation of a measured flight gets wrong, and why", [this] {
-          diagnose_.spec = spec_;
-          diagnose_.into = diagnose_into_->count() > 0;
+          diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;
           return run_diagnose(diagnose_, output_);
         });
-    add_spec(command, spec_);
-    command.add_option("--flight", diagnose_.flight_log, "Flight log: DataFlash (.bin) or CSV");
-    command.add_option("--power", diagnose_.power_log, "Power log (CSV)");
-    add_comma_list(command, "--base", diagnose_.base, base_help);
-    add_flight(command, diagnose_.flight);
-    diagnose_into_ = command
-                         .add_option("--into", diagnose_.into_file,
-                                     "Write the extended spec to this file; without a name print "
-                                     "it instead of the diagnosis")
-                         ->expected(0, 1);
+    add_spec(command, diagnose_.spec);
+    add_logs(command, diagnose_, "Flight log: DataFlash (.bin) or CSV", "Power log (CSV)");
+    command
+        .add_option("--into", diagnose_.into_file,
+                    "Write the extended spec to this file; without a name print it instead of the "
+                    "diagnosis")
+        ->expected(0, 1);
     add_output(command, output_);
   }
 
@@ -310,13 +298,16 @@ class CommandLine {
   }
 
   void add_plot() {
-    CLI::App& command =
-        add("plot", "A figure of a result, drawn by gnuplot", [this] { return run_plot(plot_); });
+    CLI::App& command = add("plot", "A figure of a result, drawn by gnuplot", [this] {
+      for (const CLI::Option* option : app_.get_subcommand("plot")->get_options()) {
+        if (option->count() > 0) plot_.given.push_back(option->get_name());
+      }
+      return run_plot(plot_);
+    });
     command.add_option("KIND", plot_.kind, plot_kinds_help())->required();
     command.add_option("FILE", plot_.files, "What it is drawn from")->required();
-    command
-        .add_option("--set", plot_.overrides, "Change a field of the spec: path=value; repeatable")
-        ->allow_extra_args(false);
+    add_repeatable(command, "--set", plot_.made_of.spec.overrides,
+                   "Change a field of the spec: path=value; repeatable");
     command.add_option("--output", plot_.output,
                        "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
                        "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
@@ -332,26 +323,18 @@ class CommandLine {
     command.add_option("--y", plot_.y, "sweep: the varied field along the vertical axis");
     command.add_option("--value", plot_.value,
                        "sweep: the column shown (default: forward.total_power_W)");
-    command.add_option("--flight", plot_.flight_log, "diagnosis: the flight log");
-    command.add_option("--power", plot_.power_log, "diagnosis: the power log");
-    add_comma_list(command, "--base", plot_.base,
-                   "diagnosis: effects taken as part of the base model");
-    add_flight(command, plot_.flight);
+    add_logs(command, plot_.made_of, "diagnosis: the flight log", "diagnosis: the power log",
+             "diagnosis: effects taken as part of the base model");
   }
 
   void add_report() {
     CLI::App& command =
-        add("report", "One page with everything about a design, to be mailed or printed", [this] {
-          diagnose_.spec = spec_;
-          return run_report(diagnose_, shell_command(arguments_), output_);
-        });
-    add_spec(command, spec_);
-    command.add_option("--flight", diagnose_.flight_log,
-                       "With what this flight log says: DataFlash (.bin) or CSV");
-    command.add_option("--power", diagnose_.power_log, "With what this power log says (CSV)");
-    add_comma_list(command, "--base", diagnose_.base, base_help);
-    add_flight(command, diagnose_.flight);
-    command.add_option("--output", output_.file, "Write to this file, whole or not at all");
+        add("report", "One page with everything about a design, to be mailed or printed",
+            [this] { return run_report(diagnose_, shell_command(arguments_), output_); });
+    add_spec(command, diagnose_.spec);
+    add_logs(command, diagnose_, "With what this flight log says: DataFlash (.bin) or CSV",
+             "With what this power log says (CSV)");
+    add_output_file(command, output_);
   }
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
@@ -400,9 +383,8 @@ class CommandLine {
   DesignRequest request_;
   std::vector<std::string> files_;
   std::string what_;
-  DragOptions drag_;
+  FlightOptions flight_;
   DiagnoseOptions diagnose_;
-  CLI::Option* diagnose_into_ = nullptr;
   std::span<const char* const> arguments_;  ///< what was typed, the program's name first
   std::string message_;
   PlotOptions plot_;

@@ -1,20 +1,29 @@
-#include "cli/design_commands.hpp"
-
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include "cli/commands.hpp"
 
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/report/design_report.hpp"
+#include "tethercalc/report/envelope_report.hpp"
 #include "tethercalc/report/library_report.hpp"
 #include "tethercalc/report/optimize_report.hpp"
 
 namespace tethercalc::cli {
 namespace {
 
-DesignFile read(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
+/// The cross-sections that were given in mm², or else the spec's own; in m².
+std::vector<double> chosen_areas(const std::vector<double>& areas_mm2, const Design& design) {
+  if (areas_mm2.empty() && !design.tether.cross_section) {
+    throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
+  }
+  if (areas_mm2.empty()) return {*design.tether.cross_section};
+  std::vector<double> areas;
+  for (const double area : areas_mm2) areas.push_back(area * unit::square_millimetre);
+  return areas;
+}
 
 }  // namespace
+
+DesignFile read_spec(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
 
 std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
   std::vector<MotorEntry> motors;
@@ -35,7 +44,7 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
 }
 
 int run_optimize(const SpecOptions& spec, const Output& output) {
-  const DesignFile file = read(spec);
+  const DesignFile file = read_spec(spec);
   const OptimumStudy answer = study_optimum(file.design, wire_sizes());
   emit(
       output, [&] { return optimize_text(file, answer, style_for(output)); },
@@ -43,31 +52,48 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
   return answer.result.feasible ? done : answer_is_no;
 }
 
-int run_evaluate(const EvaluateOptions& options, const Output& output) {
-  const DesignFile file = read(options.spec);
-  std::vector<double> areas;
-  for (const double area : options.areas_mm2) areas.push_back(area * unit::square_millimetre);
-  if (areas.empty()) {
-    if (!file.design.tether.cross_section) {
-      throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
-    }
-    areas.push_back(*file.design.tether.cross_section);
-  }
-  const std::vector<AreaPoints> table = evaluate_areas(file.design, areas);
+int run_evaluate(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+                 const Output& output) {
+  const DesignFile file = read_spec(spec);
+  const std::vector<AreaPoints> table =
+      evaluate_areas(file.design, chosen_areas(areas_mm2, file.design));
   emit(
       output, [&] { return evaluate_text(file, table, style_for(output)); },
       [&] { return evaluate_json(file, table); }, [&] { return evaluate_csv(table); });
   return done;
 }
 
-int run_compare(const CompareOptions& options, const Output& output) {
-  const DesignFile file = read(options.spec);
-  const std::vector<MotorOptimum> ranking =
-      compare_motors(file.design, chosen_motors(options.motors));
+int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
+                const Output& output) {
+  const DesignFile file = read_spec(spec);
+  const std::vector<MotorOptimum> ranking = compare_motors(file.design, chosen_motors(motors));
   emit(
       output, [&] { return compare_text(file, ranking, style_for(output)); },
       [&] { return compare_json(file, ranking); }, [&] { return compare_csv(ranking); });
   return !ranking.empty() && ranking.front().result.feasible ? done : answer_is_no;
+}
+
+int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output) {
+  const DesignFile file = read_spec(spec);
+  const DesignStudy answer = study_design(read_design_request(file, request));
+  emit(
+      output, [&] { return design_text(file, request, answer, style_for(output)); },
+      [&] { return design_json(file, request, answer); },
+      [&] { return design_csv(request, answer); });
+  return answer.answer.feasible ? done : answer_is_no;
+}
+
+int run_envelope(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+                 const Output& output) {
+  DesignFile file = read_spec(spec);
+  if (areas_mm2.size() > 1)
+    throw InputError("--area-mm2", "an envelope is that of one cross-section");
+  file.design.tether.cross_section = chosen_areas(areas_mm2, file.design).front();
+  const EnvelopeStudy answer = study_envelope(file.design);
+  emit(
+      output, [&] { return envelope_text(file, answer, style_for(output)); },
+      [&] { return envelope_json(file, answer); }, [&] { return envelope_csv(answer); });
+  return answer.any() ? done : answer_is_no;
 }
 
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
@@ -101,10 +127,10 @@ int run_init(const Output& output) {
 }
 
 int run_list(const std::string& what, const Output& output) {
-  const LibraryListing listing = list_library(what);
+  const nlohmann::ordered_json entries = library_json(what);
   emit(
-      output, [&] { return listing_text(listing, style_for(output)); },
-      [&] { return listing_json(listing); }, [&] { return listing_csv(listing); });
+      output, [&] { return library_text(entries, style_for(output)); }, [&] { return entries; },
+      [&] { return library_csv(entries); });
   return done;
 }
 

@@ -1,4 +1,4 @@
-#include "cli/diagnose_command.hpp"
+#include "cli/commands.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -154,8 +154,7 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   check_into(options);
-  const ToldDiagnosis told =
-      diagnose_logs(options, read_design(options.spec.file, options.spec.overrides));
+  const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
     emit(output, json_text(told.extended));
     return done;

@@ -1,4 +1,4 @@
-#include "cli/log_commands.hpp"
+#include "cli/commands.hpp"
 
 #include <fmt/format.h>
 
@@ -100,21 +100,15 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
   }
 }
 
-int run_drag(const DragOptions& options, const Output& output) {
-  const DragIdentificationOptions identification = identification_options(options.flight);
-  const std::vector<FlightLog> logs = read_flight_logs(options.logs, options.flight.core);
-  DragIdentification result;
-  try {
-    result = identify_drag(logs, identification);
-  } catch (const UnsuitableFlight& error) {
-    throw InputError(options.logs.size() == 1 ? options.logs.front() : "drag", error.what());
-  }
-  tell_assumptions(options.flight, identification);
-  if (!options.into.empty()) {
+int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
+             const std::string& into, const Output& output) {
+  const DragIdentification result = studied_drag("", logs, flight).identified;
+  tell_assumptions(flight, result.options);
+  if (!into.empty()) {
     for (const std::string& warning : drag_warnings(result.fit)) {
       fmt::print(stderr, "drag: {}\n", warning);
     }
-    emit(output, spec_with_drag(options.into, result.fit));
+    emit(output, spec_with_drag(into, result.fit));
     return done;
   }
   emit(

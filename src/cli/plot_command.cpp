@@ -1,5 +1,6 @@
-#include "cli/plot_command.hpp"
+#include "cli/commands.hpp"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -7,9 +8,8 @@
 #include <array>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
-#include "cli/diagnose_command.hpp"
-#include "cli/log_commands.hpp"
 #include "files/mapped_file.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/gnuplot.hpp"
@@ -29,29 +29,26 @@ std::string heading(const PlotOptions& options, std::string otherwise) {
   return options.title.empty() ? std::move(otherwise) : options.title;
 }
 
-DesignFile read_spec(const PlotOptions& options) {
-  DesignFile file = read_design(options.files.front(), options.overrides);
+DesignFile titled_spec(const PlotOptions& options) {
+  DesignFile file = read_spec({options.files.front(), options.made_of.spec.overrides});
   file.name = heading(options, file.name);
   return file;
 }
 
 Figure optimum(const PlotOptions& options) {
-  const DesignFile file = read_spec(options);
+  const DesignFile file = titled_spec(options);
   const OptimumStudy study = study_optimum(file.design, wire_sizes());
   return optimum_figure(file.name, study, area_curve(study));
 }
 
 Figure motors(const PlotOptions& options) {
-  const DesignFile file = read_spec(options);
-  const std::vector<std::string> all{"all"};
-  return motors_figure(
-      file,
-      compare_motors(file.design, chosen_motors(options.motors.empty() ? all : options.motors)));
+  const DesignFile file = titled_spec(options);
+  return motors_figure(file, compare_motors(file.design, chosen_motors(options.motors)));
 }
 
 Figure log(const PlotOptions& options) {
   const std::string& file = options.files.front();
-  FlightOptions flight = options.flight;
+  FlightOptions flight = options.made_of.flight;
   if (!flight.mass_g) flight.mass_g = 1000;  // accelerations do not depend on it
   try {
     return log_figure(heading(options, base_name(file)),
@@ -74,23 +71,18 @@ Figure drag(const PlotOptions& options) {
   const std::string name = options.files.size() == 1
                                ? base_name(options.files.front())
                                : std::to_string(options.files.size()) + " flights";
-  const DragStudy fitted = studied_drag(heading(options, name), options.files, options.flight);
+  const DragStudy fitted =
+      studied_drag(heading(options, name), options.files, options.made_of.flight);
   return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
 }
 
 Figure diagnosis(const PlotOptions& options) {
-  DiagnoseOptions how;
-  how.spec = {options.files.front(), options.overrides};
-  how.flight_log = options.flight_log;
-  how.power_log = options.power_log;
-  how.base = options.base;
-  how.flight = options.flight;
+  const DiagnoseOptions& how = options.made_of;
   if (how.flight_log.empty() == how.power_log.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }
   const std::string& log = how.power_log.empty() ? how.flight_log : how.power_log;
-  const ToldDiagnosis told =
-      diagnose_logs(how, read_design(options.files.front(), options.overrides));
+  const ToldDiagnosis told = diagnose_logs(how, titled_spec(options));
   try {
     return diagnosis_figure(heading(options, base_name(log)),
                             told.flight ? *told.flight : *told.power);
@@ -140,39 +132,33 @@ const Kind& find_kind(const std::string& name) {
 
 /// An option that belongs to other kinds of figures was meant for something.
 void check_options(const PlotOptions& options) {
-  struct Option {
-    std::string_view name;
-    bool given;
-    std::string_view kinds;
-  };
   constexpr std::string_view designs = "optimum, motors, diagnosis";
   constexpr std::string_view flights = "log, drag, diagnosis";
-  const FlightOptions& flight = options.flight;
-  const std::array table{
-      Option{"--set", !options.overrides.empty(), designs},
-      Option{"--motors", !options.motors.empty(), "motors"},
-      Option{"--view", !options.view.empty(), "drag"},
-      Option{"--flight", !options.flight_log.empty(), "diagnosis"},
-      Option{"--power", !options.power_log.empty(), "diagnosis"},
-      Option{"--base", !options.base.empty(), "diagnosis"},
-      Option{"--x", !options.x.empty(), "sweep"},
-      Option{"--y", !options.y.empty(), "sweep"},
-      Option{"--value", !options.value.empty(), "sweep"},
-      Option{"--mass-g", flight.mass_g.has_value(), flights},
-      Option{"--from", !flight.from.empty(), flights},
-      Option{"--to", !flight.to.empty(), flights},
-      Option{"--pitch-offset-deg", flight.pitch_offset_deg.has_value(), flights},
-      Option{"--trim-log", !flight.trim_log.empty(), flights},
-      Option{"--air-density", flight.air_density_kg_m3.has_value(), flights},
-      Option{"--pressure-hPa", flight.pressure_hPa.has_value(), flights},
-      Option{"--temperature-C", flight.temperature_C.has_value(), flights},
-  };
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> takers{
+      {{"--set", designs},
+       {"--motors", "motors"},
+       {"--view", "drag"},
+       {"--flight", "diagnosis"},
+       {"--power", "diagnosis"},
+       {"--base", "diagnosis"},
+       {"--x", "sweep"},
+       {"--y", "sweep"},
+       {"--value", "sweep"},
+       {"--mass-g", flights},
+       {"--from", flights},
+       {"--to", flights},
+       {"--pitch-offset-deg", flights},
+       {"--trim-log", flights},
+       {"--air-density", flights},
+       {"--pressure-hPa", flights},
+       {"--temperature-C", flights}}};
   std::vector<InputProblem> problems;
-  for (const Option& option : table) {
-    if (option.given && option.kinds.find(options.kind) == std::string_view::npos) {
-      problems.push_back({std::string(option.name), "is an option of the figures " +
-                                                        std::string(option.kinds) + ", not of " +
-                                                        options.kind});
+  for (const auto& [name, takes] : takers) {
+    const bool given = std::count(options.given.begin(), options.given.end(), name) > 0;
+    if (given && takes.find(options.kind) == std::string_view::npos) {
+      problems.push_back(
+          {std::string(name),
+           fmt::format("is an option of the figures {}, not of {}", takes, options.kind)});
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));

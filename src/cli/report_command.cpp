@@ -1,9 +1,8 @@
-#include "cli/report_command.hpp"
+#include "cli/commands.hpp"
 
 #include <string_view>
 #include <utility>
 
-#include "cli/log_commands.hpp"
 #include "tethercalc/files/gnuplot.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -35,7 +34,7 @@ std::string shell_word(std::string_view word) {
 }  // namespace
 
 int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {
-  const DesignFile file = read_design(options.spec.file, options.spec.overrides);
+  const DesignFile file = read_spec(options.spec);
   PageContent content;
   content.file = file;
   content.command = command;

@@ -1,4 +1,4 @@
-#include "cli/sweep_command.hpp"
+#include "cli/commands.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -305,7 +305,7 @@ int run_sweep(const SweepOptions& options) {
   check_options(options);
   const RowFormat format = row_format(options.format);
   const Shard shard = parsed_shard(options.shard);
-  const DesignFile base = read_design(options.spec.file, options.spec.overrides);
+  const DesignFile base = read_spec(options.spec);
   const SweepSpace space = make_space(options, base);
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 

@@ -351,11 +351,14 @@ MatrixXd group_slopes(const Record& record, std::size_t group, const std::vector
   return slopes;
 }
 
+MatrixXd jackknife_covariance(MatrixXd left_out) {
+  const auto blocks = static_cast<double>(left_out.cols());
+  left_out.colwise() -= left_out.rowwise().mean().eval();
+  return (blocks - 1) / blocks * left_out * left_out.transpose();
+}
+
 MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Index>& of) {
-  const auto blocks = static_cast<double>(fit.left_out.cols());
-  MatrixXd deviation = fit.left_out(of, Eigen::all);
-  deviation.colwise() -= deviation.rowwise().mean().eval();
-  return (blocks - 1) / blocks * deviation * deviation.transpose();
+  return jackknife_covariance(fit.left_out(of, Eigen::all));
 }
 
 }  // namespace tethercalc

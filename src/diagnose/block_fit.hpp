@@ -83,6 +83,10 @@ struct BlockFit {
 [[nodiscard]] Eigen::MatrixXd group_slopes(const Record& record, std::size_t group,
                                            const std::vector<double>& values);
 
+/// Covariance of some quantities by the delete-a-block jackknife, from their values (up to a
+/// constant) without each block: one row a quantity, one column a block.
+[[nodiscard]] Eigen::MatrixXd jackknife_covariance(Eigen::MatrixXd left_out);
+
 /// Covariance of the parameters `of` (columns of the jacobian) by the delete-a-block jackknife.
 [[nodiscard]] Eigen::MatrixXd jackknife_covariance(const BlockFit& fit,
                                                    const std::vector<Eigen::Index>& of);

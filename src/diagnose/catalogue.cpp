@@ -84,7 +84,8 @@ std::vector<Effect> flight_effects() {
                        .lower = 0,
                        .upper = 1000,
                        .scale = 5,
-                       .spec_field = "drone.drag.linear_m_s"}},
+                       .spec_field = "drone.drag.linear_m_s",
+                       .product_with = "front_area_m2"}},
        .to_separate =
            "fly at speeds from a walk to the fastest, so that linear and quadratic drag part",
        .change = "F_D: u|u| → u|u| + j·u",
@@ -158,7 +159,8 @@ std::vector<Effect> flight_effects() {
                        .lower = -0.95,
                        .upper = 0.95,
                        .scale = 0.05,
-                       .spec_field = "drone.drag.fore_aft_asymmetry"}},
+                       .spec_field = "drone.drag.fore_aft_asymmetry",
+                       .product_with = "front_area_m2"}},
        .to_separate =
            "fly the same passes at the opposite heading, and slow ones as well as fast ones: a "
            "wind changes its sign, an offset of the pitch does not grow with speed",

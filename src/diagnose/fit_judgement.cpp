@@ -107,6 +107,7 @@ ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks) {
     for (const ModelParameter& p : group.parameters) fit.values.push_back(p.neutral);
   }
   fit.standard_error.assign(fit.values.size(), 0);
+  fit.product_covariance.assign(fit.values.size(), 0);
   fit.without_block.assign(blocks, fit.values);
   return fit;
 }
@@ -127,6 +128,12 @@ void add_fit(const Record& record, const BlockFit& fit, const std::vector<int>& 
     const double variance = jackknife_covariance(fit, {column})(0, 0) +
                             (systematic.size() > 0 ? systematic[column] : 0);
     all.standard_error[index] = std::max(all.standard_error[index], p.scale * std::sqrt(variance));
+    const auto other = std::find(fit.active.begin(), fit.active.end(), p.product_with);
+    if (other != fit.active.end()) {
+      all.product_covariance[index] =
+          p.scale * record.parameters()[*other].scale *
+          jackknife_covariance(fit, {column, other - fit.active.begin()})(0, 1);
+    }
     for (std::size_t b = 0; b < record.blocks(); ++b) {
       double& value = all.without_block[static_cast<std::size_t>(block_ids[b])][index];
       value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,

@@ -81,7 +81,7 @@ FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosi
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }
   data.step = median_step(data.observations.time);
-  check_flight_units(data.observations, data.step);
+  check_flight_units(data.record, data.observations.forward_acceleration, data.step);
   const std::vector<bool> usable = usable_samples(log, data.faults, data.observations, data.step);
   const auto count = static_cast<std::size_t>(std::count(usable.begin(), usable.end(), true));
   data.usable = static_cast<double>(count) * data.step;

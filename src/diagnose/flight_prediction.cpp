@@ -1,4 +1,4 @@
-// Notation: θ tilt, φ roll, u airspeed, w headwind along the forward axis, j linear speed of the
+// Notation: θ tilt, u airspeed, w headwind along the forward axis, j linear speed of the
 // drag law, κ gain of the vertical acceleration a_D.
 #include "diagnose/flight_prediction.hpp"
 
@@ -28,12 +28,8 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.forward_speed = observations.forward_speed;
   record.down_speed = observations.down_speed;
   record.down_acceleration = observations.down_acceleration;
-  record.inverse_cos_roll.reserve(observations.size());
   record.tan_tilt.reserve(observations.size());
   for (const double tilt : observations.tilt) record.tan_tilt.push_back(std::tan(tilt));
-  for (const double roll : observations.roll) {
-    record.inverse_cos_roll.push_back(1 / std::cos(roll));
-  }
   record.turn_acceleration.assign(observations.size(), 0.0);
   for (std::size_t i = 1; i + 1 < observations.size(); ++i) {
     const double yaw_rate = (observations.yaw[i + 1] - observations.yaw[i - 1]) /
@@ -52,10 +48,9 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
-  for (auto series :
-       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
-        &FlightRecord::forward_speed, &FlightRecord::down_speed, &FlightRecord::down_acceleration,
-        &FlightRecord::inverse_cos_roll, &FlightRecord::turn_acceleration}) {
+  for (auto series : {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt,
+                      &FlightRecord::yaw, &FlightRecord::forward_speed, &FlightRecord::down_speed,
+                      &FlightRecord::down_acceleration, &FlightRecord::turn_acceleration}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -97,8 +92,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   for (std::size_t i = 0; i < size; ++i) {
     const double lift =
         record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
-    p.acceleration[i] = lift * tan_tilt[i] * record.inverse_cos_roll[i] - p.drag[i] / record.mass +
-                        base.turn_gain * record.turn_acceleration[i];
+    p.acceleration[i] =
+        lift * tan_tilt[i] - p.drag[i] / record.mass + base.turn_gain * record.turn_acceleration[i];
   }
 }
 

@@ -22,7 +22,6 @@ struct FlightRecord {
   std::vector<double> forward_speed;      ///< m/s over ground
   std::vector<double> down_speed;         ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
-  std::vector<double> inverse_cos_roll;   ///< 1/cos φ
   /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
   /// speed, force or no force.
   std::vector<double> turn_acceleration;
@@ -75,9 +74,11 @@ struct EffectValues {
   std::span<const double> values;  ///< one a parameter
 };
 
-/// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ/cosφ − F_D/m with
-/// F_D the drag law of `model/airframe.hpp` at the airspeed v − w, as changed by `effects`. Effects
-/// act in the order given within each phase; those at their neutral values change nothing.
+/// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the drag law of
+/// `model/airframe.hpp` at the airspeed v − w, as changed by `effects`. A thrust along the body's
+/// z-axis turned by yaw, pitch and roll in this order points forward by tan θ of what it carries,
+/// whatever the roll; the published 1/cos φ is not in it. Effects act in the order given within
+/// each phase; those at their neutral values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
 

@@ -4,7 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
+
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -20,6 +24,39 @@ ModelParameter in_SI(const EffectParameter& p, const Design& design) {
   return m;
 }
 
+using Interval = std::pair<double, double>;
+
+Interval symmetric_interval(const ModelFit& fit, std::size_t parameter,
+                            const Selection& selection) {
+  const double half = selection.student_factor * fit.standard_error[parameter];
+  return {fit.values[parameter] - half, fit.values[parameter] + half};
+}
+
+/// Of a ratio p = b/a, by its product b with the parameter a, which has a usable spread also where
+/// a may be zero: all p with (b − p·a)² ≤ t²·var(b − p·a), as far as they hang together with the
+/// estimate (Fieller, J. R. Stat. Soc. B 16, 1954).
+Interval ratio_interval(const ModelFit& fit, std::size_t parameter, std::size_t of,
+                        const Selection& selection) {
+  const double p = fit.values[parameter];
+  const double a = fit.values[of];
+  const double t2 = selection.student_factor * selection.student_factor;
+  const double var_p = fit.standard_error[parameter] * fit.standard_error[parameter];
+  const double var_a = fit.standard_error[of] * fit.standard_error[of];
+  const double cov_pa = fit.product_covariance[parameter];
+  const double var_b = a * a * var_p + 2 * a * p * cov_pa + p * p * var_a;
+  const double cov_ab = a * cov_pa + p * var_a;
+  // square·p² − 2·linear·p + constant ≤ 0
+  const double square = a * a - t2 * var_a;
+  const double linear = a * a * p - t2 * cov_ab;
+  const double constant = a * a * p * p - t2 * var_b;
+  const double discriminant = linear * linear - square * constant;
+  if (!(discriminant > 0) || square == 0) return {-infinity, infinity};
+  const double root = std::sqrt(discriminant);
+  const auto [first, second] = std::minmax({(linear - root) / square, (linear + root) / square});
+  if (square > 0) return {first, second};
+  return p >= second ? Interval{second, infinity} : Interval{-infinity, first};
+}
+
 /// The parameters of the groups that are fitted, and of those that left their neutral values.
 std::vector<ParameterEstimate> estimates(const LogModel& log, const Selection& selection,
                                          const ModelFit& fit, std::size_t group) {
@@ -30,11 +67,12 @@ std::vector<ParameterEstimate> estimates(const LogModel& log, const Selection& s
     const ModelParameter& bounds = log.problem.groups[group].parameters[k];
     if (!(bounds.lower < bounds.upper)) continue;
     const std::size_t index = log.first_parameter(group) + k;
-    const double half = selection.student_factor * fit.standard_error[index];
     const double value = fit.values[index];
-    result.push_back({p.name, value / p.unit_SI, p.unit,
-                      std::max(value - half, bounds.lower) / p.unit_SI,
-                      std::min(value + half, bounds.upper) / p.unit_SI});
+    const auto [lower, upper] = bounds.product_with
+                                    ? ratio_interval(fit, index, *bounds.product_with, selection)
+                                    : symmetric_interval(fit, index, selection);
+    result.push_back({p.name, value / p.unit_SI, p.unit, std::max(lower, bounds.lower) / p.unit_SI,
+                      std::min(upper, bounds.upper) / p.unit_SI});
   }
   return result;
 }
@@ -132,6 +170,7 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
   for (const EffectParameter& p : effect.parameters) {
     group.parameters.push_back(in_SI(p, design));
     group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
+    if (!p.product_with.empty()) group.parameters.back().product_with = index_of(p.product_with);
   }
   for (std::size_t g = 0; g < effects_.size(); ++g) {
     if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) group.replaces = g;
@@ -144,6 +183,15 @@ std::size_t LogModel::first_parameter(std::string_view id) const {
   const auto found = std::find_if(effects_.begin(), effects_.end(),
                                   [id](const Effect* effect) { return effect->id == id; });
   return first_[static_cast<std::size_t>(found - effects_.begin())];
+}
+
+std::optional<std::size_t> LogModel::index_of(std::string_view parameter) const {
+  for (std::size_t g = 0; g < effects_.size(); ++g) {
+    for (std::size_t k = 0; k < effects_[g]->parameters.size(); ++k) {
+      if (effects_[g]->parameters[k].name == parameter) return first_[g] + k;
+    }
+  }
+  return std::nullopt;
 }
 
 bool LogModel::is_neutral(std::size_t group, std::span<const double> values) const {

@@ -166,30 +166,47 @@ class Search {
   }
 
   /// Wald's statistic with the jackknife covariance, referred to Hotelling's distribution for as
-  /// many blocks. Where all parameters rest on a bound, and so do not vary between blocks, the
-  /// held-out errors of the blocks are compared by Student's test instead.
+  /// many blocks, in the quantities that enter the prediction linearly. Where all parameters rest
+  /// on a bound, and so do not vary between blocks, the held-out errors of the blocks are compared
+  /// by Student's test instead.
   [[nodiscard]] double wald_p_value(std::size_t g, const BlockFit& without,
                                     const BlockFit& with) const {
-    std::vector<Index> columns;
+    const auto column_of = [&with](std::size_t parameter) {
+      return std::find(with.active.begin(), with.active.end(), parameter) - with.active.begin();
+    };
+    const auto active = static_cast<Index>(with.active.size());
     std::vector<double> distance;
+    std::vector<VectorXd> without_block;
     for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
       const std::size_t index = record_.first_parameter(g) + k;
       const ModelParameter& p = record_.parameters()[index];
-      const auto column = std::find(with.active.begin(), with.active.end(), index);
-      if (p.shape_only || column == with.active.end()) continue;
-      columns.push_back(column - with.active.begin());
+      const Index column = column_of(index);
+      if (p.shape_only || column == active) continue;
       distance.push_back((with.values[index] - p.neutral) / p.scale);
+      without_block.push_back(with.left_out.row(column).transpose());
+      if (!p.product_with) continue;
+      const double other = with.values[*p.product_with];
+      const Index other_column = column_of(*p.product_with);
+      without_block.back() *= other;
+      if (other_column != active) {
+        without_block.back() += distance.back() * record_.parameters()[*p.product_with].scale *
+                                with.left_out.row(other_column).transpose();
+      }
+      distance.back() *= other;
     }
-    if (columns.empty()) {
+    if (distance.empty()) {
       const BlockDifference gain = difference(without.block_error, with.block_error);
       return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
     }
-    const VectorXd offset = VectorXd::Map(distance.data(), static_cast<Index>(distance.size()));
-    const MatrixXd covariance = jackknife_covariance(with, columns);
+    const auto count = static_cast<Index>(distance.size());
+    MatrixXd spread(count, static_cast<Index>(record_.blocks()));
+    for (Index k = 0; k < count; ++k) spread.row(k) = without_block[static_cast<std::size_t>(k)];
+    const VectorXd offset = VectorXd::Map(distance.data(), count);
+    const MatrixXd covariance = jackknife_covariance(std::move(spread));
     const double t2 = offset.dot(covariance.completeOrthogonalDecomposition().solve(offset));
-    const auto count = static_cast<double>(columns.size());
-    const double denominator = degrees_ + 1 - count;
-    return fisher_p_value(t2 / count * denominator / degrees_, count, denominator);
+    const auto numerator = static_cast<double>(count);
+    const double denominator = degrees_ + 1 - numerator;
+    return fisher_p_value(t2 / numerator * denominator / degrees_, numerator, denominator);
   }
 
   /// Whether the group lowers the held-out error of the named part alone, too. A name that helps
@@ -199,9 +216,7 @@ class Search {
     Search named = *this;
     named.unnamed_.clear();
     const BlockFit without = named.fit(selected_, &current_);
-    std::vector<std::size_t> more = selected_;
-    more.push_back(g);
-    const BlockFit with = named.fit(more, &without);
+    const BlockFit with = named.fit(selected_with(g), &without);
     return gain_percent(without.squared_error(), with.squared_error()) >=
            options_.least_gain_percent;
   }
@@ -244,9 +259,7 @@ class Search {
     std::vector<Trial> worthy;
     for (const std::size_t g : open) {
       tell("trying " + group(g).id);
-      std::vector<std::size_t> more = selected_;
-      more.push_back(g);
-      Trial trial = judge(g, current_, fit(more, &current_), open.size());
+      Trial trial = judge(g, current_, fit(selected_with(g), &current_), open.size());
       if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
     }
     if (worthy.empty()) return std::nullopt;
@@ -264,6 +277,12 @@ class Search {
       if (simpler && excess.sum <= excess.se) chosen = &trial;
     }
     return *chosen;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> selected_with(std::size_t g) const {
+    std::vector<std::size_t> more = selected_;
+    more.push_back(g);
+    return more;
   }
 
   [[nodiscard]] std::vector<std::size_t> selected_without(std::size_t g) const {
@@ -402,13 +421,7 @@ class Search {
     }
     result.extended = model_fit(before);
     for (const std::size_t g : too_small_) {
-      const BlockFit with = named.fit(
-          [&] {
-            std::vector<std::size_t> more = selected_;
-            more.push_back(g);
-            return more;
-          }(),
-          &before);
+      const BlockFit with = named.fit(selected_with(g), &before);
       result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
     }
     const double share = 1 - current_.squared_error() / before.squared_error();

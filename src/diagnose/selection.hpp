@@ -23,6 +23,10 @@ struct ModelParameter {
   double start = 0;  ///< first value tried once freed; any value within the bounds
   bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
                             ///< constant): takes no part in the test against chance
+  /// Index, over the parameters of all groups, of one whose product with this one enters the
+  /// prediction linearly (an area, of which this one is a ratio). The product is tested against
+  /// chance and not the ratio, which has no usable spread where the other is near zero.
+  std::optional<std::size_t> product_with{};
 };
 
 /// Parameters that are freed together.
@@ -91,6 +95,9 @@ struct SelectedGroup {
 struct ModelFit {
   std::vector<double> values{};          ///< all groups in their order; not freed ones are neutral
   std::vector<double> standard_error{};  ///< 0 where not freed
+  /// Covariance of a parameter with the one of `ModelParameter::product_with`; 0 where there is
+  /// none, and where one of them is not freed.
+  std::vector<double> product_covariance{};
   /// Values with block b left out: `without_block[b]`.
   std::vector<std::vector<double>> without_block{};
   double holdout_rmse = 0;  ///< in units of `noise`, every block predicted by the fit without it

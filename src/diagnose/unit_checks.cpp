@@ -12,17 +12,22 @@
 
 namespace tethercalc {
 
-void check_flight_units(const Observations& o, double step) {
-  if (std::all_of(o.tilt.begin(), o.tilt.end(), [&o](double t) { return t == o.tilt.front(); })) {
+void check_flight_units(const FlightRecord& flight, const std::vector<double>& forward_acceleration,
+                        double step) {
+  const auto stuck = [&flight](double tilt) { return tilt == flight.tilt.front(); };
+  if (std::all_of(flight.tilt.begin(), flight.tilt.end(), stuck)) {
     throw UnsuitableFlight(
         "the pitch never moves, as if its sensor were stuck: nothing can be predicted from it");
   }
   const auto lag = static_cast<std::size_t>(std::max(1.0, std::round(1 / step)));
-  if (o.size() < 10 * lag) return;  // too short to judge, which is told elsewhere
+  if (flight.size() < 10 * lag) return;  // too short to judge, which is told elsewhere
+  const auto by_force = [&](std::size_t i) {
+    return forward_acceleration[i] - flight.turn_acceleration[i];
+  };
   double both = 0, leaning = 0, measured = 0;
-  for (std::size_t i = lag; i < o.size(); ++i) {
-    const double expected = standard_gravity * (std::tan(o.tilt[i]) - std::tan(o.tilt[i - lag]));
-    const double seen = o.forward_acceleration[i] - o.forward_acceleration[i - lag];
+  for (std::size_t i = lag; i < flight.size(); ++i) {
+    const double expected = flight.gravity * (flight.tan_tilt[i] - flight.tan_tilt[i - lag]);
+    const double seen = by_force(i) - by_force(i - lag);
     both += expected * seen;
     leaning += expected * expected;
     measured += seen * seen;

@@ -22,7 +22,9 @@ constexpr double moving_duration = 1.0;  // s: longer than a twitch of the estim
 constexpr double longest_pause = 30.0;   // s: shorter than landing, waiting and taking off again
 constexpr double gap_factor = 3.0;       // tolerates two lost samples; jitter stays well below 2
 constexpr double steepest_angle =
-    75 * unit::degree;  // cos is 1/4: expected acceleration amplifies errors
+    75 * unit::degree;                      // cos is 1/4: expected acceleration amplifies errors
+constexpr double fastest_multirotor = 200;  // m/s: beyond every speed on record
+constexpr double lost_estimates = 0.01;     // of the samples
 
 struct NamedSeries {
   std::string_view name;
@@ -73,6 +75,25 @@ void demand_carrying_thrust(double time, double tilt, double roll) {
                   time, -tilt / unit::degree, roll / unit::degree, steepest_angle / unit::degree));
 }
 
+/// More than single flipped bits: an estimator that has lost its way goes on so.
+void demand_possible_velocities(const FlightLog& log, const SampleRange& range) {
+  const auto speed = [&log](std::size_t i) {
+    return std::hypot(log.north_velocity[i], log.east_velocity[i], log.down_velocity[i]);
+  };
+  std::size_t impossible = 0;
+  std::size_t fastest = range.first;
+  for (std::size_t i = range.first; i < range.last; ++i) {
+    if (speed(i) > fastest_multirotor) ++impossible;
+    if (speed(i) > speed(fastest)) fastest = i;
+  }
+  if (static_cast<double>(impossible) <= lost_estimates * static_cast<double>(range.size())) return;
+  throw UnsuitableFlight(fmt::format(
+      "at {:.3f} s the logged velocity is {:.0f} m/s, {:.0f} m/s of it {}, which no multirotor "
+      "flies: the estimator has diverged; choose a range before it did",
+      log.time[fastest], speed(fastest), std::abs(log.down_velocity[fastest]),
+      log.down_velocity[fastest] > 0 ? "downward" : "upward"));
+}
+
 }  // namespace
 
 double median_step(const std::vector<double>& time) {
@@ -83,6 +104,11 @@ double median_step(const std::vector<double>& time) {
 }
 
 void validate(const FlightLog& log) {
+  if (!log.other_vehicle.empty()) {
+    throw UnsuitableFlight(fmt::format(
+        "this is a log of {}; only a multirotor's attitude tells where its thrust points",
+        log.other_vehicle));
+  }
   const std::size_t size = log.time.size();
   for (const auto& [name, values] : named_series(log)) {
     if (values.size() != size) {
@@ -212,6 +238,7 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
     throw UnsuitableFlight(fmt::format("samples {} to {} are no part of a log of {} samples",
                                        range.first + 1, range.last, size));
   }
+  demand_possible_velocities(log, range);
 
   // One sample beyond the range on either side for the derivatives.
   std::vector<double> forward(size);

@@ -40,6 +40,17 @@ std::string_view without_blanks(std::string_view cell) {
   return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
 }
 
+/// The cells of one line, blanks around each removed.
+std::vector<std::string_view> split_csv_line(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(without_blanks(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
 /// Takes the next line, without its end, off the front of `text`.
 std::string_view take_line(std::string_view& text) {
   const auto end = text.find('\n');
@@ -133,16 +144,6 @@ bool in_order(double value, const std::vector<double>& above, const CsvColumn& c
 }
 
 }  // namespace
-
-std::vector<std::string_view> split_csv_line(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(without_blanks(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
 
 std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
                                                   std::span<const CsvColumn> wanted,

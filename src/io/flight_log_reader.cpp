@@ -161,6 +161,32 @@ EstimatorMessage find_estimator(std::span<const std::byte> content,
   fail_without_estimator(contents, name);
 }
 
+/// What flew by the firmware's own first words, where it is no multirotor; of a log's first part,
+/// where the firmware introduces itself.
+std::string other_vehicle(std::span<const std::byte> content) {
+  constexpr std::size_t introduction = 1 << 20;
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> firmwares{
+      {{"ArduPlane", "an aeroplane"},
+       {"APM:Plane", "an aeroplane"},
+       {"ArduRover", "a rover"},
+       {"APM:Rover", "a rover"},
+       {"ArduSub", "a submarine"},
+       {"Blimp", "an airship"},
+       {"AntennaTracker", "an antenna tracker"}}};
+  std::string found;
+  for_each_message(content.first(std::min(content.size(), introduction)),
+                   [&](const DataFlashFormat& format, const std::byte* message) {
+                     if (!found.empty() || format.name != "MSG") return;
+                     const DataFlashField* const field = format.find("Message");
+                     if (field == nullptr || field->is_number()) return;
+                     const std::string text = field_text(message, *field);
+                     for (const auto& [name, kind] : firmwares) {
+                       if (text.starts_with(name)) found = fmt::format("{}, {}", text, kind);
+                     }
+                   });
+  return found;
+}
+
 Samples read_samples(std::span<const std::byte> content, const EstimatorMessage& from,
                      const std::string& name) {
   const auto time = time_of(*from.format);
@@ -218,6 +244,7 @@ FlightLogReading read_dataflash(std::span<const std::byte> content, const std::s
   note_damage(reading, contents);
   note_removed(reading);
   reading.log = to_flight_log(std::move(samples));
+  reading.log.other_vehicle = other_vehicle(content);
   return reading;
 }
 

@@ -59,26 +59,60 @@ std::optional<double> first_root(const Function& f, double from, double to) {
   return std::nullopt;
 }
 
+/// Of air, CIGRE TB 601: a polynomial over the temperature in °C.
+struct Polynomial {
+  double c0, c1, c2;
+  [[nodiscard]] constexpr double at(double t) const { return c0 + t * (c1 + t * c2); }
+  [[nodiscard]] constexpr double slope(double t) const { return c1 + 2 * t * c2; }
+};
+constexpr Polynomial conductivity_of_air{2.368e-2, 7.23e-5, -2.763e-8};
+constexpr Polynomial viscosity_of_air{17.239e-6, 4.635e-8, -2.03e-11};
+constexpr double expansion_of_air = 0.00367;
+
+/// A Nusselt number, and its derivatives by the logarithms of what it depends on.
+struct Nusselt {
+  double value = 0;
+  double by_flow = 0;  ///< by ln Re, or ln Ra
+  double by_prandtl = 0;
+};
+
+// Roots in place of powers: they take a fraction of the time.
+Nusselt forced_convection(double reynolds, double prandtl) {
+  const double root = std::cbrt(prandtl);
+  const double hinder = 0.5428835233189814 / (root * root);  // (0.4/Pr)^(2/3)
+  const double eighth = std::sqrt(std::sqrt(std::sqrt(reynolds / 282000)));
+  const double fourth = eighth * eighth;
+  const double turbulence = fourth * fourth * eighth;  // (Re/282000)^(5/8)
+  const double excess = 0.62 * std::sqrt(reynolds) * root / std::sqrt(std::sqrt(1 + hinder)) *
+                        std::pow(1 + turbulence, 0.8);
+  return {0.3 + excess, excess * 0.5 * (1 + turbulence / (1 + turbulence)),
+          excess * (1.0 / 3 + hinder / (6 * (1 + hinder)))};
+}
+
+Nusselt natural_convection(double rayleigh, double prandtl) {
+  const double sixteenth = std::sqrt(std::sqrt(std::sqrt(std::sqrt(0.559 / prandtl))));
+  const double eighth = sixteenth * sixteenth;
+  const double hinder = eighth * eighth * eighth * eighth * sixteenth;  // (0.559/Pr)^(9/16)
+  const double part = 0.387 * std::cbrt(std::sqrt(rayleigh)) / std::pow(1 + hinder, 8.0 / 27);
+  const double root = 0.6 + part;
+  return {root * root, root * part / 3, root * part * hinder / (3 * (1 + hinder))};
+}
+
 }  // namespace
 
 AirProperties air_properties(double film_temperature_C, double density_at_0C) {
-  const double t = film_temperature_C;
-  const double conductivity = 2.368e-2 + 7.23e-5 * t - 2.763e-8 * t * t;
-  const double viscosity = 17.239e-6 + 4.635e-8 * t - 2.03e-11 * t * t;
-  const double density = density_at_0C / (1 + 0.00367 * t);
+  const double conductivity = conductivity_of_air.at(film_temperature_C);
+  const double viscosity = viscosity_of_air.at(film_temperature_C);
+  const double density = density_at_0C / (1 + expansion_of_air * film_temperature_C);
   return {conductivity, viscosity / density, 1005 * viscosity / conductivity};
 }
 
 double churchill_bernstein(double reynolds, double prandtl) {
-  return 0.3 + 0.62 * std::sqrt(reynolds) * std::cbrt(prandtl) /
-                   std::pow(1 + std::pow(0.4 / prandtl, 2.0 / 3), 0.25) *
-                   std::pow(1 + std::pow(reynolds / 282000, 0.625), 0.8);
+  return forced_convection(reynolds, prandtl).value;
 }
 
 double churchill_chu(double rayleigh, double prandtl) {
-  const double root = 0.6 + 0.387 * std::pow(rayleigh, 1.0 / 6) /
-                                std::pow(1 + std::pow(0.559 / prandtl, 9.0 / 16), 8.0 / 27);
-  return root * root;
+  return natural_convection(rayleigh, prandtl).value;
 }
 
 double cigre601_stranded(double reynolds, double roughness) {
@@ -109,105 +143,117 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              const Surroundings& around)
     : conductor_(tether.conductor),
       around_(around),
+      radius_(radius),
       area_(conductor_area(radius)),
       diameter_(2 * (radius + wall)),
-      density_0C_(around.air_density * (1 + 0.00367 * around.temperature_C)) {
+      density_0C_(around.air_density * (1 + expansion_of_air * around.temperature_C)) {
   const double known = tether.insulation.thermal_conductivity;
-  thermal_resistance_ =
-      std::log((radius + wall) / radius) / (2 * pi * (known > 0 ? known : least_conductivity));
+  const double around_metal = 2 * pi * (known > 0 ? known : least_conductivity);
+  thermal_resistance_ = std::log((radius + wall) / radius) / around_metal;
+  thermal_resistance_slope_ = -wall / (radius * (radius + wall)) / around_metal;
 }
 
 double ConductorHeat::resistance(double temperature_C) const {
   return resistivity(conductor_, temperature_C) / area_;
 }
 
-double ConductorHeat::given_off(double surface_C) const {
+ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
   const double rise = surface_C - around_.temperature_C;
   const double film = 0.5 * (surface_C + around_.temperature_C);
   const AirProperties air = air_properties(film, density_0C_);
+  // Of the logarithms of the air's properties, by the surface's temperature.
+  const double conductivity_growth = 0.5 * conductivity_of_air.slope(film) / air.conductivity;
+  const double thickening = 0.5 * viscosity_of_air.slope(film) / viscosity_of_air.at(film);
+  const double viscosity_growth =
+      thickening + 0.5 * expansion_of_air / (1 + expansion_of_air * film);
+  const double prandtl_growth = thickening - conductivity_growth;
+
+  Nusselt nusselt;
+  double by_log_diameter = 0;
+  double rise_times_growth = 0;  // of the Nusselt number
+  if (around_.wind > 0) {
+    nusselt = forced_convection(around_.wind * diameter_ / air.kinematic_viscosity, air.prandtl);
+    by_log_diameter = nusselt.by_flow;
+    rise_times_growth =
+        rise * (nusselt.by_prandtl * prandtl_growth - nusselt.by_flow * viscosity_growth);
+  }
   static const double hanging = cigre601_inclination_factor(steepest_known_inclination);
   const double rayleigh = around_.gravity * std::max(rise, 0.0) / kelvin(film) * diameter_ *
                           diameter_ * diameter_ /
                           (air.kinematic_viscosity * air.kinematic_viscosity) * air.prandtl;
-  double nusselt = 0;
-  if (around_.wind > 0) {
-    const double reynolds = around_.wind * diameter_ / air.kinematic_viscosity;
-    nusselt = churchill_bernstein(reynolds, air.prandtl);
-  }
   // Without the factor below 1 by which the Prandtl number enters, natural convection is more.
-  const double root = 0.6 + 0.387 * std::cbrt(std::sqrt(rayleigh));
-  if (nusselt < hanging * root * root) {
-    nusselt = std::max(nusselt, hanging * churchill_chu(rayleigh, air.prandtl));
+  const double needed = std::max(0.0, (std::sqrt(nusselt.value / hanging) - 0.6) / 0.387);
+  const double cube = needed * needed * needed;
+  if (rayleigh >= cube * cube) {
+    const Nusselt natural = natural_convection(rayleigh, air.prandtl);
+    if (hanging * natural.value > nusselt.value) {
+      nusselt.value = hanging * natural.value;
+      by_log_diameter = 3 * hanging * natural.by_flow;
+      const double flow_growth = prandtl_growth - 2 * viscosity_growth - 0.5 / kelvin(film);
+      rise_times_growth = hanging * (natural.by_flow * (1 + rise * flow_growth) +
+                                     natural.by_prandtl * rise * prandtl_growth);
+    }
   }
-  const double convected = pi * air.conductivity * nusselt * rise;
+  const double convected = pi * air.conductivity * nusselt.value * rise;
+  const double convected_growth =
+      pi * air.conductivity *
+      (nusselt.value * (1 + rise * conductivity_growth) + rise_times_growth);
   const double radiated =
       radiated_heat(pi * diameter_, emissivity, surface_C, around_.temperature_C);
-  return around_.cooling * pair_surface_share * (convected + radiated) -
-         absorptivity * around_.sun * diameter_;
+  const double hot = kelvin(surface_C);
+  const double radiated_growth =
+      4 * pi * diameter_ * emissivity * stefan_boltzmann * hot * hot * hot;
+  const double share = around_.cooling * pair_surface_share;
+  return {share * (convected + radiated) - absorptivity * around_.sun * diameter_,
+          share * (convected_growth + radiated_growth),
+          2 * (share * (pi * air.conductivity * rise * by_log_diameter + radiated) / diameter_ -
+               absorptivity * around_.sun)};
 }
 
 std::optional<double> ConductorHeat::temperature(double current) const {
-  const auto surface = steady_surface(current, cold_surface());
-  return surface ? std::optional(surface->inside_C) : std::nullopt;
+  const auto surface = steady_surface(current);
+  return surface ? std::optional(surface->steady_inside()) : std::nullopt;
 }
 
-ConductorHeat::Surface ConductorHeat::cold_surface() const {
-  // A surface as warm as the air gives nothing off but what it takes from the sun.
-  const double from_sun = absorptivity * around_.sun * diameter_;
-  constexpr double rise = 20;
-  Surface surface;
-  surface.temperature_C = around_.temperature_C + rise;
-  surface.heat = given_off(surface.temperature_C);
-  surface.heat_slope = (surface.heat + from_sun) / rise;
-  return surface;
-}
-
-ConductorHeat::Surface ConductorHeat::surface_like(const Surface& other) const {
-  Surface surface = other;
-  surface.heat = given_off(surface.temperature_C);
-  return surface;
-}
-
-/// With what follows from the surface's temperature and heat at `current`.
-ConductorHeat::Surface ConductorHeat::balanced(Surface surface, double current) const {
-  surface.inside_C = surface.temperature_C + std::max(surface.heat, 0.0) * thermal_resistance_;
-  // Along q(T_s) = I²·R(T_c) with T_c = T_s + q·R_th, differentiated by I.
-  const double per_kelvin = surface.heat_slope * (surface.heat > 0 ? thermal_resistance_ : 0) + 1;
-  const double slope = resistance(1) - resistance(0);
-  surface.warming = 2 * current * resistance(surface.inside_C) * per_kelvin /
-                    (surface.heat_slope - current * current * slope * per_kelvin);
-  return surface;
-}
-
-std::optional<ConductorHeat::Surface> ConductorHeat::steady_surface(double current,
-                                                                    const Surface& near) const {
-  // The heat given off is nearly a line over the surface's temperature; the heat made is one. So
-  // the next surface is where the lines meet, the former through the last two surfaces.
+ConductorHeat::Balance ConductorHeat::balance(double surface_C, double current) const {
+  const Flow out = flow(surface_C);
+  const double made_growth = resistance(1) - resistance(0);
+  // T_c = T_s + q·R_th, where the heat does not flow in from the sun.
+  const bool outward = out.heat > 0;
+  const double through = outward ? thermal_resistance_ : 0;
+  const double per_surface = 1 + out.by_temperature * through;
   const double square = current * current;
-  const double at_zero = resistance(0);
-  const double slope = resistance(1) - at_zero;
-  Surface at = near;
+  const double inside = surface_C + out.heat * through;
+  const double made = square * resistance(inside);
+  const double rate = out.by_temperature - square * made_growth * per_surface;
+  // The balance q = I²·R(T_c)/A and T_c, both differentiated by the radius.
+  const double wall_growth = outward ? out.heat * thermal_resistance_slope_ : 0;
+  const double inside_growth = out.by_radius * through + wall_growth;
+  const double imbalance_growth =
+      out.by_radius + 2 * made / radius_ - square * made_growth * inside_growth;
+  Balance balance;
+  balance.surface_C = surface_C;
+  balance.inside_C = inside;
+  balance.surface_change = (made - out.heat) / rate;
+  balance.inside_per_surface = per_surface;
+  balance.by_current = current > 0 ? 2 * made / current / rate : 0;
+  balance.inside_by_radius = inside_growth - per_surface * imbalance_growth / rate;
+  balance.returns = rate > 0;
+  return balance;
+}
+
+std::optional<ConductorHeat::Balance> ConductorHeat::steady_surface(double current) const {
+  if (!(current > 0)) return search_surface(current);
+  double surface = first_surface();
   for (int step = 0; step < 15; ++step) {
-    // q₀ + q'·(T − T₀) = I²·(a + b·(T + q·R_th)), where q > 0; the sun's heat stays outside.
-    const double share = at.heat > 0 ? 1 - square * slope * thermal_resistance_ : 1;
-    const double rate = at.heat_slope * share - square * slope;
-    if (!(rate > 0)) break;
-    const double change = (square * (at_zero + slope * at.temperature_C) - at.heat * share) / rate;
-    const double rise = at.temperature_C - around_.temperature_C;
-    // Beyond that the line through the last two is as good as the balance to 1e-12.
-    if (std::abs(change) <= 1e-6 * std::abs(rise) + 1e-11) {
-      at.temperature_C += change;
-      at.heat += at.heat_slope * change;
-      at = balanced(at, current);
-      if (!(at.inside_C <= highest_conductor_temperature_C)) return std::nullopt;
+    const Balance at = balance(surface, current);
+    if (!at.returns) break;
+    surface += at.surface_change;
+    if (!(surface > around_.temperature_C - 1 && surface < highest_conductor_temperature_C)) break;
+    if (at.is_near(around_.temperature_C, 1e-6)) {
+      if (!(at.steady_inside() <= highest_conductor_temperature_C)) return std::nullopt;
       return at;
     }
-    const double next = at.temperature_C + change;
-    if (!(next > around_.temperature_C - 1 && next < highest_conductor_temperature_C)) break;
-    const double heat = given_off(next);
-    at.heat_slope = (heat - at.heat) / change;
-    at.temperature_C = next;
-    at.heat = heat;
   }
   return search_surface(current);
 }
@@ -215,7 +261,7 @@ std::optional<ConductorHeat::Surface> ConductorHeat::steady_surface(double curre
 /// The same step by step, where runaway is near or certain. The heat given off rises ever more
 /// steeply with the surface's temperature, the heat made does not: what is made at the highest
 /// temperature and not given off was not given off below, either.
-std::optional<ConductorHeat::Surface> ConductorHeat::search_surface(double current) const {
+std::optional<ConductorHeat::Balance> ConductorHeat::search_surface(double current) const {
   const double square = current * current;
   const auto surplus = [&](double surface) {
     const double heat = given_off(surface);
@@ -224,14 +270,9 @@ std::optional<ConductorHeat::Surface> ConductorHeat::search_surface(double curre
   if (surplus(highest_conductor_temperature_C) < 0) return std::nullopt;
   const auto found = first_root(surplus, around_.temperature_C, highest_conductor_temperature_C);
   if (!found) return std::nullopt;
-  constexpr double step = 1e-3;
-  Surface surface;
-  surface.temperature_C = *found;
-  surface.heat = given_off(*found);
-  surface.heat_slope = (given_off(*found + step) - surface.heat) / step;
-  surface = balanced(surface, current);
-  return surface.inside_C <= highest_conductor_temperature_C ? std::optional(surface)
-                                                             : std::nullopt;
+  Balance at = balance(*found, current);
+  at.surface_change = 0;
+  return at.inside_C <= highest_conductor_temperature_C ? std::optional(at) : std::nullopt;
 }
 
 double ConductorHeat::current_at(double temperature_C) const {

@@ -42,77 +42,53 @@ TetherHeat::TetherHeat(const SteadyFlight& flight, double radius, double sunlit_
               around_airborne(flight, (sunlit_radius + flight.wall()) / (radius + flight.wall()))),
       on_drum_(flight.design().tether, radius, flight.wall(), around_wound(flight)) {}
 
-TetherHeat::Surfaces TetherHeat::cold_surfaces() const {
-  Surfaces surfaces;
-  if (measured_) return surfaces;
-  surfaces.in_air = in_air_.cold_surface();
-  if (wound_) surfaces.on_drum = on_drum_.cold_surface();
-  return surfaces;
-}
-
-TetherHeat::Surfaces TetherHeat::surfaces_like(const Surfaces& others) const {
-  Surfaces surfaces;
-  if (measured_) return surfaces;
-  surfaces.in_air = in_air_.surface_like(others.in_air);
-  if (wound_) surfaces.on_drum = on_drum_.surface_like(others.on_drum);
-  return surfaces;
-}
-
 std::optional<TetherTemperatures> TetherHeat::temperatures(double current) const {
-  Surfaces surfaces = cold_surfaces();
-  const auto warm = warmed(current, surfaces);
+  const auto warm = warmed(current);
   return warm ? std::optional(warm->temperatures) : std::nullopt;
 }
 
-std::optional<TetherHeat::Warm> TetherHeat::warmed(double current, Surfaces& surfaces) const {
+ConductorHeat::Balance TetherHeat::measured(double current) const {
   const Tether& tether = flight_.design().tether;
-  Warm warm;
-  double growth_on_drum = 0;
-  double growth_in_air = 0;
-  if (measured_) {
-    const double area = conductor_area(radius_);
-    const double rise = settled_rise(tether, area, current, flight_.state().airspeed);
-    warm.temperatures.in_air = flight_.state().ambient_temperature_C + rise;
-    if (!(warm.temperatures.in_air <= highest_conductor_temperature_C)) return std::nullopt;
-    growth_in_air = 2 * rise / current;
-  } else {
-    const auto in_air = in_air_.steady_surface(current, surfaces.in_air);
-    if (!in_air) return std::nullopt;
-    surfaces.in_air = *in_air;
-    warm.temperatures.in_air = in_air->inside_C;
-    growth_in_air = in_air->warming;
-  }
-  growth_on_drum = growth_in_air;
-  if (wound_ && !measured_) {
-    const auto on_drum = on_drum_.steady_surface(current, surfaces.on_drum);
-    if (!on_drum) return std::nullopt;
-    surfaces.on_drum = *on_drum;
-    warm.temperatures.on_drum = on_drum->inside_C;
-    growth_on_drum = on_drum->warming;
-  }
+  const double area = conductor_area(radius_);
+  const double rise = settled_rise(tether, area, current, flight_.state().airspeed);
+  ConductorHeat::Balance balance;
+  balance.surface_C = balance.inside_C = flight_.state().ambient_temperature_C + rise;
+  balance.by_current = current > 0 ? 2 * rise / current : 0;
+  balance.inside_by_radius = -2 * rise / radius_;
+  balance.returns = balance.inside_C <= highest_conductor_temperature_C;
+  return balance;
+}
+
+TetherHeat::Loop TetherHeat::loop(const ConductorHeat::Balance& in_air,
+                                  const ConductorHeat::Balance& on_drum) const {
+  const StraightTether& tether = flight_.tether();
+  const ConductorHeat::Balance& wound = wound_ ? on_drum : in_air;
+  Loop loop;
+  loop.temperatures.in_air = in_air.steady_inside();
+  if (wound_) loop.temperatures.on_drum = on_drum.steady_inside();
+  loop.resistance = tether.resistance(radius_, in_air.steady_inside(), wound.steady_inside());
   // The resistance is linear in both temperatures.
-  const StraightTether& loop = flight_.tether();
-  warm.resistance_growth =
-      loop.resistance(radius_, growth_in_air, growth_on_drum) - loop.resistance(radius_, 0, 0);
-  return warm;
+  const double cold = tether.resistance(radius_, 0, 0);
+  loop.by_current = tether.resistance(radius_, in_air.inside_per_surface * in_air.by_current,
+                                      wound.inside_per_surface * wound.by_current) -
+                    cold;
+  loop.by_radius = tether.resistance(radius_, in_air.inside_by_radius, wound.inside_by_radius) -
+                   cold - 2 * (loop.resistance - tether.contact_resistance()) / radius_;
+  return loop;
+}
+
+std::optional<TetherHeat::Loop> TetherHeat::warmed(double current) const {
+  const auto of = [&](const ConductorHeat& part) {
+    return measured_ ? std::optional(measured(current)) : part.steady_surface(current);
+  };
+  const auto in_air = of(in_air_);
+  if (!in_air || (measured_ && !in_air->returns)) return std::nullopt;
+  const auto on_drum = wound_ ? of(on_drum_) : in_air;
+  return on_drum ? std::optional(loop(*in_air, *on_drum)) : std::nullopt;
 }
 
 double TetherHeat::resistance(const TetherTemperatures& t) const {
   return flight_.tether().resistance(radius_, t.in_air, t.on_drum.value_or(t.in_air));
-}
-
-double TetherHeat::resistance_slope(const TetherHeatState& state) const {
-  // The conductors' resistance goes about with a power of the radius.
-  constexpr double step = 2e-6;
-  const double contacts = flight_.tether().contact_resistance();
-  const TetherHeat thicker(flight_, radius_ * (1 + step));
-  Surfaces surfaces = thicker.surfaces_like(state.surfaces);
-  const auto cooler = thicker.warmed(state.current, surfaces);
-  if (!cooler) return flight_.tether().resistance_slope(radius_);
-  const double line = state.resistance - contacts;
-  const double power =
-      std::log((thicker.resistance(cooler->temperatures) - contacts) / line) / std::log1p(step);
-  return power * line / radius_;
 }
 
 double TetherHeat::demanded_current(double load_power, double resistance) const {
@@ -121,46 +97,83 @@ double TetherHeat::demanded_current(double load_power, double resistance) const 
   return power >= 0 ? power / voltage : infinity;
 }
 
-TetherHeatState TetherHeat::carrying(double load_power) const {
-  const double current =
-      demanded_current(load_power, resistance({flight_.state().ambient_temperature_C, {}}));
-  return current < infinity ? settled(load_power, current, cold_surfaces()) : TetherHeatState{};
-}
-
-TetherHeatState TetherHeat::carrying(double load_power, const TetherHeatState& near) const {
+TetherHeatState TetherHeat::carrying(double load_power, const TetherHeatState& near,
+                                     double last_step) const {
   if (near.steady) {
-    const TetherHeatState state = settled(load_power, near.current, surfaces_like(near.surfaces));
+    const TetherHeatState state = jointly(load_power, near, last_step);
     if (state.steady) return state;
   }
-  return carrying(load_power);
+  TetherHeatState cold;
+  cold.current =
+      demanded_current(load_power, resistance({flight_.state().ambient_temperature_C, {}}));
+  if (!(cold.current < infinity)) return {};
+  cold.surface_in_air_C = in_air_.first_surface();
+  cold.surface_on_drum_C = on_drum_.first_surface();
+  const TetherHeatState state = jointly(load_power, cold, last_step);
+  return state.steady ? state : step_by_step(load_power, cold.current);
 }
 
-/// The state that Newton's steps from a current lead to. Where they overshoot it, which the air's
-/// properties may make them do, they go back half-way.
-TetherHeatState TetherHeat::settled(double load_power, double current,
-                                    const Surfaces& surfaces) const {
+TetherHeatState TetherHeat::jointly(double load_power, const TetherHeatState& start,
+                                    double last_step) const {
+  const double ambient = flight_.state().ambient_temperature_C;
+  const double voltage = flight_.design().supply.voltage;
+  TetherHeatState state = start;
+  for (int step = 0; step < 12; ++step) {
+    const double current = state.current;
+    ConductorHeat::Balance in_air =
+        measured_ ? measured(current) : in_air_.balance(state.surface_in_air_C, current);
+    ConductorHeat::Balance on_drum =
+        wound_ && !measured_ ? on_drum_.balance(state.surface_on_drum_C, current) : in_air;
+    const Loop at = loop(in_air, on_drum);
+    // U·I − R·I² = P, R along its tangent. Beyond where the left side is most, no state lasts.
+    const double rate = voltage - current * (2 * at.resistance + current * at.by_current);
+    if (!(rate > 0 && in_air.returns && on_drum.returns)) return {};
+    const double change =
+        (load_power + at.resistance * current * current - voltage * current) / rate;
+    in_air.surface_change += in_air.by_current * change;
+    on_drum.surface_change += on_drum.by_current * change;
+    state.current = current + change;
+    state.surface_in_air_C = in_air.surface_C + in_air.surface_change;
+    state.surface_on_drum_C = on_drum.surface_C + on_drum.surface_change;
+    const double coolest = std::min(state.surface_in_air_C, state.surface_on_drum_C);
+    const double warmest = std::max(state.surface_in_air_C, state.surface_on_drum_C);
+    if (!(state.current > 0 && coolest > ambient - 1 && warmest < highest_conductor_temperature_C))
+      return {};
+    const bool settled =
+        measured_ || (in_air.is_near(ambient, last_step) && on_drum.is_near(ambient, last_step));
+    if (settled && std::abs(change) <= last_step * current) {
+      state.temperatures = {in_air.steady_inside(), {}};
+      if (wound_) state.temperatures.on_drum = on_drum.steady_inside();
+      state.resistance = at.resistance + at.by_current * change;
+      state.resistance_slope = at.by_radius;
+      state.steady = state.hottest() <= highest_conductor_temperature_C;
+      return state;
+    }
+  }
+  return {};
+}
+
+/// The state that Newton's steps from a cold current lead to, each with the temperatures that are
+/// steady at it. Where they overshoot, which the air's properties may make them do, they go back
+/// half-way.
+TetherHeatState TetherHeat::step_by_step(double load_power, double current) const {
   constexpr int most_retreats = 4;
   const double voltage = flight_.design().supply.voltage;
-  TetherHeatState state;
-  state.surfaces = surfaces;
   double lo = current;
   int retreats = 0;
   for (int step = 0; step < 100; ++step) {
-    const auto warm = warmed(current, state.surfaces);
+    const auto warm = warmed(current);
     double next = infinity;
     if (warm) {
-      state.temperatures = warm->temperatures;
-      state.resistance = resistance(warm->temperatures);
-      state.current = demanded_current(load_power, state.resistance);
-      const double change = state.current - current;
+      const double demanded = demanded_current(load_power, warm->resistance);
       // dI/dR = I²/(U − 2RI) of U·I − R·I² = P.
-      const double slope = state.current * state.current /
-                           (voltage - 2 * state.resistance * state.current) *
-                           warm->resistance_growth;
-      if (slope < 1) next = current + change / (1 - slope);
+      const double slope =
+          demanded * demanded / (voltage - 2 * warm->resistance * demanded) * warm->by_current;
+      if (slope < 1) next = current + (demanded - current) / (1 - slope);
       if (std::abs(next - current) <= same_current * current) {
-        state.steady = true;
-        return state;
+        const double ambient = flight_.state().ambient_temperature_C;
+        return {true,    demanded, warm->resistance, warm->temperatures, warm->by_radius,
+                ambient, ambient};
       }
       if (next > current) lo = current;
     }

@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "model/constants.hpp"
-#include "tethercalc/report/json_results.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 ordered_json temperatures_json(const OperatingPoint& point) {
   return {{"conductor_temperature_C", number_or_null(point.conductor_temperature)},
@@ -124,9 +122,8 @@ ordered_json thermal_json(const Design& design, const OperatingPoint& hover,
                           const OperatingPoint& forward) {
   const Tether& tether = design.tether;
   if (!tether.ambient_temperature_C) return nullptr;
-  const auto rated = tether.insulation.rated_temperature_C;
   return {{"ambient_temperature_C", *tether.ambient_temperature_C},
-          {"rated_temperature_C", rated ? ordered_json(*rated) : ordered_json(nullptr)},
+          {"rated_temperature_C", number_or_null(tether.insulation.rated_temperature_C)},
           {"hover", temperatures_json(hover)},
           {"forward", temperatures_json(forward)}};
 }
@@ -136,11 +133,11 @@ ordered_json cable_json(const Design& design, const OperatingPoint& hover,
   const double load = breaking_load(design.tether, hover.cross_section);
   const double breakdown = breakdown_voltage(design);
   return {{"tension_N", number_or_null(std::max(hover.tether_tension, forward.tether_tension))},
-          {"breaking_load_N", load > 0 ? ordered_json(load) : ordered_json(nullptr)},
+          {"breaking_load_N", number_or_null(load > 0 ? load : nan)},
           {"required_safety_factor", design.requirements.strength_safety_factor},
           {"wall_mm",
            insulation_wall(design.tether.insulation, design.supply.voltage) / unit::millimetre},
-          {"breakdown_voltage_V", breakdown > 0 ? ordered_json(breakdown) : ordered_json(nullptr)},
+          {"breakdown_voltage_V", number_or_null(breakdown > 0 ? breakdown : nan)},
           {"converter", converter_json(design, hover, forward)},
           {"reserve_battery", battery_json(design, hover)}};
 }

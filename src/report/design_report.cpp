@@ -4,18 +4,15 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "model/constants.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 /// The values of the free fields by their paths; of named choices the name.
 ordered_json free_values(const DesignStudy& study, const std::vector<double>& values) {
@@ -201,13 +198,8 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
       out += fmt::format("  cross-section {} mm²\n",
                          significant(answer.best.area / unit::square_millimetre, 5));
     }
-    TextTable table({{"", TextTable::Align::left},
-                     {"supply W"},
-                     {"lost W"},
-                     {"current A"},
-                     {"at drone V"},
-                     {"headroom"},
-                     {"tether g"}});
+    TextTable table(
+        {word_column(""), "supply W", "lost W", "current A", "at drone V", "headroom", "tether g"});
     for (const auto& [name, point] :
          {std::pair{"hover", &answer.best.hover}, std::pair{"forward", &answer.best.forward}}) {
       table.add({name, fixed(point->total_power, 1), fixed(point->tether_loss, 1),
@@ -229,8 +221,8 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
   out += "\n" + wrapped(confidence_text(study));
   if (!study.front.empty()) {
     out += "\n" + style.bold("Pareto front") + "\n";
-    std::vector<TextTable::Column> columns{{request.pareto[0]}, {request.pareto[1]}};
-    for (const SweepAxis& axis : study.problem.free) columns.push_back({axis.name});
+    std::vector<TextTable::Column> columns{request.pareto[0], request.pareto[1]};
+    for (const SweepAxis& axis : study.problem.free) columns.push_back(axis.name);
     TextTable table(columns);
     for (const FrontPoint& point : study.front) {
       std::vector<std::string> cells{significant(point.first, 5), significant(point.second, 5)};
@@ -249,27 +241,25 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
 ordered_json design_json(const DesignFile& file, const DesignRequest& request,
                          const DesignStudy& study) {
   const DesignAnswer& answer = study.answer;
-  ordered_json prices = ordered_json::array();
-  for (const ShadowPrice& price : study.prices) {
-    prices.push_back(
-        {{"name", price.of == Priced::range_end ? range_end_words(price, "at") : price.name},
-         {"active", price.active()},
-         {"step", price.step},
-         {"change", number_or_null(price.price)},
-         {"sentence", price_sentence(study, request.minimize, price)}});
-  }
-  ordered_json front = ordered_json::array();
-  for (const FrontPoint& point : study.front) {
-    front.push_back({{request.pareto[0], point.first},
-                     {request.pareto[1], point.second},
-                     {"values", free_values(study, point.values)}});
-  }
+  const ordered_json prices = json_list(study.prices, [&](const ShadowPrice& price) {
+    return ordered_json{
+        {"name", price.of == Priced::range_end ? range_end_words(price, "at") : price.name},
+        {"active", price.active()},
+        {"step", price.step},
+        {"change", number_or_null(price.price)},
+        {"sentence", price_sentence(study, request.minimize, price)}};
+  });
+  const ordered_json front = json_list(study.front, [&](const FrontPoint& point) {
+    return ordered_json{{request.pareto[0], point.first},
+                        {request.pareto[1], point.second},
+                        {"values", free_values(study, point.values)}};
+  });
   const bool exists = std::isfinite(answer.best.area);
   ordered_json out{
       {"name", file.name},
       {"status", answer.feasible ? "optimal" : "infeasible"},
       {"minimize", request.minimize},
-      {"value", answer.feasible ? number_or_null(answer.minimum.value) : ordered_json(nullptr)},
+      {"value", number_or_null(answer.feasible ? answer.minimum.value : nan)},
       {"free", free_values(study, answer.values)},
       {"cross_section_mm2", number_or_null(answer.best.area / unit::square_millimetre)},
       {"hover", exists ? operating_point_json(answer.best.hover) : ordered_json(nullptr)},
@@ -288,12 +278,10 @@ ordered_json design_json(const DesignFile& file, const DesignRequest& request,
       {"pareto", front},
       {"spec", answer.feasible ? ready_spec(file, study) : ordered_json(nullptr)}};
   if (!answer.feasible) {
-    ordered_json missed = ordered_json::array();
-    for (const DemandState& demand : answer.missed) {
-      missed.push_back(
-          {{"demand", demand.name}, {"by_percent", number_or_null(100 * demand.violation)}});
-    }
-    out["missed"] = missed;
+    out["missed"] = json_list(answer.missed, [](const DemandState& demand) {
+      return ordered_json{{"demand", demand.name},
+                          {"by_percent", number_or_null(100 * demand.violation)}};
+    });
   }
   return out;
 }
@@ -303,11 +291,7 @@ std::string design_csv(const DesignRequest& request, const DesignStudy& study) {
   const ordered_json values = free_values(study, study.answer.values);
   for (const auto& [path, value] : values.items()) out += path + ",";
   out += "feasible," + request.minimize + "\n";
-  for (const auto& [path, value] : values.items()) {
-    out +=
-        (value.is_number() ? csv_number(value.get<double>()) : csv_text(value.get<std::string>())) +
-        ",";
-  }
+  for (const ordered_json& value : values) out += csv_cell(value) + ",";
   return out + (study.answer.feasible ? "true," : "false,") +
          csv_number(study.answer.minimum.value) + "\n";
 }

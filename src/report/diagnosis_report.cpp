@@ -4,28 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
-#include <vector>
 
-#include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
+#include "report/result_values.hpp"
 
 namespace tethercalc {
-
-using nlohmann::ordered_json;
 
 namespace {
 
 ordered_json parameters_json(const std::vector<ParameterEstimate>& parameters) {
-  ordered_json out = ordered_json::array();
-  for (const ParameterEstimate& p : parameters) {
-    out.push_back({{"name", p.name},
-                   {"value", number_or_null(p.value)},
-                   {"unit", p.unit},
-                   {"ci95", {number_or_null(p.ci95_lower), number_or_null(p.ci95_upper)}}});
-  }
-  return out;
+  return json_list(parameters, [](const ParameterEstimate& p) {
+    return ordered_json{{"name", p.name},
+                        {"value", number_or_null(p.value)},
+                        {"unit", p.unit},
+                        {"ci95", {number_or_null(p.ci95_lower), number_or_null(p.ci95_upper)}}};
+  });
 }
 
 ordered_json finding_json(const Finding& f) {
@@ -43,14 +36,7 @@ ordered_json finding_json(const Finding& f) {
 }
 
 ordered_json before_after(const BeforeAfter& pair) {
-  const auto number = [](const std::optional<double>& value) {
-    return value ? number_or_null(*value) : ordered_json(nullptr);
-  };
-  return ordered_json::array({number(pair.before), number(pair.after)});
-}
-
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  return fmt::format("{}", fmt::join(words, between));
+  return ordered_json::array({number_or_null(pair.before), number_or_null(pair.after)});
 }
 
 /// Value and uncertainty with as many digits as two of the interval's half width.
@@ -129,11 +115,10 @@ class Story {
     } else {
       const double gain =
           100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
-      std::vector<std::string> names;
-      for (const Finding& f : d_.findings) names.push_back(f.effect);
-      text = fmt::format("{} explain{} {:.0f} % of the error of this {} log.",
-                         style_.good(joined(names, ", ")), names.size() == 1 ? "s" : "", gain,
-                         d_.kind);
+      std::string names;
+      for (const Finding& f : d_.findings) names += (names.empty() ? "" : ", ") + f.effect;
+      text = fmt::format("{} explain{} {:.0f} % of the error of this {} log.", style_.good(names),
+                         d_.findings.size() == 1 ? "s" : "", gain, d_.kind);
     }
     paragraph(fmt::format("{} It has {} samples, worth {:.0f} independent ones.", text, d_.samples,
                           d_.effective_samples));
@@ -142,8 +127,8 @@ class Story {
   /// Rms in the units of the instruments.
   void errors() {
     const bool found = !d_.findings.empty();
-    std::vector<TextTable::Column> columns{{"quantity", TextTable::Align::left}, {"base model"}};
-    if (found) columns.push_back({"with findings"});
+    std::vector<TextTable::Column> columns{word_column("quantity"), "base model"};
+    if (found) columns.push_back("with findings");
     TextTable table(columns);
     const auto row = [&](const std::string& quantity, const std::string& unit, double base,
                          double extended) {
@@ -163,8 +148,7 @@ class Story {
 
   void budget() {
     if (d_.budget.findings.size() != d_.findings.size() || d_.budget.noise <= 0) return;
-    TextTable table(
-        {{"source", TextTable::Align::left}, {"stage", TextTable::Align::left}, {"share"}});
+    TextTable table({word_column("source"), word_column("stage"), "share"});
     for (std::size_t k = 0; k < d_.findings.size(); ++k) {
       table.add({d_.findings[k].effect, d_.findings[k].stage,
                  fmt::format("{:.1f} %", d_.budget.findings[k])});
@@ -180,11 +164,11 @@ class Story {
     for (const ParameterEstimate& p : f.parameters) values.push_back(with_interval(p));
     std::string text = fmt::format(
         "{} With {} the held-out error falls from {} to {} {}, by {:.1f} ± {:.1f} %.", f.mechanism,
-        joined(values, ", "), significant(f.holdout_rmse_before, 3),
+        fmt::join(values, ", "), significant(f.holdout_rmse_before, 3),
         significant(f.holdout_rmse_after, 3), d_.unit, f.gain_percent, f.gain_se_percent);
     if (!f.indistinguishable_from.empty()) {
       text += fmt::format(" This log is explained as well by {}. To tell them apart: {}",
-                          joined(f.indistinguishable_from, " or "), with_stop(f.to_separate));
+                          fmt::join(f.indistinguishable_from, " or "), with_stop(f.to_separate));
     }
     paragraph(text);
   }
@@ -200,7 +184,7 @@ class Story {
         fmt::format("{} {:.0f} % of the squared error left ({} {}) is no noise but follows "
                     "{}: {}",
                     style_.bad("Unnamed structure:"), u.share_percent, significant(u.size, 2),
-                    u.size_unit, joined(u.channels, ", "), with_stop(u.shape)));
+                    u.size_unit, fmt::join(u.channels, ", "), with_stop(u.shape)));
   }
 
   void design() {
@@ -221,7 +205,7 @@ class Story {
             .second.push_back(n.effect);
       }
       for (const auto& [needs, effects] : lacking) {
-        paragraph(fmt::format("{}: needs {}", joined(effects, ", "), with_stop(needs)));
+        paragraph(fmt::format("{}: needs {}", fmt::join(effects, ", "), with_stop(needs)));
       }
     }
     if (!d_.not_identifiable.empty()) {
@@ -246,24 +230,21 @@ class Story {
 }  // namespace
 
 ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
-  ordered_json out;
-  out["kind"] = d.kind;
-  out["samples"] = d.samples;
-  out["effective_samples"] = number_or_null(d.effective_samples);
-  out["quantity"] = d.quantity;
-  out["base"] = {{"holdout_rmse", number_or_null(d.base.holdout_rmse)},
-                 {"unit", d.unit},
-                 {"parameters", parameters_json(d.base.parameters)}};
-  out["findings"] = ordered_json::array();
-  for (const Finding& f : d.findings) out["findings"].push_back(finding_json(f));
-  out["not_testable"] = ordered_json::array();
-  for (const NotTestable& n : d.not_testable) {
-    out["not_testable"].push_back({{"effect", n.effect}, {"needs", n.needs}});
-  }
-  out["not_identifiable"] = ordered_json::array();
-  for (const NotIdentifiable& n : d.not_identifiable) {
-    out["not_identifiable"].push_back({{"effect", n.effect}, {"because", n.because}});
-  }
+  ordered_json out{{"kind", d.kind},
+                   {"samples", d.samples},
+                   {"effective_samples", number_or_null(d.effective_samples)},
+                   {"quantity", d.quantity},
+                   {"base",
+                    {{"holdout_rmse", number_or_null(d.base.holdout_rmse)},
+                     {"unit", d.unit},
+                     {"parameters", parameters_json(d.base.parameters)}}}};
+  out["findings"] = json_list(d.findings, finding_json);
+  out["not_testable"] = json_list(d.not_testable, [](const NotTestable& n) {
+    return ordered_json{{"effect", n.effect}, {"needs", n.needs}};
+  });
+  out["not_identifiable"] = json_list(d.not_identifiable, [](const NotIdentifiable& n) {
+    return ordered_json{{"effect", n.effect}, {"because", n.because}};
+  });
   out["unexplained"] = {{"detected", d.unexplained.detected},
                         {"channels", d.unexplained.channels},
                         {"share_percent", number_or_null(d.unexplained.share_percent)},
@@ -277,19 +258,17 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   out["error_budget_percent"] = {{"findings", d.budget.findings},
                                  {"unexplained", d.budget.unexplained},
                                  {"noise", d.budget.noise}};
-  out["further"] = ordered_json::array();
-  for (const HoldoutComparison& c : d.further) {
-    out["further"].push_back({{"quantity", c.quantity},
-                              {"unit", c.unit},
-                              {"base_rmse", number_or_null(c.base_rmse)},
-                              {"extended_rmse", number_or_null(c.extended_rmse)}});
-  }
+  out["further"] = json_list(d.further, [](const HoldoutComparison& c) {
+    return ordered_json{{"quantity", c.quantity},
+                        {"unit", c.unit},
+                        {"base_rmse", number_or_null(c.base_rmse)},
+                        {"extended_rmse", number_or_null(c.extended_rmse)}};
+  });
   out["notes"] = d.notes;
+  out["design_impact"] = nullptr;
   if (d.design_impact) {
     out["design_impact"] = {{"cross_section_mm2", before_after(d.design_impact->cross_section_mm2)},
                             {"total_power_W", before_after(d.design_impact->total_power_W)}};
-  } else {
-    out["design_impact"] = nullptr;
   }
   return out;
 }
@@ -314,8 +293,7 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style) {
 
 ordered_json joint_diagnosis_json(const Diagnosis& flight, const Diagnosis& power,
                                   const ordered_json& extended) {
-  ordered_json out;
-  out["kind"] = "flight and power";
+  ordered_json out{{"kind", "flight and power"}};
   const ordered_json parts[] = {diagnosis_json(flight, nullptr), diagnosis_json(power, nullptr)};
   for (const char* list : {"findings", "not_testable", "not_identifiable"}) {
     out[list] = ordered_json::array();
@@ -323,10 +301,9 @@ ordered_json joint_diagnosis_json(const Diagnosis& flight, const Diagnosis& powe
       for (const ordered_json& entry : part[list]) out[list].push_back(entry);
     }
   }
-  ordered_json channels = ordered_json::array();
-  for (const Diagnosis* d : {&flight, &power}) {
-    for (const std::string& channel : d->unexplained.channels) channels.push_back(channel);
-  }
+  std::vector<std::string> channels = flight.unexplained.channels;
+  channels.insert(channels.end(), power.unexplained.channels.begin(),
+                  power.unexplained.channels.end());
   out["unexplained"] = {{"detected", flight.unexplained.detected || power.unexplained.detected},
                         {"channels", channels}};
   out["extended"] = {{"spec", extended}};

@@ -4,17 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
-#include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
+#include "report/result_values.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 ordered_json estimate_json(const Estimate& e, double unit = 1) {
   const auto interval =
@@ -35,43 +31,36 @@ ordered_json parameter_json(const FittedParameter& parameter) {
 
 /// Correlations of all pairs, as a matrix in the order of `parameters`.
 ordered_json correlation_json(const DragFit& fit) {
-  ordered_json names = ordered_json::array();
   ordered_json matrix = ordered_json::array();
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
-    names.push_back(fit.parameters[i].name);
     ordered_json row = ordered_json::array();
     for (std::size_t j = 0; j < fit.parameters.size(); ++j) row.push_back(fit.correlation(i, j));
     matrix.push_back(row);
   }
-  return {{"parameters", names}, {"matrix", matrix}};
+  const auto name = [](const FittedParameter& parameter) { return parameter.name; };
+  return {{"parameters", json_list(fit.parameters, name)}, {"matrix", matrix}};
 }
 
 ordered_json entangled_json(const DragFit& fit) {
-  ordered_json out = ordered_json::array();
-  for (const EntangledPair& pair : entangled_pairs(fit)) {
-    out.push_back(
-        {{"parameters", {fit.parameters[pair.first].name, fit.parameters[pair.second].name}},
-         {"correlation", pair.correlation}});
-  }
-  return out;
+  return json_list(entangled_pairs(fit), [&](const EntangledPair& pair) {
+    return ordered_json{
+        {"parameters", {fit.parameters[pair.first].name, fit.parameters[pair.second].name}},
+        {"correlation", pair.correlation}};
+  });
 }
 
 ordered_json parts_json(const DragIdentification& result) {
-  ordered_json out = ordered_json::array();
-  for (const FlightPart& part : result.parts) {
-    out.push_back({{"from_s", part.from}, {"to_s", part.to}, {"samples", part.samples}});
-  }
-  return out;
+  return json_list(result.parts, [](const FlightPart& part) {
+    return ordered_json{{"from_s", part.from}, {"to_s", part.to}, {"samples", part.samples}};
+  });
 }
 
 ordered_json table_json(const DragFit& fit) {
-  ordered_json out = ordered_json::array();
-  for (const SteadyDrag& row : steady_drag_table(fit)) {
-    out.push_back({{"airspeed_m_s", row.airspeed},
-                   {"drag_force_N", estimate_json(row.force)},
-                   {"pitch_deg", estimate_json(row.tilt, unit::degree)}});
-  }
-  return out;
+  return json_list(steady_drag_table(fit), [](const SteadyDrag& row) {
+    return ordered_json{{"airspeed_m_s", row.airspeed},
+                        {"drag_force_N", estimate_json(row.force)},
+                        {"pitch_deg", estimate_json(row.tilt, unit::degree)}};
+  });
 }
 
 bool automatic(const DragIdentification& result) {
@@ -213,8 +202,7 @@ ordered_json drag_json(const DragIdentification& result) {
   out["front_area_m2"] = parameter_json(fit.front_area());
   out["top_area_m2"] = parameter_json(fit.top_area());
   out["linear_m_s"] = parameter_json(fit.linear_speed());
-  out["wind_m_s"] = ordered_json::array();
-  for (const FittedParameter& wind : fit.wind()) out["wind_m_s"].push_back(parameter_json(wind));
+  out["wind_m_s"] = json_list(fit.wind(), parameter_json);
   out["rmse_m_s2"] = quality.rmse;
   out["mae_m_s2"] = quality.mae;
   out["r_squared"] = quality.r_squared;
@@ -237,12 +225,8 @@ ordered_json drag_json(const DragIdentification& result) {
 }
 
 TitledTable drag_parameter_table(const DragFit& fit) {
-  TextTable table({{"", TextTable::Align::left},
-                   {"value"},
-                   {"std. error", TextTable::Align::right},
-                   {"95 % interval", TextTable::Align::right},
-                   {"std. error if independent", TextTable::Align::right},
-                   {"", TextTable::Align::left}});
+  TextTable table({word_column(""), "value", "std. error", "95 % interval",
+                   "std. error if independent", word_column("")});
   for (const FittedParameter& p : fit.parameters) {
     const Estimate& e = p.estimate;
     const bool held = p.at_bound != Bound::none;
@@ -255,8 +239,7 @@ TitledTable drag_parameter_table(const DragFit& fit) {
 }
 
 TitledTable steady_flight_table(const DragFit& fit) {
-  TextTable table(
-      {{"airspeed m/s"}, {"drag N"}, {"95 % interval"}, {"tilt deg"}, {"95 % interval"}});
+  TextTable table({"airspeed m/s", "drag N", "95 % interval", "tilt deg", "95 % interval"});
   const auto interval = [](const Estimate& e, double unit, int decimals) {
     return fixed(e.lower / unit, decimals) + " … " + fixed(e.upper / unit, decimals);
   };
@@ -299,12 +282,10 @@ std::string drag_csv(const DragIdentification& result) {
       "pitch_deg,pitch_standard_error_deg,pitch_lower_deg,pitch_upper_deg\n";
   for (const SteadyDrag& row : steady_drag_table(result.fit)) {
     out += csv_number(row.airspeed);
-    for (double value :
-         {row.force.value, row.force.standard_error, row.force.lower, row.force.upper}) {
-      out += "," + csv_number(value);
-    }
-    for (double value : {row.tilt.value, row.tilt.standard_error, row.tilt.lower, row.tilt.upper}) {
-      out += "," + csv_number(value / unit::degree);
+    for (const auto& [e, unit] : {std::pair{row.force, 1.0}, std::pair{row.tilt, unit::degree}}) {
+      for (const double value : {e.value, e.standard_error, e.lower, e.upper}) {
+        out += "," + csv_number(value / unit);
+      }
     }
     out += "\n";
   }

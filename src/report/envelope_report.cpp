@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "model/constants.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 struct ReachWords {
   const char* key;
@@ -73,12 +69,18 @@ std::string sentence_of(const Design& design, const ReachResult& result) {
                      beyond_words(design, *result.end));
 }
 
+/// What ends a reach; null where nothing does.
+ordered_json limit_json(const std::optional<ReachEnd>& end) {
+  return end && end->bounded ? ordered_json(limit_name(end->limit)) : ordered_json(nullptr);
+}
+
+double value_of(const std::optional<ReachEnd>& end) { return end ? end->value : nan; }
+
 ordered_json end_json(const std::optional<ReachEnd>& end, double si_factor) {
   if (!end) return nullptr;
-  return {
-      {"value", end->value / si_factor},
-      {"limited_by", end->bounded ? ordered_json(limit_name(end->limit)) : ordered_json(nullptr)},
-      {"limiting_condition", condition_name(end->condition)}};
+  return {{"value", end->value / si_factor},
+          {"limited_by", limit_json(end)},
+          {"limiting_condition", condition_name(end->condition)}};
 }
 
 }  // namespace
@@ -95,12 +97,11 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     const ReachWords of = words_of(curve.of);
     const ReachWords against = words_of(curve.against);
     out += "\n" + style.bold(fmt::format("Greatest {} against {}", of.noun, against.noun)) + "\n";
-    TextTable table({{fmt::format("{} {}", against.noun, against.unit)},
-                     {fmt::format("{} {}", of.noun, of.unit)},
-                     {"beyond it", TextTable::Align::left}});
+    TextTable table({fmt::format("{} {}", against.noun, against.unit),
+                     fmt::format("{} {}", of.noun, of.unit), word_column("beyond it")});
     for (const EnvelopePoint& point : curve.points) {
-      const std::string end = point.end ? fixed(point.end->value / of.si_factor, of.decimals) : "–";
-      table.add({fixed(point.against / against.si_factor, against.decimals), end,
+      table.add({fixed(point.against / against.si_factor, against.decimals),
+                 fixed(value_of(point.end) / of.si_factor, of.decimals),
                  point.end ? beyond_words(file.design, *point.end)
                            : std::string("the demands are not met")});
     }
@@ -120,21 +121,16 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
     if (result.end) end["sentence"] = sentence_of(file.design, result);
     greatest[words.key] = std::move(end);
   }
-  ordered_json curves = ordered_json::array();
-  for (const EnvelopeCurve& curve : study.curves) {
+  const ordered_json curves = json_list(study.curves, [](const EnvelopeCurve& curve) {
     const ReachWords of = words_of(curve.of);
     const ReachWords against = words_of(curve.against);
-    ordered_json points = ordered_json::array();
-    for (const EnvelopePoint& point : curve.points) {
-      const bool bounded = point.end && point.end->bounded;
-      points.push_back({{against.key, point.against / against.si_factor},
-                        {of.key, point.end ? ordered_json(point.end->value / of.si_factor)
-                                           : ordered_json(nullptr)},
-                        {"limited_by", bounded ? ordered_json(limit_name(point.end->limit))
-                                               : ordered_json(nullptr)}});
-    }
-    curves.push_back({{"of", of.key}, {"against", against.key}, {"points", points}});
-  }
+    const ordered_json points = json_list(curve.points, [&](const EnvelopePoint& point) {
+      return ordered_json{{against.key, point.against / against.si_factor},
+                          {of.key, number_or_null(value_of(point.end) / of.si_factor)},
+                          {"limited_by", limit_json(point.end)}};
+    });
+    return ordered_json{{"of", of.key}, {"against", against.key}, {"points", points}};
+  });
   return {{"name", file.name},
           {"cross_section_mm2", *file.design.tether.cross_section / unit::square_millimetre},
           {"greatest", greatest},
@@ -150,8 +146,7 @@ std::string envelope_csv(const EnvelopeStudy& study) {
     for (const EnvelopePoint& point : curve.points) {
       out += fmt::format(
           "{},{},{},{},{}\n", against.key, csv_number(point.against / against.si_factor), of.key,
-          point.end ? csv_number(point.end->value / of.si_factor) : "",
-          point.end && point.end->bounded ? limit_name(point.end->limit) : std::string_view());
+          csv_number(value_of(point.end) / of.si_factor), csv_cell(limit_json(point.end)));
     }
   }
   return out;

@@ -4,21 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <vector>
 
 #include "io/closest_name.hpp"
 #include "report/characters.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/report/json_results.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 std::string messages_text(std::size_t count) {
   return fmt::format("{} message{}", count, count == 1 ? "" : "s");
@@ -71,30 +68,33 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "";
 }
 
-ordered_json value_or_null(const std::optional<double>& value) {
-  return value ? number_or_null(*value) : ordered_json();
+ordered_json gap_json(const LogSummary::Gap& gap) {
+  return {{"start_s", gap.start}, {"duration_s", gap.duration}};
 }
 
-std::string quoted_where_needed(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
+ordered_json skipped_json(const SkippedBytes& lost) {
+  return {{"offset", lost.offset}, {"bytes", lost.bytes}, {"messages", lost.messages}};
 }
 
-std::string csv_cell(const std::byte* message, const DataFlashField& field) {
+ordered_json message_json(const LogSummary::Message& message) {
+  return {{"name", message.name},
+          {"count", message.count},
+          {"rate_Hz", number_or_null(message.rate)},
+          {"first_s", number_or_null(message.first_time)},
+          {"last_s", number_or_null(message.last_time)},
+          {"longest_gap_s", number_or_null(message.longest_gap)},
+          {"fields", message.fields}};
+}
+
+std::string csv_field(const std::byte* message, const DataFlashField& field) {
   if (field.is_number() && !std::isfinite(field_value(message, field))) return "";
-  return quoted_where_needed(field_text(message, field));
+  return csv_text(field_text(message, field));
 }
 
-std::string joined(std::vector<std::string> names) {
+std::string in_order(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + printable(name);
-  return names.empty() ? "none" : text;
+  for (std::string& name : names) name = printable(name);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 [[noreturn]] void fail_without(std::string_view message, std::string_view name,
@@ -104,9 +104,9 @@ std::string joined(std::vector<std::string> names) {
     if (type.count > 0) names.push_back(type.format.name);
   }
   const std::string meant = did_you_mean(message, names);
-  throw InputError(
-      {{std::string(name), fmt::format("the log holds no message {}{}", message,
-                                       meant.empty() ? "; it holds " + joined(names) : meant)}});
+  throw InputError(std::string(name),
+                   fmt::format("the log holds no message {}{}", message,
+                               meant.empty() ? "; it holds " + in_order(names) : meant));
 }
 
 }  // namespace
@@ -123,12 +123,8 @@ std::string log_text(const LogSummary& summary, std::string_view name, const Tex
     text += "flying     not known: neither take-off events nor velocities in the log\n";
   }
   text += damage_text(summary);
-  TextTable table({{"message", TextTable::Align::left},
-                   {"count"},
-                   {"rate Hz"},
-                   {"first s"},
-                   {"last s"},
-                   {"longest gap s"}});
+  TextTable table(
+      {word_column("message"), "count", "rate Hz", "first s", "last s", "longest gap s"});
   for (const LogSummary::Message& message : summary.types) {
     table.add({message.name, std::to_string(message.count), cell(message.rate, 2),
                cell(message.first_time, 3), cell(message.last_time, 3),
@@ -153,39 +149,23 @@ ordered_json log_json(const LogSummary& summary, std::string_view name) {
                          {"bytes", summary.bytes},
                          {"messages", summary.messages},
                          {"firmware", printable(summary.firmware)},
-                         {"first_s", value_or_null(summary.first_time)},
-                         {"last_s", value_or_null(summary.last_time)},
+                         {"first_s", number_or_null(summary.first_time)},
+                         {"last_s", number_or_null(summary.last_time)},
                          {"duration_s", nullptr},
                          {"flying", nullptr},
-                         {"gaps", ordered_json::array()},
+                         {"gaps", json_list(summary.gaps, gap_json)},
                          {"gap_count", summary.gap_count},
                          {"implausible_times", summary.implausible_times},
                          {"skipped",
                           {{"bytes", summary.skipped_bytes},
                            {"messages", summary.skipped_messages},
-                           {"stretches", ordered_json::array()}}},
+                           {"stretches", json_list(summary.skipped, skipped_json)}}},
                          {"rejected_definitions", summary.rejected_definitions},
-                         {"types", ordered_json::array()}};
+                         {"types", json_list(summary.types, message_json)}};
   if (summary.first_time) report["duration_s"] = *summary.last_time - *summary.first_time;
   if (summary.flying) {
     report["flying"] = {{"duration_s", summary.flying->duration},
                         {"determined_by", summary.flying->determined_by}};
-  }
-  for (const LogSummary::Gap& gap : summary.gaps) {
-    report["gaps"].push_back({{"start_s", gap.start}, {"duration_s", gap.duration}});
-  }
-  for (const SkippedBytes& lost : summary.skipped) {
-    report["skipped"]["stretches"].push_back(
-        {{"offset", lost.offset}, {"bytes", lost.bytes}, {"messages", lost.messages}});
-  }
-  for (const LogSummary::Message& message : summary.types) {
-    report["types"].push_back({{"name", message.name},
-                               {"count", message.count},
-                               {"rate_Hz", value_or_null(message.rate)},
-                               {"first_s", value_or_null(message.first_time)},
-                               {"last_s", value_or_null(message.last_time)},
-                               {"longest_gap_s", value_or_null(message.longest_gap)},
-                               {"fields", message.fields}});
   }
   return report;
 }
@@ -197,7 +177,7 @@ void write_messages_csv(std::span<const std::byte> log, std::string_view message
   const DataFlashFormat& header = *contents.find(message);
   std::string line;
   for (const DataFlashField& field : header.fields) {
-    line += (line.empty() ? "" : ",") + quoted_where_needed(field.name);
+    line += (line.empty() ? "" : ",") + csv_text(field.name);
   }
   out << line << '\n';
   for_each_message(log, [&](const DataFlashFormat& format, const std::byte* bytes) {
@@ -207,7 +187,7 @@ void write_messages_csv(std::span<const std::byte> log, std::string_view message
       if (&column != &header.fields.front()) line += ',';
       // By name, because a log behind another in one file may define the message anew.
       if (const DataFlashField* const field = format.find(column.name)) {
-        line += csv_cell(bytes, *field);
+        line += csv_field(bytes, *field);
       }
     }
     out << line << '\n';

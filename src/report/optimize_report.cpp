@@ -2,20 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <array>
 
+#include "report/result_values.hpp"
+#include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/study/result_keys.hpp"
+#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 std::string area_words(double area) {
   return significant(area / unit::square_millimetre, 4) + " mm²";
@@ -53,22 +49,19 @@ Answer feasible_answer(const DesignFile& file, const Optimization& result) {
   return out;
 }
 
+/// The field that a remedy changes, and what it is a field of; in the order of `Quantity`.
+constexpr std::array<std::pair<const char*, const char*>, 4> remedied_fields{
+    {{"supply.voltage_V", "a supply"},
+     {"drone.mass_g", "a drone"},
+     {"tether.length_m", "a tether"},
+     {"flight.airspeed_m_s", "an airspeed"}}};
+
 std::string remedy_words(const Design& design, const Remedy& remedy) {
-  switch (remedy.quantity) {
-    case Quantity::supply_voltage:
-      return fmt::format("a supply of {} V instead of {} V", significant(remedy.value, 3),
-                         significant(design.supply.voltage, 3));
-    case Quantity::drone_mass:
-      return fmt::format("a drone of {} g instead of {} g", fixed(remedy.value / unit::gram, 0),
-                         fixed(design.drone.mass / unit::gram, 0));
-    case Quantity::tether_length:
-      return fmt::format("a tether of {} m instead of {} m", significant(remedy.value, 3),
-                         significant(design.tether.length, 3));
-    case Quantity::airspeed:
-      return fmt::format("an airspeed of {} m/s instead of {} m/s", significant(remedy.value, 3),
-                         significant(design.flight.airspeed, 3));
-  }
-  return "";
+  const auto& [path, thing] = remedied_fields.at(static_cast<std::size_t>(remedy.quantity));
+  const SpecField& field = *find_field(path);
+  return fmt::format("{0} of {1} {3} instead of {2} {3}", thing,
+                     significant(*field_value(remedied(design, remedy), field), 3),
+                     significant(*field_value(design, field), 3), field.unit);
 }
 
 Answer refused_answer(const OptimumStudy& study) {
@@ -105,31 +98,17 @@ std::string mark(const OptimumStudy& study, const AreaPoints& row) {
 }
 
 ordered_json table_json(std::span<const AreaPoints> table) {
-  ordered_json rows = ordered_json::array();
-  for (const AreaPoints& row : table) {
-    rows.push_back({{"hover", operating_point_json(row.hover)},
-                    {"forward", operating_point_json(row.forward)}});
-  }
-  return rows;
+  return json_list(table, [](const AreaPoints& row) {
+    return ordered_json{{"hover", operating_point_json(row.hover)},
+                        {"forward", operating_point_json(row.forward)}};
+  });
 }
 
-ordered_json remedies_json(std::span<const Remedy> remedies) {
+ordered_json remedies_json(const OptimumStudy& study) {
   ordered_json out = ordered_json::object();
-  for (const Remedy& remedy : remedies) {
-    switch (remedy.quantity) {
-      case Quantity::supply_voltage:
-        out["supply.voltage_V"] = remedy.value;
-        break;
-      case Quantity::drone_mass:
-        out["drone.mass_g"] = remedy.value / unit::gram;
-        break;
-      case Quantity::tether_length:
-        out["tether.length_m"] = remedy.value;
-        break;
-      case Quantity::airspeed:
-        out["flight.airspeed_m_s"] = remedy.value;
-        break;
-    }
+  for (const Remedy& remedy : study.remedies) {
+    const char* path = remedied_fields.at(static_cast<std::size_t>(remedy.quantity)).first;
+    out[path] = *field_value(remedied(study.design, remedy), *find_field(path));
   }
   return out;
 }
@@ -143,35 +122,16 @@ ordered_json optimum_json(const Optimization& result) {
       {"forward", result.feasible ? operating_point_json(result.forward) : ordered_json(nullptr)}};
 }
 
-std::string csv_keys(const std::string& prefix) {
+/// A line of CSV: the names of an optimum's results or, of a given one, the results.
+std::string csv_line(const Optimization* optimum) {
   std::string out;
-  for (const OperatingPointField& field : operating_point_fields()) {
-    out += "," + prefix + std::string(field.key);
+  for (const NamedResult& result : optimum_results(optimum ? *optimum : Optimization{})) {
+    const auto* word = std::get_if<std::string>(&result.value);
+    const auto* number = std::get_if<double>(&result.value);
+    if (!out.empty()) out += ',';
+    out += optimum == nullptr ? result.name : number ? csv_number(*number) : word ? *word : "";
   }
-  return out;
-}
-
-std::string csv_values(const OperatingPoint& point) {
-  std::string out;
-  for (const OperatingPointField& field : operating_point_fields()) {
-    out += "," + csv_number(practical_value(point, field));
-  }
-  return out;
-}
-
-std::string csv_header() {
-  return "status,limited_by,limiting_condition,cross_section_mm2" + csv_keys("hover.") +
-         csv_keys("forward.") + "\n";
-}
-
-std::string csv_row(const Optimization& result) {
-  std::string row = fmt::format(
-      "{},{},{},{}", status_name(result.feasible), limit_name(result.limited_by),
-      condition_name(result.limiting_condition), csv_number(result.area / unit::square_millimetre));
-  const std::size_t empty_cells = 2 * operating_point_fields().size();
-  row += result.feasible ? csv_values(result.hover) + csv_values(result.forward)
-                         : std::string(empty_cells, ',');
-  return row + "\n";
+  return out + "\n";
 }
 
 std::string notes_text(std::span<const std::string> warnings, const TextStyle& style) {
@@ -189,28 +149,16 @@ Answer answer(const DesignFile& file, const OptimumStudy& study) {
 }
 
 TitledTable condition_table(const Optimization& result) {
-  TextTable table({{"", TextTable::Align::left},
-                   {"supply W"},
-                   {"drone W"},
-                   {"lost W"},
-                   {"lost %"},
-                   {"current A"},
-                   {"at drone V"},
-                   {"headroom"},
-                   {"tilt deg"}});
+  TextTable table({word_column(""), "supply W", "drone W", "lost W", "lost %", "current A",
+                   "at drone V", "headroom", "tilt deg"});
   add_condition_row(table, "hover", result.hover);
   add_condition_row(table, "forward", result.forward);
   return {"The optimum in flight", std::move(table)};
 }
 
 TitledTable sizes_table(const OptimumStudy& study) {
-  TextTable table({{"size", TextTable::Align::left},
-                   {"mm²"},
-                   {"tether g"},
-                   {"hover W"},
-                   {"forward W"},
-                   {"headroom"},
-                   {"", TextTable::Align::left}});
+  TextTable table({word_column("size"), "mm²", "tether g", "hover W", "forward W", "headroom",
+                   word_column("")});
   const Design& design = study.design;
   const Condition headroom_at = design.requirements.headroom_at;
   for (const SizePoints& size : study.sizes) {
@@ -225,15 +173,8 @@ TitledTable sizes_table(const OptimumStudy& study) {
 }
 
 TitledTable power_table(const OptimumStudy& study) {
-  TextTable table({{"mm²"},
-                   {"tether g"},
-                   {"available g"},
-                   {"needed g"},
-                   {"headroom"},
-                   {"hover W"},
-                   {"forward W"},
-                   {"lost %"},
-                   {"", TextTable::Align::left}});
+  TextTable table({"mm²", "tether g", "available g", "needed g", "headroom", "hover W", "forward W",
+                   "lost %", word_column("")});
   const Condition headroom_at = study.design.requirements.headroom_at;
   for (const AreaPoints& row : study.table) {
     const OperatingPoint& judged = row.in(headroom_at);
@@ -252,17 +193,8 @@ TitledTable power_table(const OptimumStudy& study) {
 
 TitledTable operating_table(const Design& design, Condition condition,
                             std::span<const AreaPoints> areas) {
-  TextTable table({{"mm²"},
-                   {"ohm"},
-                   {"tether g"},
-                   {"tilt deg"},
-                   {"avail. g"},
-                   {"needed g"},
-                   {"headroom"},
-                   {"supply W"},
-                   {"lost W"},
-                   {"A"},
-                   {"V"}});
+  TextTable table({"mm²", "ohm", "tether g", "tilt deg", "avail. g", "needed g", "headroom",
+                   "supply W", "lost W", "A", "V"});
   for (const AreaPoints& row : areas) {
     const OperatingPoint& p = row.in(condition);
     table.add({significant(p.cross_section / unit::square_millimetre, 4),
@@ -292,21 +224,20 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
   const Optimization& result = study.result;
   const Design& design = study.design;
   const Requirements& need = design.requirements;
-  ordered_json feasible = ordered_json::array();
-  for (const Interval& range : result.headroom_areas) {
-    feasible.push_back(
-        {range.lo / unit::square_millimetre, number_or_null(range.hi / unit::square_millimetre)});
-  }
-  ordered_json sizes = ordered_json::array();
-  for (const SizePoints& size : study.sizes) {
+  const ordered_json feasible = json_list(result.headroom_areas, [](const Interval& range) {
+    return ordered_json{range.lo / unit::square_millimetre,
+                        number_or_null(range.hi / unit::square_millimetre)};
+  });
+  const ordered_json sizes = json_list(study.sizes, [&](const SizePoints& size) {
     const std::string fault = shortcoming(design, size.points);
-    sizes.push_back({{"name", size.name},
-                     {"cross_section_mm2", size.points.area / unit::square_millimetre},
-                     {"feasible", fault.empty()},
-                     {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)},
-                     {"hover", operating_point_json(size.points.hover)},
-                     {"forward", operating_point_json(size.points.forward)}});
-  }
+    return ordered_json{
+        {"name", size.name},
+        {"cross_section_mm2", size.points.area / unit::square_millimetre},
+        {"feasible", fault.empty()},
+        {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)},
+        {"hover", operating_point_json(size.points.hover)},
+        {"forward", operating_point_json(size.points.forward)}};
+  });
   ordered_json out{
       {"name", file.name},
       {"status", status_name(result.feasible)},
@@ -328,16 +259,17 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
   if (result.feasible) {
     out["thermal"] = thermal_json(design, result.hover, result.forward);
     out["cable"] = cable_json(design, result.hover, result.forward);
-  }
-  if (!result.feasible) {
+  } else {
     out["reason"] = refusal_sentence(design, *study.refusal);
-    out["remedies"] = remedies_json(study.remedies);
+    out["remedies"] = remedies_json(study);
   }
   out["warnings"] = all_warnings(file);
   return out;
 }
 
-std::string optimize_csv(const OptimumStudy& study) { return csv_header() + csv_row(study.result); }
+std::string optimize_csv(const OptimumStudy& study) {
+  return csv_line(nullptr) + csv_line(&study.result);
+}
 
 std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
                           const TextStyle& style) {
@@ -365,10 +297,9 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
 }
 
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
-  ordered_json thermal = ordered_json::array();
-  for (const AreaPoints& row : table) {
-    thermal.push_back(thermal_json(file.design, row.hover, row.forward));
-  }
+  const ordered_json thermal = json_list(table, [&](const AreaPoints& row) {
+    return thermal_json(file.design, row.hover, row.forward);
+  });
   return {{"name", file.name},
           {"table", table_json(table)},
           {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
@@ -377,22 +308,23 @@ ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> t
 }
 
 std::string evaluate_csv(std::span<const AreaPoints> table) {
-  std::string out = "condition" + csv_keys("") + "\n";
+  std::string out = "condition";
+  for (const OperatingPointField& field : operating_point_fields())
+    out.append(",").append(field.key);
   for (const AreaPoints& row : table) {
-    out += "hover" + csv_values(row.hover) + "\n";
-    out += "forward" + csv_values(row.forward) + "\n";
+    for (const Condition condition : {Condition::hover, Condition::forward}) {
+      out.append("\n").append(condition_name(condition));
+      for (const OperatingPointField& field : operating_point_fields()) {
+        out += "," + csv_number(practical_value(row.in(condition), field));
+      }
+    }
   }
-  return out;
+  return out + "\n";
 }
 
 TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking) {
-  TextTable table({{"motor", TextTable::Align::left},
-                   {"mm²"},
-                   {"tether g"},
-                   {"hover W"},
-                   {"forward W"},
-                   {"headroom"},
-                   {"limited by", TextTable::Align::left}});
+  TextTable table({word_column("motor"), "mm²", "tether g", "hover W", "forward W", "headroom",
+                   word_column("limited by")});
   const bool by_hover = design.requirements.headroom_at == Condition::hover;
   for (const MotorOptimum& entry : ranking) {
     const Optimization& r = entry.result;
@@ -428,24 +360,23 @@ std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> r
 }
 
 ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> ranking) {
-  ordered_json rows = ordered_json::array();
-  for (const MotorOptimum& entry : ranking) {
-    ordered_json row{{"motor", entry.motor.id},
-                     {"name", entry.motor.name},
-                     {"status", status_name(entry.result.feasible)},
-                     {"optimum", optimum_json(entry.result)},
-                     {"best_headroom", number_or_null(entry.best_headroom.value)},
-                     {"reason", nullptr}};
-    if (!entry.result.feasible) row["reason"] = refusal_sentence(entry.design, *entry.refusal);
-    rows.push_back(std::move(row));
-  }
+  const ordered_json rows = json_list(ranking, [](const MotorOptimum& entry) {
+    return ordered_json{
+        {"motor", entry.motor.id},
+        {"name", entry.motor.name},
+        {"status", status_name(entry.result.feasible)},
+        {"optimum", optimum_json(entry.result)},
+        {"best_headroom", number_or_null(entry.best_headroom.value)},
+        {"reason", entry.refusal ? ordered_json(refusal_sentence(entry.design, *entry.refusal))
+                                 : ordered_json(nullptr)}};
+  });
   return {{"name", file.name}, {"motors", rows}};
 }
 
 std::string compare_csv(std::span<const MotorOptimum> ranking) {
-  std::string out = "motor," + csv_header();
+  std::string out = "motor," + csv_line(nullptr);
   for (const MotorOptimum& entry : ranking) {
-    out += csv_text(entry.motor.id) + "," + csv_row(entry.result);
+    out += csv_text(entry.motor.id) + "," + csv_line(&entry.result);
   }
   return out;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
@@ -12,13 +11,11 @@
 #include "io/closest_name.hpp"
 #include "io/json_document.hpp"
 #include "report/characters.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/io/design_reader.hpp"
-#include "tethercalc/report/csv_cell.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr double default_relative_tolerance = 1e-6;
 
@@ -252,23 +249,20 @@ std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
 }
 
 ordered_json check_json(std::span<const ReferenceCheck> checks) {
-  ordered_json designs = ordered_json::array();
-  for (const ReferenceCheck& check : checks) {
-    ordered_json results = ordered_json::array();
-    for (const RecordedResult& result : check.results) {
-      results.push_back({{"result", result.name},
-                         {"recorded", json_of(result.recorded)},
-                         {"computed", json_of(result.computed)},
-                         {"difference", result.difference ? ordered_json(*result.difference)
-                                                          : ordered_json(nullptr)},
-                         {"tolerance", result.tolerance},
-                         {"drifted", result.drifted}});
-    }
-    designs.push_back({{"spec", check.spec},
-                       {"name", check.name},
-                       {"status", status_of(check)},
-                       {"results", results}});
-  }
+  const auto result_json = [](const RecordedResult& result) {
+    return ordered_json{{"result", result.name},
+                        {"recorded", json_of(result.recorded)},
+                        {"computed", json_of(result.computed)},
+                        {"difference", number_or_null(result.difference)},
+                        {"tolerance", result.tolerance},
+                        {"drifted", result.drifted}};
+  };
+  const ordered_json designs = json_list(checks, [&](const ReferenceCheck& check) {
+    return ordered_json{{"spec", check.spec},
+                        {"name", check.name},
+                        {"status", status_of(check)},
+                        {"results", json_list(check.results, result_json)}};
+  });
   return {{"designs", designs},
           {"ok", count_status(checks, "ok")},
           {"drifted", count_status(checks, "drifted")},

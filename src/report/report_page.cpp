@@ -114,9 +114,8 @@ Section diagnosis_section(const LogDiagnosis& log, const GnuplotRunner& gnuplot)
 }
 
 TitledTable library_table(const DesignFile& file) {
-  using Align = TextTable::Align;
   TextTable table(
-      {{"what", Align::left}, {"id", Align::left}, {"name", Align::left}, {"source", Align::left}});
+      {word_column("what"), word_column("id"), word_column("name"), word_column("source")});
   table.add({"motor", file.motor.id, file.motor.name, file.motor.source});
   table.add({"conductor", file.conductor.id, file.conductor.name, file.conductor.source});
   table.add({"insulation", file.insulation.id, file.insulation.name, file.insulation.source});
@@ -125,8 +124,7 @@ TitledTable library_table(const DesignFile& file) {
 
 /// The fields that the spec leaves to their defaults, of those that have one.
 TitledTable defaults_table(const DesignFile& file) {
-  using Align = TextTable::Align;
-  TextTable table({{"field", Align::left}, {"value", Align::left}, {"meaning", Align::left}});
+  TextTable table({word_column("field"), word_column("value"), word_column("meaning")});
   for (const SpecField& field : spec_fields()) {
     const bool has_default = !field.required() && field.default_json != "null";
     if (!has_default || field.kind == FieldKind::text) continue;

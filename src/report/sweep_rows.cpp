@@ -6,11 +6,9 @@
 #include <cmath>
 
 #include "model/constants.hpp"
-#include "tethercalc/report/csv_cell.hpp"
-#include "tethercalc/report/json_results.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/report/text_table.hpp"
-#include "tethercalc/study/result_keys.hpp"
+#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
@@ -43,7 +41,7 @@ class RowText {
   void words(std::string_view value) {
     text_ += *opening_++;
     if (csv_) {
-      text_ += csv_text(std::string(value));
+      text_ += csv_text(value);
     } else {
       text_ += value.empty() ? "null" : nlohmann::json(value).dump();
     }
@@ -124,13 +122,7 @@ SweepRows::SweepRows(std::span<const SweepAxis> axes, RowFormat format)
     : axes_(axes.begin(), axes.end()), format_(format) {
   std::vector<std::string> columns;
   for (const SweepAxis& axis : axes_) columns.push_back(axis.name);
-  columns.insert(columns.end(),
-                 {"status", "limited_by", "limiting_condition", "cross_section_mm2"});
-  for (const char* prefix : {"hover.", "forward."}) {
-    for (const OperatingPointField& field : operating_point_fields()) {
-      columns.push_back(prefix + std::string(field.key));
-    }
-  }
+  for (NamedResult& result : optimum_results({})) columns.push_back(std::move(result.name));
   columns.emplace_back("reason");
   for (const std::string& column : columns) {
     const bool first = openings_.empty();

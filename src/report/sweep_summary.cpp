@@ -4,15 +4,12 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "model/constants.hpp"
-#include "tethercalc/report/json_results.hpp"
+#include "report/result_values.hpp"
 
 namespace tethercalc {
 namespace {
-
-using nlohmann::ordered_json;
 
 constexpr std::array shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
@@ -59,9 +56,7 @@ std::string estimate_words(const IndexEstimate& estimate) {
 
 std::string indices_text(const std::string& of, const std::vector<Sensitivity>& indices,
                          const SweepSpace& space, const TextStyle& style) {
-  TextTable table({{"Share in the variance of " + of, TextTable::Align::left},
-                   {"alone"},
-                   {"with interactions"}});
+  TextTable table({word_column("Share in the variance of " + of), "alone", "with interactions"});
   for (std::size_t i = 0; i < indices.size(); ++i) {
     table.add({space.axes()[i].name, estimate_words(indices[i].first_order),
                estimate_words(indices[i].total)});
@@ -87,9 +82,8 @@ std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
   const double share = static_cast<double>(summary.infeasible) / static_cast<double>(summary.draws);
   std::string out = fmt::format("{} draws, {} infeasible ({} %)\n\n", summary.draws,
                                 summary.infeasible, significant(100 * share, 3));
-  std::vector<TextTable::Column> columns{
-      {"Feasible draws", TextTable::Align::left}, {"mean"}, {"std dev"}};
-  for (const double p : shares) columns.push_back({fmt::format("{} %", 100 * p)});
+  std::vector<TextTable::Column> columns{word_column("Feasible draws"), "mean", "std dev"};
+  for (const double p : shares) columns.push_back(fmt::format("{} %", 100 * p));
   TextTable spread(std::move(columns));
   add_spread(spread, "cross-section mm²", summary.area, unit::square_millimetre);
   add_spread(spread, "total power W", summary.power, 1);

@@ -66,6 +66,10 @@ std::string TextTable::text(const TextStyle& style) const {
   return out;
 }
 
+TextTable::Column word_column(std::string title) {
+  return {std::move(title), TextTable::Align::left};
+}
+
 std::string TitledTable::text(const TextStyle& style) const {
   return "\n" + style.bold(title) + "\n" + table.text(style);
 }

@@ -322,49 +322,72 @@ namespace {
 /// is available at the upper over what is necessary at the lower.
 class BestHeadroomSearch {
  public:
-  explicit BestHeadroomSearch(const SteadyFlight& flight) : flight_(flight), tether_(flight) {}
+  explicit BestHeadroomSearch(const SteadyFlight& flight)
+      : flight_(flight), tether_(flight), heated_(is_heated(flight.design().tether)) {}
 
   void search(double lo, double hi) {
     // Below, not even a millionth of what is necessary is available.
     const double necessary = flight_.necessary_thrust(lo, 0);
     lo = std::max(lo, flight_.radius_of_available_power(flight_.drone_power(1e-6 * necessary)));
-    if (lo < hi) improve(look(lo), look(hi));
+    if (lo < hi) improve(look(thrust_at(flight_, lo, 0)), look(thrust_at(flight_, hi, 0)));
   }
 
   [[nodiscard]] const BestHeadroom& best() const { return best_; }
 
  private:
   struct Look {
-    double radius = 0;
-    double necessary = 0;  ///< N, whatever the tilt limit
+    ThrustAt at;           ///< whatever the tilt limit
+    double arriving = 0;   ///< W available at the converter
     double available = 0;  ///< N
     double headroom = 0;
-    bool warm = false;  ///< there is a steady state of a heated cable
+    bool steady = false;  ///< there is a steady state of a heated cable
   };
 
-  Look look(double radius) {
-    const OperatingPoint point = evaluate(flight_, conductor_area(radius));
-    if (point.headroom > best_.value) best_ = {point.headroom, conductor_area(radius)};
-    return {radius, flight_.necessary_thrust(radius, flight_.tan_pitch(radius, infinity)),
-            point.available_thrust, point.headroom > 0 ? point.headroom : 0,
-            !std::isnan(point.conductor_temperature)};
+  Look look(const ThrustAt& at) {
+    Look here{at};
+    double resistance = flight_.tether().resistance(at.radius);
+    if (heated_) {
+      const double power = flight_.drone_power(at.thrust.value);
+      if (supplied_power(flight_.design().supply.voltage, resistance, power) > 0) {
+        const TetherHeatState state = tether_.state(power, at.radius, at.radius);
+        if (!state.steady) return here;
+        here.steady = true;
+        resistance = state.resistance;
+      }
+    }
+    here.arriving = flight_.available_power(resistance);
+    here.available = flight_.available_thrust(here.arriving);
+    here.headroom = here.available / at.thrust.value;
+    if (here.headroom > best_.value) {
+      const double area = conductor_area(at.radius);
+      const double judged = evaluate(flight_, area).headroom;
+      // On the brink of running away a state may be too close to it for the judge.
+      if (!(judged > 0)) return {at};
+      if (judged > best_.value) best_ = {judged, area};
+    }
+    return here;
+  }
+  Look between(const Look& a, double radius) {
+    return look(thrust_at(flight_, radius, a.at.tan_guess(radius)));
   }
 
   void improve(const Look& a, const Look& b) {
     constexpr int most_stretches = 5000;  // a hundred times more than usual
     // Warm cables may run away within rounding of where the load can still be delivered.
-    const double rounding = is_heated(flight_.design().tether) ? 1e-9 : 1e-13;
+    const double rounding = heated_ ? 1e-9 : 1e-13;
     if (!(most_headroom(a, b) > best_.value * (1 + 0.1 * rounding))) return;
-    if (b.radius < a.radius * (1 + rounding)) return;
+    if (b.at.radius < a.at.radius * (1 + rounding)) return;
     if (++stretches_ > most_stretches) return;
-    if (b.radius < 1.2 * a.radius && smooth(a, b)) {
+    const double kink = kink_between(a, b);
+    if (b.at.radius < 1.2 * a.at.radius && std::isnan(kink) && a.available > 0 && b.available > 0 &&
+        a.steady == b.steady) {
       // Half of the digits: at a smooth maximum the value is then exact to all of them.
       constexpr int bits = std::numeric_limits<double>::digits / 2;
-      (void)boost::math::tools::brent_find_minima([&](double r) { return -look(r).headroom; },
-                                                  a.radius, b.radius, bits);
+      (void)boost::math::tools::brent_find_minima([&](double r) { return -between(a, r).headroom; },
+                                                  a.at.radius, b.at.radius, bits);
       return;
     }
-    const Look middle = look(std::sqrt(a.radius * b.radius));
+    const Look middle = between(a, std::isnan(kink) ? std::sqrt(a.at.radius * b.at.radius) : kink);
     // The more promising side first.
     if (a.headroom > b.headroom) improve(a, middle);
     improve(middle, b);
@@ -375,29 +398,83 @@ class BestHeadroomSearch {
   /// of a cold one, but less than 1, where the load cannot be delivered at all.
   [[nodiscard]] double most_headroom(const Look& a, const Look& b) const {
     const auto over = [&](double resistance) {
-      return flight_.available_thrust(flight_.available_power(resistance)) / a.necessary;
+      return flight_.available_thrust(flight_.available_power(resistance)) / a.at.thrust.value;
     };
-    const double warm = over(least_resistance(tether_, flight_, a.radius, a.necessary, b.radius));
+    const double cold = over(flight_.tether().resistance(b.at.radius));
+    if (!heated_ || cold <= best_.value) return cold;
+    const double warm =
+        over(least_resistance(tether_, flight_, a.at.radius, a.at.thrust.value, b.at.radius));
     const bool delivered =
-        supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(a.radius),
-                       flight_.drone_power(b.necessary)) > 0;
-    return delivered ? warm
-                     : std::max(warm, std::min(1.0, over(flight_.tether().resistance(b.radius))));
+        supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(a.at.radius),
+                       flight_.drone_power(b.at.thrust.value)) > 0;
+    return delivered ? warm : std::max(warm, std::min(1.0, cold));
   }
 
-  /// Whether motors, converter and reserve battery follow one piece of their curves, at the thrust
-  /// available and, where its power heats the cable, at the necessary one.
-  [[nodiscard]] bool smooth(const Look& a, const Look& b) const {
-    const auto one_piece = [&](double from, double to) {
-      return on_one_piece(flight_, {a.radius, 0, {from}}, {b.radius, 0, {to}});
+  /// A radius strictly between a and b at which motors or converter pass from one piece of their
+  /// curves to another, at the thrust available or, where its power heats the cable, at the
+  /// necessary one, or at which the motors give their most, or the battery's mass bends down; NaN
+  /// where there is none.
+  [[nodiscard]] double kink_between(const Look& a, const Look& b) {
+    const double lo = a.at.radius;
+    const double hi = b.at.radius;
+    const auto inside = [&](double radius) {
+      constexpr double rounding = 1e-12;
+      return lo * (1 + rounding) < radius && radius < hi * (1 - rounding);
     };
-    return a.available > 0 && b.available > 0 && b.available < flight_.most_thrust() &&
-           a.warm == b.warm && one_piece(a.available, b.available) &&
-           (!a.warm || one_piece(a.necessary, b.necessary));
+    if (a.available > 0 && a.available < b.available) {
+      const double most = flight_.most_thrust();
+      const double end = b.available < most ? nan : radius_of_available(most, a, b);
+      if (inside(end)) return end;
+      const double kink = radius_of_available(kink_of_thrust(a.available, b.available), a, b);
+      if (inside(kink)) return kink;
+    }
+    if (heated_) {
+      const double thrust = kink_of_thrust(a.at.thrust.value, b.at.thrust.value);
+      const double kink =
+          std::isnan(thrust) ? nan : at_thrust(flight_, thrust, lo, hi, a.at).radius;
+      if (inside(kink)) return kink;
+    }
+    return battery_kink(flight_, lo, hi);
+  }
+
+  /// A thrust strictly between two where the power for it has a kink; NaN where there is none.
+  [[nodiscard]] double kink_of_thrust(double lo, double hi) const {
+    const MotorCurve& motor = flight_.design().drone.motor;
+    const Pieces pieces = pieces_between(motor, lo, hi);
+    if (pieces.first != pieces.last) {
+      return motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
+    }
+    return motor.thrust(converter_kink(flight_.design().supply.converter,
+                                       flight_.output_power(motor.power(lo)),
+                                       flight_.output_power(motor.power(hi))) /
+                        flight_.output_power(1));
+  }
+
+  /// The radius between a and b at which a thrust is just available.
+  [[nodiscard]] double radius_of_available(double thrust, const Look& a, const Look& b) {
+    if (std::isnan(thrust)) return nan;
+    const double power = flight_.drone_power(thrust);
+    if (!heated_) return flight_.radius_of_available_power(power);
+    // One over the power is a line over one over the radius squared, but for the heat.
+    Look lo = a;
+    Look hi = b;
+    double radius = nan;
+    for (int step = 0; step < 8; ++step) {
+      const double share = (1 / power - 1 / hi.arriving) / (1 / lo.arriving - 1 / hi.arriving);
+      const double thin = 1 / (lo.at.radius * lo.at.radius);
+      const double thick = 1 / (hi.at.radius * hi.at.radius);
+      radius = 1 / std::sqrt(thick + share * (thin - thick));
+      if (!(lo.at.radius < radius && radius < hi.at.radius)) break;
+      const Look here = between(a, radius);
+      if (!(std::abs(here.arriving / power - 1) > 1e-13)) break;
+      (here.arriving < power ? lo : hi) = here;
+    }
+    return radius;
   }
 
   const SteadyFlight& flight_;
   WarmTether tether_;
+  bool heated_;
   BestHeadroom best_{0, nan};
   int stretches_ = 0;
 };

@@ -32,68 +32,114 @@ double total_power(const SteadyFlight& flight, const WarmTether& tether, const T
 /// known are split until they are one valley.
 class LeastPowerSearch {
  public:
-  LeastPowerSearch(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& first)
-      : flight_(flight), tether_(tether) {
-    consider(first);
+  /// From `first`, or where it is known, the `bottom` of the valley over the convex hull of the
+  /// motor curve.
+  LeastPowerSearch(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& first,
+                   bool bottom)
+      : flight_(flight), tether_(tether), heated_(is_heated(flight.design().tether)) {
+    const MotorCurve& motor = flight.design().drone.motor;
+    const double thrust = first.thrust.value;
+    if (bottom && motor.power(thrust) <= motor.convex_hull().power(thrust)) bottom_ = first.radius;
+    (void)consider(first);
   }
 
-  void search(const ThrustAt& a, const ThrustAt& b) {
-    consider(a);
-    consider(b);
-    improve(a, b);
-  }
-
-  void consider(const ThrustAt& candidate) {
-    const double power = total_power(flight_, tether_, candidate);
-    if (power < power_) {
-      power_ = power;
-      best_ = candidate;
-    }
-  }
+  void search(const ThrustAt& a, const ThrustAt& b) { improve(consider(a), consider(b)); }
 
   [[nodiscard]] const ThrustAt& best() const { return best_; }
   [[nodiscard]] double power() const { return power_; }
 
  private:
-  void improve(const ThrustAt& a, const ThrustAt& b) {
+  struct Look {
+    ThrustAt at;
+    double power = nan;  ///< NaN where a cold cable shows that it is not less than the best
+  };
+
+  Look consider(const ThrustAt& candidate) {
+    if (heated_ && !(power_over(candidate, candidate.radius) < power_)) return {candidate};
+    const double power = total_power(flight_, tether_, candidate);
+    if (power < power_) {
+      power_ = power;
+      best_ = candidate;
+    }
+    return {candidate, power};
+  }
+
+  /// Nothing is proved of warm cables and of curved efficiencies, but between radii of this ratio
+  /// their power bends no more sharply than its parts.
+  static constexpr double narrow = 1.5;
+
+  /// With the thrust at `at` over a cold cable of `radius`.
+  [[nodiscard]] double power_over(const ThrustAt& at, double radius) const {
+    return supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(radius),
+                          flight_.drone_power(at.thrust.value));
+  }
+
+  void improve(const Look& a, const Look& b) {
     constexpr int most_stretches = 5000;  // a hundred times more than usual
     constexpr double same_radius = 1 + 1e-13;
     const MotorCurve& motor = flight_.design().drone.motor;
-    if (!(b.radius > a.radius * same_radius) || ++stretches_ > most_stretches) return;
-    const auto power_over = [&](double resistance) {
-      return supplied_power(flight_.design().supply.voltage, resistance,
-                            flight_.drone_power(a.thrust.value));
-    };
-    if (!(power_over(flight_.tether().resistance(b.radius)) < power_)) return;
-    if (!(power_over(least_resistance(tether_, flight_, a.radius, a.thrust.value, b.radius)) <
-          power_)) {
+    if (!(b.at.radius > a.at.radius * same_radius) || ++stretches_ > most_stretches) return;
+    if (!(power_over(a.at, b.at.radius) < power_)) return;
+    if (rises_from_bottom(a.at, b.at)) return;
+    // Not worth a heat balance yet where a cold cable is worse at both ends.
+    constexpr double little = 1.03;
+    const bool worse = std::isnan(a.power) && std::isnan(b.power);
+    if (!(worse && b.at.radius > little * a.at.radius) && one_valley(a, b)) {
+      const Pieces pieces = pieces_between(motor, a.at.thrust.value, b.at.thrust.value);
+      const ThrustAt& start = best_.radius == b.at.radius ? b.at : a.at;
+      (void)consider(
+          valley_bottom(flight_, tether_, motor, pieces, {a.at.radius, b.at.radius}, start));
       return;
     }
-    if (one_valley(a, b)) {
-      const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
-      return consider(valley_bottom(flight_, tether_, motor, pieces, {a.radius, b.radius}, a));
+    // Where a cable runs away, others nearby do mostly, too.
+    if (heated_ && (runs_away(a) || runs_away(b)) &&
+        !(warm_power_over(a.at, b.at.radius) < power_)) {
+      return;
     }
-    const ThrustAt middle = split(a, b);
-    consider(middle);
+    const Look middle = consider(split(a.at, b.at));
     // The more promising side first.
-    const bool right = best_.radius > middle.radius;
+    const bool right = best_.radius > middle.at.radius;
     if (right) improve(middle, b);
     improve(a, middle);
     if (!right) improve(middle, b);
   }
 
-  /// At a kink between a and b, if there is one, else half-way.
+  [[nodiscard]] double warm_power_over(const ThrustAt& at, double radius) const {
+    const double resistance =
+        least_resistance(tether_, flight_, at.radius, at.thrust.value, radius);
+    return supplied_power(flight_.design().supply.voltage, resistance,
+                          flight_.drone_power(at.thrust.value));
+  }
+
+  [[nodiscard]] bool runs_away(const Look& look) const {
+    const double power =
+        std::isnan(look.power) ? total_power(flight_, tether_, look.at) : look.power;
+    return !(power < infinity);
+  }
+
+  /// At the best place known, or a little beyond, so that a narrow stretch lies about it; else at a
+  /// kink between a and b, if there is one, else half-way.
   [[nodiscard]] ThrustAt split(const ThrustAt& a, const ThrustAt& b) const {
-    const MotorCurve& motor = flight_.design().drone.motor;
-    const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
-    double thrust = motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
-    if (motor.is_convex() || pieces.first == pieces.last) {
-      const double per_output = 1 / flight_.output_power(1);
-      thrust = motor.thrust(per_output *
-                            converter_kink(flight_.design().supply.converter,
-                                           flight_.output_power(motor.power(a.thrust.value)),
-                                           flight_.output_power(motor.power(b.thrust.value))));
+    constexpr double little = 0.99 * narrow;
+    const double best = best_.radius;
+    if (power_ < infinity && a.radius <= best && best <= b.radius) {
+      if (a.radius < best && best < b.radius) return best_;
+      const double beyond = best == a.radius ? best * little : best / little;
+      if (a.radius < beyond && beyond < b.radius) {
+        return thrust_at(flight_, beyond, best_.tan_guess(beyond));
+      }
     }
+    const MotorCurve& motor = flight_.design().drone.motor;
+    const double battery = motor.is_convex() ? nan : battery_kink(flight_, a.radius, b.radius);
+    if (!std::isnan(battery)) return thrust_at(flight_, battery, a.tan_guess(battery));
+    const double output = converter_kink(flight_.design().supply.converter,
+                                         flight_.output_power(motor.power(a.thrust.value)),
+                                         flight_.output_power(motor.power(b.thrust.value)));
+    const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
+    const std::size_t middle = pieces.first + (pieces.last - pieces.first + 1) / 2;
+    const double thrust = !std::isnan(output)
+                              ? motor.thrust(output / flight_.output_power(1))
+                              : motor.vertices()[motor.is_convex() ? 0 : middle].thrust;
     if (a.thrust.value < thrust && thrust < b.thrust.value) {
       const ThrustAt kink = at_thrust(flight_, thrust, a.radius, b.radius, a);
       if (a.radius < kink.radius && kink.radius < b.radius) return kink;
@@ -102,44 +148,56 @@ class LeastPowerSearch {
     return thrust_at(flight_, radius, a.tan_guess(radius));
   }
 
-  [[nodiscard]] bool one_valley(const ThrustAt& a, const ThrustAt& b) const {
-    if (!smooth_but_for_motors(a, b)) return false;
-    // Nothing is proved of warm cables, but their power bends no more sharply than its parts.
-    constexpr double narrow = 1.5;
-    constexpr double very_narrow = 1.01;
-    if (is_heated(flight_.design().tether)) {
-      const bool steady = total_power(flight_, tether_, a) < infinity &&
-                          total_power(flight_, tether_, b) < infinity;
-      return b.radius < (steady ? narrow : very_narrow) * a.radius;
+  /// Whether the power over the hull, which is nowhere more, rises from its least at one of the
+  /// ends all the way to the other.
+  [[nodiscard]] bool rises_from_bottom(const ThrustAt& a, const ThrustAt& b) const {
+    if (best_.radius != bottom_ || !(a.radius == bottom_ || b.radius == bottom_)) return false;
+    const Design& design = flight_.design();
+    if (!design.drone.motor.is_convex() && !std::isnan(battery_kink(flight_, a.radius, b.radius))) {
+      return false;
     }
-    if (is_proportional(flight_.design().supply.converter)) return true;
-    // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
-    // efficiency gains twice over where it rises with the load.
+    return bends_up(a, b, design.drone.motor.convex_hull(), false);
+  }
+
+  [[nodiscard]] bool one_valley(const Look& from, const Look& to) const {
+    const ThrustAt& a = from.at;
+    const ThrustAt& b = to.at;
+    constexpr double very_narrow = 1.01;
     const MotorCurve& motor = flight_.design().drone.motor;
+    if (!motor.is_convex() && !on_one_piece(flight_, a, b)) return false;
+    if (!bends_up(a, b, motor, true)) return false;
+    return !heated_ || b.radius < very_narrow * a.radius || !(runs_away(from) || runs_away(to));
+  }
+
+  /// Whether the power has one valley where that of the motors, which follow the convex or straight
+  /// `motor`, has; on `one_piece` of the efficiency curve or over its kinks that bend up.
+  [[nodiscard]] bool bends_up(const ThrustAt& a, const ThrustAt& b, const MotorCurve& motor,
+                              bool one_piece) const {
+    const Converter& converter = flight_.design().supply.converter;
+    if (heated_ && !(b.radius < narrow * a.radius)) return false;
+    if (is_proportional(converter)) return true;
     const double lo = motor.power(a.thrust.value);
     const double hi = motor.power(b.thrust.value);
-    const Converter& converter = flight_.design().supply.converter;
+    if (!std::isnan(converter_kink(converter, flight_.output_power(lo), flight_.output_power(hi),
+                                   one_piece))) {
+      return false;
+    }
+    if (b.radius < narrow * a.radius) return true;
+    // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
+    // efficiency gains twice over where it rises with the load.
     const double low = efficiency_at(converter, flight_.output_power(lo));
     const double high = efficiency_at(converter, flight_.output_power(hi));
     const double gain = std::max(0.0, (high - low) / (hi - lo));
     const double more_power =
         motor.slope(pieces_between(motor, a.thrust.value, b.thrust.value).last) * b.thrust.slope;
-    return b.radius < narrow * a.radius || !(3 * low < 2 * gain * more_power * b.radius);
-  }
-
-  /// A convex motor curve keeps one valley one.
-  [[nodiscard]] bool smooth_but_for_motors(const ThrustAt& a, const ThrustAt& b) const {
-    const Design& design = flight_.design();
-    const MotorCurve& motor = design.drone.motor;
-    if (!motor.is_convex()) return on_one_piece(flight_, a, b);
-    return std::isnan(converter_kink(design.supply.converter,
-                                     flight_.output_power(motor.power(a.thrust.value)),
-                                     flight_.output_power(motor.power(b.thrust.value))));
+    return !(3 * low < 2 * gain * more_power * b.radius);
   }
 
   const SteadyFlight& flight_;
   const WarmTether& tether_;
+  bool heated_;
   ThrustAt best_;
+  double bottom_ = nan;  ///< radius of the least power over the hull, where the motors follow it
   double power_ = infinity;
   int stretches_ = 0;
 };
@@ -201,10 +259,19 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const WarmTether tether(flight);
   ThrustAt best = thrust_at(flight, start, 0);
   const bool one_valley = hull_is_one_valley(design);
-  if (one_valley) {
-    best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, 0}, radii, best);
+  // On the piece of the efficiency curve where the bottom turns out to be.
+  bool is_bottom = false;
+  double within = thrust;
+  for (int attempt = 0; attempt < 3 && !is_bottom; ++attempt) {
+    best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, within}, radii,
+                         best);
+    const auto [lo, hi] = std::minmax(within, best.thrust.value);
+    is_bottom =
+        std::isnan(converter_kink(design.supply.converter, flight.output_power(convex.power(lo)),
+                                  flight.output_power(convex.power(hi))));
+    within = best.thrust.value;
   }
-  LeastPowerSearch search(flight, tether, best);
+  LeastPowerSearch search(flight, tether, best, is_bottom);
   if (!(search.power() < infinity) || !one_valley ||
       motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
     const ThrustAt first = thrust_at(flight, radii.lo, 0);

@@ -135,42 +135,86 @@ DemandMargin least_missed(const Flights& flights, const IntervalSet& areas) {
   return least;
 }
 
+/// Whether the cable has demands of its own to meet, whatever it delivers.
+bool is_cable_judged(const Design& design) {
+  return design.requirements.strength_safety_factor > 0 ||
+         (is_heated(design.tether) && design.tether.insulation.rated_temperature_C);
+}
+
 /// Names what an infeasible design lacks: the first demand that no area meets; where each is met by
 /// some area but no area meets all, the demand on the cable that is missed by least, or the
 /// headroom.
 void name_obstacle(Optimization& result, const Flights& flights) {
-  const Requirements& need = flights.hover.design().requirements;
-  for (const DemandMargin& margin :
-       demand_margins(flights.hover.design(), OperatingPoint{}, Condition::hover)) {
+  const Design& design = flights.hover.design();
+  const Requirements& need = design.requirements;
+  for (const DemandMargin& margin : demand_margins(design, OperatingPoint{}, Condition::hover)) {
     if (margin.demand != Demand::input_voltage || margin.met()) continue;
     result.limited_by = Limit::input_voltage;
     return;
   }
-  if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
-    const DemandMargin missed = least_missed(flights, flyable);
-    result.limited_by = limit_of(missed.demand);
-    result.limiting_condition = missed.condition;
-    return;
+  if (is_cable_judged(design)) {
+    if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
+      const DemandMargin missed = least_missed(flights, flyable);
+      result.limited_by = limit_of(missed.demand);
+      result.limiting_condition = missed.condition;
+      result.best_headroom = best_headroom(flights.in(missed.condition));
+      return;
+    }
   }
+  const Condition asked = need.headroom_at;
   struct Wanted {
     Condition condition;
     double headroom;
   };
-  const std::array best{best_headroom(flights.hover), best_headroom(flights.forward)};
-  const auto best_in = [&](Condition condition) {
-    return best[condition == Condition::hover ? 0 : 1];
-  };
-  const Wanted asked{need.headroom_at, demanded_headroom(need, need.headroom_at)};
-  Wanted missed = asked;
-  for (const Wanted& demand : {Wanted{Condition::hover, 1}, Wanted{Condition::forward, 1}, asked}) {
-    if (best_in(demand.condition).value < demand.headroom) {
-      missed = demand;
+  Wanted missed{asked, demanded_headroom(need, asked)};
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    if (headroom_areas(flights.in(condition), 1).empty()) {
+      missed = {condition, 1};
       break;
     }
   }
   result.limiting_condition = missed.condition;
-  result.limited_by =
-      obstacle(flights.in(missed.condition), best_in(missed.condition), missed.headroom);
+  result.best_headroom = best_headroom(flights.in(missed.condition));
+  result.limited_by = obstacle(flights.in(missed.condition), result.best_headroom, missed.headroom);
+}
+
+/// Takes the cheapest of the areas that meet the demands of the flight in which headroom is asked
+/// for, where it meets the others', too; else the cheapest that meet both.
+void search_feasible_areas(Optimization& result, const Flights& flights) {
+  const Requirements& need = flights.hover.design().requirements;
+  const SteadyFlight& priced = flights.in(need.power_at);
+  const Condition asked = need.headroom_at;
+  const Condition other = asked == Condition::hover ? Condition::forward : Condition::hover;
+  const auto meeting = [&](Condition condition) {
+    return areas_meeting_demands(flights.in(condition), demanded_headroom(need, condition));
+  };
+  result.feasible_areas = meeting(asked);
+  const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+  if (area > 0) take(result, flights, area);
+  if (result.feasible || result.feasible_areas.empty()) return;
+  result.feasible_areas = intersection(result.feasible_areas, meeting(other));
+  const double met = cheapest_area(priced, result.feasible_areas, result.minimum_power);
+  if (met > 0) take_within(result, flights, result.feasible_areas, met);
+}
+
+Optimization optimum_of(const Flights& flights) {
+  Optimization result;
+  result.minimum_power = minimum_power(flights.in(flights.hover.design().requirements.power_at));
+  // The cheapest of all areas is the optimum if it is feasible, as it often is.
+  if (result.minimum_power.area > 0) take(result, flights, result.minimum_power.area);
+  if (!result.feasible) search_feasible_areas(result, flights);
+  if (result.feasible) {
+    name_limit(result, flights);
+  } else {
+    result.area = nan;
+    name_obstacle(result, flights);
+  }
+  return result;
+}
+
+Flights flights_of(const Design& design) {
+  const SteadyFlight hover(design, Condition::hover);
+  return {hover, hover.in(Condition::forward)};
 }
 
 }  // namespace
@@ -201,33 +245,17 @@ Limit missed_limit(const Design& design, const OperatingPoint& point, Demand dem
   return demand == Demand::thrust_headroom && saturated ? Limit::motor_thrust : limit_of(demand);
 }
 
-Optimization optimize(const Design& design) {
-  const SteadyFlight hover(design, Condition::hover);
-  const Flights flights{hover, hover.in(Condition::forward)};
-  const Requirements& need = design.requirements;
-  Optimization result;
-  result.area = nan;
-  result.headroom_areas = headroom_areas(flights.in(need.headroom_at), need.thrust_headroom);
-  const SteadyFlight& priced = flights.in(need.power_at);
-  result.minimum_power = minimum_power(priced);
-  result.feasible_areas = need.buffer_battery ? IntervalSet{{0, infinity}} : result.headroom_areas;
+Optimization optimum_alone(const Design& design) { return optimum_of(flights_of(design)); }
 
-  // The cheapest of more areas than are feasible is the optimum if it is feasible, as it mostly is
-  // where the headroom is met.
-  const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-  if (area > 0) take(result, flights, area);
-  if (!result.feasible) {
-    result.feasible_areas = intersection(
-        areas_meeting_demands(hover, demanded_headroom(need, Condition::hover)),
-        areas_meeting_demands(flights.forward, demanded_headroom(need, Condition::forward)));
-    const double met = cheapest_area(priced, result.feasible_areas, result.minimum_power);
-    if (met > 0) take_within(result, flights, result.feasible_areas, met);
-  }
-  if (result.feasible) {
-    name_limit(result, flights);
-  } else {
-    result.area = nan;
-    name_obstacle(result, flights);
+Optimization optimize(const Design& design) {
+  const Flights flights = flights_of(design);
+  Optimization result = optimum_of(flights);
+  const Requirements& need = design.requirements;
+  result.headroom_areas = headroom_areas(flights.in(need.headroom_at), need.thrust_headroom);
+  // Of an optimum that needed no search.
+  if (result.feasible && result.feasible_areas.empty()) {
+    result.feasible_areas =
+        need.buffer_battery ? IntervalSet{{0, infinity}} : result.headroom_areas;
   }
   return result;
 }

@@ -29,7 +29,7 @@ double bound_of(Quantity quantity, double present) {
 }
 
 bool feasible_at(const Design& design, Quantity quantity, double value) {
-  return optimize(remedied(design, {quantity, value})).feasible;
+  return optimum_alone(remedied(design, {quantity, value})).feasible;
 }
 
 /// `value` to `digits` significant digits, up or down.
@@ -87,7 +87,7 @@ Design remedied(Design design, const Remedy& remedy) {
 
 std::vector<Remedy> remedies(const Design& design) {
   std::vector<Remedy> found;
-  if (optimize(design).feasible) return found;
+  if (optimum_alone(design).feasible) return found;
   for (const Quantity quantity : {Quantity::supply_voltage, Quantity::drone_mass,
                                   Quantity::tether_length, Quantity::airspeed}) {
     Design copy = design;

@@ -58,10 +58,31 @@ Pieces pieces_between(const MotorCurve& motor, double lo, double hi) {
   return {first, std::max(first, motor.piece(hi * (1 - kink_rounding))), 0.5 * (lo + hi)};
 }
 
-double converter_kink(const Converter& converter, double lo, double hi) {
-  for (const EfficiencyPoint& point : converter.efficiency) {
-    const double output = point.output_power;
-    if (lo * (1 + kink_rounding) < output && output < hi * (1 - kink_rounding)) return output;
+double converter_kink(const Converter& converter, double lo, double hi, bool of_any_kind) {
+  double before = 0;  // slope of the efficiency
+  const auto& points = converter.efficiency;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double output = points[i].output_power;
+    const double after = i + 1 < points.size() ? (points[i + 1].efficiency - points[i].efficiency) /
+                                                     (points[i + 1].output_power - output)
+                                               : 0;
+    const bool counts = of_any_kind || after > before;
+    before = after;
+    if (counts && lo * (1 + kink_rounding) < output && output < hi * (1 - kink_rounding)) {
+      return output;
+    }
+  }
+  return nan;
+}
+
+double battery_kink(const SteadyFlight& flight, double lo, double hi) {
+  const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
+  const Drone& drone = flight.design().drone;
+  for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
+    if (drone.motor.slope(i) >= drone.motor.slope(i - 1)) continue;
+    const double landed = drone.motor.vertices()[i].thrust * drone.motor_count;
+    const double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
+    return lo < kink && kink < hi ? kink : std::sqrt(lo * hi);
   }
   return nan;
 }
@@ -76,7 +97,7 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
          std::isnan(converter_kink(flight.design().supply.converter,
                                    flight.output_power(motor.power(lo)),
                                    flight.output_power(motor.power(hi)))) &&
-         flight.battery_piece(a.radius) == flight.battery_piece(b.radius);
+         std::isnan(battery_kink(flight, a.radius, b.radius));
 }
 
 double least_resistance(const WarmTether& tether, const SteadyFlight& flight, double thinner,

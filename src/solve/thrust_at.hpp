@@ -40,14 +40,20 @@ struct Pieces {
 /// The pieces that hold the thrusts strictly between `lo` and `hi`.
 [[nodiscard]] Pieces pieces_between(const MotorCurve& motor, double lo, double hi);
 
-/// Whether the power for `headroom` times the thrust is smooth between two radii: motors, converter
-/// and reserve battery follow one piece of their curves.
+/// Whether the power for `headroom` times the thrust is smooth between two radii: motors and
+/// converter follow one piece of their curves, and the reserve battery's bends up.
 [[nodiscard]] bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
                                 double headroom = 1);
 
 /// The converter's output in W at which its efficiency has a kink, strictly between two outputs;
-/// NaN where there is none.
-[[nodiscard]] double converter_kink(const Converter& converter, double lo, double hi);
+/// NaN where there is none. Those at which the slope of the input rises only where they are asked
+/// for.
+[[nodiscard]] double converter_kink(const Converter& converter, double lo, double hi,
+                                    bool of_any_kind = true);
+
+/// A radius strictly between two where the slope of the reserve battery's mass falls, or where it
+/// does on either side; NaN where it only rises.
+[[nodiscard]] double battery_kink(const SteadyFlight& flight, double lo, double hi);
 
 /// The heat of the tether of one flight, asked for at one place after another nearby.
 class WarmTether {
@@ -55,9 +61,11 @@ class WarmTether {
   explicit WarmTether(const SteadyFlight& flight) : flight_(flight) {}
 
   /// The state with `power` W at the drone and conductors of `radius`, in the sun as broad as those
-  /// of `sunlit_radius`.
-  [[nodiscard]] TetherHeatState state(double power, double radius, double sunlit_radius) const {
-    const TetherHeatState state = TetherHeat(flight_, radius, sunlit_radius).carrying(power, last_);
+  /// of `sunlit_radius`; see `TetherHeat::carrying` for `last_step`.
+  [[nodiscard]] TetherHeatState state(double power, double radius, double sunlit_radius,
+                                      double last_step = TetherHeat::finest_step) const {
+    const TetherHeatState state =
+        TetherHeat(flight_, radius, sunlit_radius).carrying(power, last_, last_step);
     if (state.steady) last_ = state;
     return state;
   }

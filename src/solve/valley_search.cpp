@@ -123,11 +123,11 @@ class ValleySearch {
     }
     const double resistance = flight_.tether().resistance(at.radius);
     if (heated_) {
-      const TetherHeatState state = tether_.state(power, at.radius, at.radius);
+      // To a millionth: at the bottom the power is flat.
+      const TetherHeatState state = tether_.state(power, at.radius, at.radius, 1e-3);
       const double spent = slope * at.thrust.slope;
       if (state.steady) {
-        const TetherHeat heat(flight_, at.radius);
-        return {-state.current * state.current * heat.resistance_slope(state), spent};
+        return {-state.current * state.current * state.resistance_slope, spent};
       }
       // Where it runs away, a thicker cable is cooler as long as P²/r² falls.
       if (supplied_power(flight_.design().supply.voltage, resistance, power) > 0) {

@@ -120,7 +120,7 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
     case Limit::input_voltage:
       return refusal;
     default:
-      refusal.best = best_headroom(design, refusal.condition);
+      refusal.best = result.best_headroom;
   }
   refusal.converter_caps =
       refusal.best.value > 0 && converter_caps(design, refusal.condition, refusal.best.area);

@@ -12,12 +12,11 @@ ResultValue existing(double value) {
   return std::isfinite(value) ? ResultValue(value) : ResultValue();
 }
 
+ResultValue in_mm2(double area) { return existing(area / unit::square_millimetre); }
+
 }  // namespace
 
-std::vector<NamedResult> reference_results(const Design& design) {
-  const DesignOptimum optimum = optimum_of(design);
-  const Optimization& result = optimum.result;
-  const auto in_mm2 = [](double area) { return existing(area / unit::square_millimetre); };
+std::vector<NamedResult> optimum_results(const Optimization& result) {
   std::vector<NamedResult> results{
       {"status", std::string(status_name(result.feasible))},
       {"limited_by", std::string(limit_name(result.limited_by))},
@@ -31,10 +30,17 @@ std::vector<NamedResult> reference_results(const Design& design) {
            result.feasible ? existing(practical_value(point, field)) : ResultValue()});
     }
   }
+  return results;
+}
+
+std::vector<NamedResult> reference_results(const Design& design) {
+  const DesignOptimum optimum = optimum_of(design);
+  const MinimumPower& least = optimum.result.minimum_power;
+  std::vector<NamedResult> results = optimum_results(optimum.result);
   results.push_back({"headroom.best", existing(optimum.best_headroom.value)});
   results.push_back({"headroom.best_at_mm2", in_mm2(optimum.best_headroom.area)});
-  results.push_back({"minimum_power.cross_section_mm2", in_mm2(result.minimum_power.area)});
-  results.push_back({"minimum_power.total_power_W", existing(result.minimum_power.power)});
+  results.push_back({"minimum_power.cross_section_mm2", in_mm2(least.area)});
+  results.push_back({"minimum_power.total_power_W", existing(least.power)});
   return results;
 }
 

@@ -103,7 +103,7 @@ std::uint64_t incomplete_points(const SensitivitySample& feasible) {
 
 SweepOutcome sweep_outcome(const Design& design, bool given_area) {
   if (given_area) return given_cable(design);
-  const Optimization result = optimize(design);
+  const Optimization result = optimum_alone(design);
   SweepOutcome outcome;
   outcome.feasible = result.feasible;
   outcome.limited_by = result.limited_by;

@@ -45,8 +45,7 @@ double by_hand(const FlightRecord& r, std::size_t i, double wind, double linear)
   const double u = r.forward_speed[i] - wind;
   const double area = 0.015 * std::cos(theta) + 0.012 * std::abs(std::sin(theta));
   const double force = 0.5 * 1.25 * area * (u * std::abs(u) + linear * u);
-  return (standard_gravity - r.down_acceleration[i]) * std::tan(theta) * r.inverse_cos_roll[i] -
-         force / 1.6;
+  return (standard_gravity - r.down_acceleration[i]) * std::tan(theta) - force / 1.6;
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ FlightLog fly(const HiddenFlight& h) {
     const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
                          h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw);
     // A frame that turns carries the speed to the right into the forward one.
-    const double push = (gravity - down_acceleration) * std::tan(tilt) / std::cos(roll) +
+    const double push = (gravity - down_acceleration) * std::tan(tilt) +
                         gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) +
                         turn / step * right;
     const auto acceleration = [&](double v) {

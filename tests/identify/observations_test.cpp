@@ -207,3 +207,20 @@ TEST_CASE("a tumbling drone is told apart from flight, with its time") {
         std::string::npos);
   CHECK(observe(log, {0, 10}, 0).size() == 10);
 }
+
+TEST_CASE("a log of something else than a multirotor is refused by its name") {
+  FlightLog log = still_log(20);
+  log.other_vehicle = "ArduPlane V3.1.2, an aeroplane";
+  CHECK(message_of([&] { validate(log); }).find("ArduPlane V3.1.2, an aeroplane") !=
+        std::string::npos);
+}
+
+TEST_CASE("velocities that no multirotor flies are refused, one flipped bit among many is not") {
+  FlightLog log = still_log(200);
+  log.down_velocity[150] = 400;
+  CHECK_NOTHROW(observe(log, whole(log), 0));
+  for (std::size_t i = 150; i < 200; ++i) log.down_velocity[i] = 201 + static_cast<double>(i);
+  CHECK(message_of([&] { (void)observe(log, whole(log), 0); }).find("400 m/s of it downward") !=
+        std::string::npos);
+  CHECK_NOTHROW(observe(log, {0, 149}, 0));
+}

@@ -40,6 +40,23 @@ TEST_CASE("XKF1 of the wanted core comes out in seconds, radians and metres a se
   CHECK(reading.log.down_velocity == std::vector<double>{0.25});
 }
 
+TEST_CASE("a log says what flew by its firmware, where that is no multirotor") {
+  const auto flown_by = [](const std::string& firmware) {
+    DataFlashWriter log;
+    test::define_xkf1(log);
+    log.define(7, "MSG", "QZ", "TimeUS,Message");
+    log.add(7, {std::uint64_t{1}, std::string("Barometer calibrated")});
+    log.add(7, {std::uint64_t{2}, firmware});
+    test::add_xkf1(log, 0, {1'500'000, 0, 0, 0, 1, 0, 0});
+    return read(log).log.other_vehicle;
+  };
+  CHECK(flown_by("ArduPlane V3.1.2beta1 (834f90e8)") ==
+        "ArduPlane V3.1.2beta1 (834f90e8), an aeroplane");
+  CHECK(flown_by("APM:Rover v3.1.0 (a3ae3192)") == "APM:Rover v3.1.0 (a3ae3192), a rover");
+  CHECK(flown_by("ArduCopter V4.6.3 (fa4f2044)").empty());
+  CHECK(flown_by("APM:Copter V3.3-dev (ae3192b8)").empty());
+}
+
 TEST_CASE("older logs are read from NKF1, NKF6 for core 1, and EKF1, in their time base") {
   const std::string old_labels = "Roll,Pitch,Yaw,VN,VE,VD";
   const auto estimate = [](test::LoggedValue time, double vn) {

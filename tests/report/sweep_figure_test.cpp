@@ -5,11 +5,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "report/result_values.hpp"
 #include "support/gnuplot.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/spec_fields.hpp"
-#include "tethercalc/report/csv_cell.hpp"
 #include "tethercalc/study/result_keys.hpp"
 
 using namespace tethercalc;

@@ -77,19 +77,20 @@ void check_against_areas(const Design& design, int count) {
   CHECK(power <= tried.power * (1 + 1e-7));
 }
 
-/// More than usual where the environment asks for it, as once before a release.
-int designs_or(int usual) {
-  const char* asked = std::getenv("TETHERCALC_EXTREME_DESIGNS");
+/// As many as the environment asks for, as once before a release, or as usual.
+int asked_or(const char* variable, int usual) {
+  const char* asked = std::getenv(variable);
   return asked ? std::atoi(asked) : usual;
 }
 
 }  // namespace
 
 TEST_CASE("no area is better than the optimum of any design that a spec can say") {
-  const int areas = std::getenv("TETHERCALC_EXTREME_DESIGNS") ? 3000 : 300;
-  test::each_random(designs_or(test::draws(300)), [areas](test::Random& random) {
-    check_against_areas(test::random_extreme_design(random), areas);
-  });
+  const int areas = asked_or("TETHERCALC_EXTREME_AREAS", 300);
+  test::each_random(asked_or("TETHERCALC_EXTREME_DESIGNS", test::draws(300)),
+                    [areas](test::Random& random) {
+                      check_against_areas(test::random_extreme_design(random), areas);
+                    });
 }
 
 TEST_CASE("a short tether behind a resistive slip ring is given the area that draws least") {

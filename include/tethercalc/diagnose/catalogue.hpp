@@ -39,6 +39,9 @@ struct EffectParameter {
   /// The neutral value, in SI, where a design has one of its own; null: `neutral` for every design.
   double (*in_design)(const Design&) = nullptr;
   double start = 0;  ///< in `unit`, beyond neutral: the first value that a search tries
+  /// Parameter of the base model whose product with this one enters the prediction linearly; that
+  /// is tested against chance. Empty: this one enters by itself.
+  std::string product_with{};
 };
 
 /// One entry.

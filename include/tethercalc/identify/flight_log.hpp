@@ -1,6 +1,7 @@
 // A drone's attitude and velocity over time: what drag is learned from.
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace tethercalc {
@@ -15,6 +16,8 @@ struct FlightLog {
   std::vector<double> north_velocity;  ///< m/s
   std::vector<double> east_velocity;   ///< m/s
   std::vector<double> down_velocity;   ///< m/s
+  /// What flew where the log says that it was no multirotor: "ArduPlane V3.1.2, an aeroplane".
+  std::string other_vehicle;
 };
 
 }  // namespace tethercalc

@@ -48,7 +48,8 @@ struct Observations {
 };
 
 /// Throws UnsuitableFlight unless all series of `log` have the same length of at least 3, are
-/// finite, and time strictly increases; names the first offending sample.
+/// finite, and time strictly increases, naming the first offending sample; and where something else
+/// than a multirotor flew.
 void validate(const FlightLog& log);
 
 /// The samples taken at `from` ≤ time ≤ `to` seconds of the log's own clock (either may be
@@ -104,8 +105,9 @@ struct LogPosition {
 /// between two gaps is left out, so the result may be shorter than the range.
 ///
 /// `gravity` in m/s², > 0. Throws UnsuitableFlight for an invalid log, a range that is empty or
-/// exceeds it, and where the drone tilts or rolls beyond 75° within the range: there the thrust no
-/// longer carries it.
+/// exceeds it, where the drone tilts or rolls beyond 75° within the range: there the thrust no
+/// longer carries it, and where more than 1 % of the range is faster than 200 m/s: there the
+/// estimator has diverged.
 [[nodiscard]] Observations observe(const FlightLog& log, const SampleRange& range,
                                    double pitch_offset, double gravity = standard_gravity);
 

@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "tethercalc/model/tether.hpp"
@@ -83,45 +84,64 @@ class ConductorHeat {
   /// `highest_conductor_temperature_C` is steady. Exact to 1e-9 K.
   [[nodiscard]] std::optional<double> temperature(double current) const;
 
-  /// A surface whose heat balance was struck, and how its heat changes about there: where the next
-  /// search begins.
-  struct Surface {
-    double temperature_C = 0;  ///< °C
-    double heat = 0;           ///< W/m given off
-    double heat_slope = 0;     ///< W/(m·K)
-    double inside_C = 0;       ///< °C of the conductor
-    /// K/A, how much warmer the conductor gets with more current.
-    double warming = 0;
+  /// A guess at the steady state at one current, and where the tangents there lead.
+  struct Balance {
+    double surface_C = 0;           ///< °C, guessed
+    double inside_C = 0;            ///< °C of the conductor below that surface
+    double surface_change = 0;      ///< K from the guess to where heat made and given off meet
+    double inside_per_surface = 1;  ///< K of the conductor per K of the surface
+    double by_current = 0;          ///< K/A of the steady surface
+    double inside_by_radius = 0;    ///< K/m of the steady conductor, at the same current
+    bool returns = false;           ///< a warmer conductor loses more heat than it makes
+
+    /// °C of the conductor in the steady state.
+    [[nodiscard]] double steady_inside() const {
+      return inside_C + inside_per_surface * surface_change;
+    }
+    /// Whether the tangents lead no further than `step` of the rise. Their error goes with the
+    /// square.
+    [[nodiscard]] bool is_near(double ambient_C, double step) const {
+      return std::abs(surface_change) <= step * std::abs(surface_C - ambient_C) + 1e-10;
+    }
   };
 
-  /// Where a search begins of which nothing is known.
-  [[nodiscard]] Surface cold_surface() const;
+  /// About a surface of `surface_C` with `current` A (> 0).
+  [[nodiscard]] Balance balance(double surface_C, double current) const;
 
-  /// One as warm as that of a conductor nearby, whose heat changes about as that one's does.
-  [[nodiscard]] Surface surface_like(const Surface& other) const;
+  /// Where a search for the steady surface begins, °C.
+  [[nodiscard]] double first_surface() const { return around_.temperature_C + 20; }
 
-  /// The steady surface at `current` A; nothing where there is none, as above. `near` only saves
-  /// time.
-  [[nodiscard]] std::optional<Surface> steady_surface(double current, const Surface& near) const;
+  /// The balance that leads to the steady state at `current` A (≥ 0); nothing where there is none,
+  /// as above.
+  [[nodiscard]] std::optional<Balance> steady_surface(double current) const;
 
   /// Largest current in A with the conductor at most at `temperature_C`; 0 where the sun alone
   /// heats it beyond. Exact to 1e-9 relative.
   [[nodiscard]] double current_at(double temperature_C) const;
 
   /// Heat in W/m that a surface of `surface_C` gives off, less what it takes from the sun.
-  [[nodiscard]] double given_off(double surface_C) const;
+  [[nodiscard]] double given_off(double surface_C) const { return flow(surface_C).heat; }
 
  private:
   /// Resistance in Ω/m of one conductor.
   [[nodiscard]] double resistance(double temperature_C) const;
-  [[nodiscard]] std::optional<Surface> search_surface(double current) const;
-  [[nodiscard]] Surface balanced(Surface surface, double current) const;
+  [[nodiscard]] std::optional<Balance> search_surface(double current) const;
+  /// Heat given off in W/m, and its derivatives by the surface's temperature and the metal's
+  /// radius.
+  struct Flow {
+    double heat = 0;
+    double by_temperature = 0;
+    double by_radius = 0;
+  };
+  [[nodiscard]] Flow flow(double surface_C) const;
 
   Conductor conductor_;
   Surroundings around_;
+  double radius_;
   double area_;
-  double diameter_;            ///< m, over the insulation
-  double thermal_resistance_;  ///< K·m/W of the insulation
+  double diameter_;                  ///< m, over the insulation
+  double thermal_resistance_;        ///< K·m/W of the insulation
+  double thermal_resistance_slope_;  ///< K/W, by the radius
   double density_0C_;
 };
 

@@ -24,12 +24,10 @@ struct TetherHeatState {
   double resistance = 0;              ///< Ω, loop
   TetherTemperatures temperatures{};  ///< of the conductors
 
-  /// Where the surfaces were found, from which those of a state nearby are found sooner.
-  struct Surfaces {
-    ConductorHeat::Surface in_air;   ///< of the part in the air
-    ConductorHeat::Surface on_drum;  ///< of the wound part
-  };
-  Surfaces surfaces{};  ///< of the part in the air and of that on the drum
+  /// Ω/m, of the resistance by the conductors' radius at the same current.
+  double resistance_slope = 0;
+  double surface_in_air_C = 0;   ///< °C of the insulation in the air
+  double surface_on_drum_C = 0;  ///< °C of that on the drum
 
   /// °C, of the warmer part.
   [[nodiscard]] double hottest() const {
@@ -58,33 +56,39 @@ class TetherHeat {
   [[nodiscard]] double resistance(const TetherTemperatures& temperatures) const;
 
   /// The coolest state in which power, current and temperature agree, which is the one that a cold
-  /// tether warms up to. `load_power` in W at the drone.
+  /// tether warms up to. `load_power` in W at the drone. Sooner where `near` is the steady state of
+  /// about this cable and load.
   ///
-  /// The current that a resistance asks for rises with it, and the resistance with the current, so
-  /// that the states visited from a cold start on rise towards it; the map is convex but for the
-  /// air's properties, so that Newton's steps from there hardly overshoot it, and one that points
-  /// away from it proves that there is none: the tether runs away.
-  [[nodiscard]] TetherHeatState carrying(double load_power) const;
+  /// Newton's method on current and temperatures at once, which is believed where it ends in a
+  /// state that a little more current does not leave; elsewhere step by step. The current that a
+  /// resistance asks for rises with it, and the resistance with the current, so that the states
+  /// visited from a cold start on rise towards the coolest; the map is convex but for the air's
+  /// properties, so that Newton's steps from there hardly overshoot it, and one that points away
+  /// from it proves that there is none: the tether runs away.
+  /// Resistance and current are exact to about the square of `last_step`, that of the last step
+  /// relative to rise and current.
+  [[nodiscard]] TetherHeatState carrying(double load_power, const TetherHeatState& near = {},
+                                         double last_step = finest_step) const;
 
-  /// The same, sooner where `near` is a steady state of about this cable and load.
-  [[nodiscard]] TetherHeatState carrying(double load_power, const TetherHeatState& near) const;
-
-  /// Derivative of the loop's resistance by the conductors' radius, Ω/m, in a steady state, at the
-  /// same current. Relative error about 1e-6.
-  [[nodiscard]] double resistance_slope(const TetherHeatState& state) const;
+  static constexpr double finest_step = 1e-6;  ///< near runaway errors grow
 
  private:
-  using Surfaces = TetherHeatState::Surfaces;
-  [[nodiscard]] Surfaces cold_surfaces() const;
-  [[nodiscard]] Surfaces surfaces_like(const Surfaces& others) const;
-  /// Temperatures, and Ω/A by which more current warms the loop.
-  struct Warm {
+  /// What a current makes of the loop: the temperatures, its resistance in Ω with the derivatives
+  /// by the current and, at the same current, by the radius.
+  struct Loop {
     TetherTemperatures temperatures;
-    double resistance_growth = 0;
+    double resistance = 0;
+    double by_current = 0;
+    double by_radius = 0;
   };
-  [[nodiscard]] std::optional<Warm> warmed(double current, Surfaces& surfaces) const;
-  [[nodiscard]] TetherHeatState settled(double load_power, double current,
-                                        const Surfaces& surfaces) const;
+  /// The conductor of a part of the tether: balanced, or as its heating was measured.
+  [[nodiscard]] ConductorHeat::Balance measured(double current) const;
+  [[nodiscard]] Loop loop(const ConductorHeat::Balance& in_air,
+                          const ConductorHeat::Balance& on_drum) const;
+  [[nodiscard]] std::optional<Loop> warmed(double current) const;
+  [[nodiscard]] TetherHeatState jointly(double load_power, const TetherHeatState& start,
+                                        double last_step) const;
+  [[nodiscard]] TetherHeatState step_by_step(double load_power, double current) const;
   /// Infinite where the power cannot be delivered.
   [[nodiscard]] double demanded_current(double load_power, double resistance) const;
 

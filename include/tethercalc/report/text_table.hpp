@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tethercalc {
@@ -22,10 +23,15 @@ class TextTable {
  public:
   /// The side of the column that cells touch.
   enum class Align { left, right };
-  /// A column's header and where its cells are pushed to.
+  /// A column's header and where its cells are pushed to. A title alone makes one of numbers.
   struct Column {
-    std::string title;           ///< in one line or, broken by a newline, in two
-    Align align = Align::right;  ///< right for numbers
+    std::string title;  ///< in one line or, broken by a newline, in two
+    Align align;        ///< right for numbers
+
+    /// For a title in quotes.
+    Column(const char* words, Align side = Align::right) : title(words), align(side) {}
+    /// For a title that was put together.
+    Column(std::string words, Align side = Align::right) : title(std::move(words)), align(side) {}
   };
 
   /// A table without rows.
@@ -52,6 +58,9 @@ class TextTable {
   std::vector<Column> columns_;
   std::vector<Row> rows_;
 };
+
+/// A column of words, which stand on the left.
+[[nodiscard]] TextTable::Column word_column(std::string title);
 
 /// A table and what it shows.
 struct TitledTable {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tethercalc/model/demands.hpp"
+#include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/interval.hpp"
 #include "tethercalc/solve/minimum_power.hpp"
 
@@ -41,6 +42,10 @@ struct Optimization {
       headroom_areas;  ///< where the required headroom is met, at `requirements.headroom_at`
   IntervalSet feasible_areas;  ///< where the design meets everything it was checked against
   MinimumPower minimum_power;  ///< at `requirements.power_at`, no other constraint asked for
+
+  /// The most in `limiting_condition`, where the design is infeasible and not for a demand on the
+  /// cable or for the supply's voltage.
+  BestHeadroom best_headroom;
 };
 
 /// The least power at `requirements.power_at` among the areas that
@@ -58,5 +63,8 @@ struct Optimization {
 /// where it has an upper edge too, the area stays below it. Takes about a microsecond, some
 /// microseconds with an efficiency curve or a reserve battery, and some tens of them with heat.
 [[nodiscard]] Optimization optimize(const Design& design);
+
+/// The same but for the two sets of areas, which may be empty: sooner, for many designs.
+[[nodiscard]] Optimization optimum_alone(const Design& design);
 
 }  // namespace tethercalc

@@ -19,9 +19,12 @@ struct NamedResult {
   ResultValue value;  ///< what it is
 };
 
-/// Every result of `design`: `status`, `limited_by`, `limiting_condition`, `cross_section_mm2`,
-/// both operating points as "hover." and "forward." followed by the keys of
-/// `operating_point_fields`, `headroom.best`, `headroom.best_at_mm2`,
+/// The results of an optimum: `status`, `limited_by`, `limiting_condition`, `cross_section_mm2`,
+/// and both operating points as "hover." and "forward." followed by the keys of
+/// `operating_point_fields`.
+[[nodiscard]] std::vector<NamedResult> optimum_results(const Optimization& result);
+
+/// Every result of `design`: those of its optimum, `headroom.best`, `headroom.best_at_mm2`,
 /// `minimum_power.cross_section_mm2` and `minimum_power.total_power_W`.
 [[nodiscard]] std::vector<NamedResult> reference_results(const Design& design);
 

@@ -1,0 +1,169 @@
+// The commands: what each is asked, and the function that answers. Each of these returns the
+// program's exit code and throws InputError for bad input.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/flight_options.hpp"
+#include "cli/output.hpp"
+#include "tethercalc/diagnose/diagnosis.hpp"
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/io/design_request.hpp"
+#include "tethercalc/study/drag.hpp"
+
+namespace tethercalc::cli {
+
+/// A spec and what the command line changes in it.
+struct SpecOptions {
+  std::string file;  ///< "-" is standard input
+  std::vector<std::string> overrides;
+};
+
+/// The spec, read with its changes.
+[[nodiscard]] DesignFile read_spec(const SpecOptions& spec);
+
+// --- Answers about one design -----------------------------------------------------------------
+
+int run_optimize(const SpecOptions& spec, const Output& output);
+
+/// Without `areas_mm2` at the spec's own cross-section.
+int run_evaluate(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+                 const Output& output);
+
+/// The motors that `--motors` names: "all", names of the library, or files. Throws InputError with
+/// every name that there is none of.
+[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names);
+
+int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
+                const Output& output);
+
+int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output);
+
+/// The envelope of one cross-section: the one of `areas_mm2`, or the spec's own.
+int run_envelope(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+                 const Output& output);
+
+// --- Many designs -----------------------------------------------------------------------------
+
+struct SweepOptions {
+  SpecOptions spec;
+  std::vector<std::string> varied;      ///< see read_axes
+  std::string format = "csv";           ///< "csv", or "jsonl" (also "json") for JSON Lines
+  std::string file;                     ///< empty or "-": standard output
+  bool resume = false;                  ///< continue what `file` holds
+  std::string shard;                    ///< "i/n"; empty: all rows
+  unsigned jobs = 0;                    ///< threads; 0: one a core
+  std::optional<std::uint64_t> sample;  ///< draw this many instead of every combination
+  std::string method = "sobol";         ///< or "lhs"
+  std::uint64_t seed = 0;
+  std::string summary_file;  ///< JSON summary of a sample; empty: none
+};
+
+/// Writes one row a design as they are computed. The exit code is 128 + the signal's number where
+/// it was interrupted; throws InputError also where rows cannot be written.
+int run_sweep(const SweepOptions& options);
+
+struct CheckOptions {
+  std::vector<std::string> paths;  ///< folders, specs or records
+  bool update = false;             ///< bring the records up to date
+  std::string junit_file;          ///< empty: none
+};
+
+/// Exit code 1 where a reference design drifted or has no record, unless it was updated. Throws
+/// InputError where a file could not be checked, after all others were.
+int run_check(const CheckOptions& options, const Output& output);
+
+// --- Specs and the library --------------------------------------------------------------------
+
+/// Reads specs and says what is wrong with them, or that nothing is.
+int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
+                 const Output& output);
+
+int run_schema(const Output& output);
+
+/// A starting spec.
+int run_init(const Output& output);
+
+/// `what`: "motors", "conductors", "insulation" or "sizes".
+int run_list(const std::string& what, const Output& output);
+
+// --- Logs -------------------------------------------------------------------------------------
+
+/// What a DataFlash log holds, or all messages of one name as CSV.
+int run_log(const std::string& file, const std::string& message, const Output& output);
+
+/// What the options say about the flight, checked; the mass must be given.
+[[nodiscard]] DragIdentificationOptions identification_options(const FlightOptions& flight);
+
+/// The logs of these names; what was amiss with them is told on standard error.
+[[nodiscard]] std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
+                                                      int core);
+
+/// The drag of these logs, `name` their heading. Throws InputError where they show none.
+[[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
+                                     const FlightOptions& flight);
+
+/// Reports the drag or, where `into` names a spec, prints that with its drag block replaced.
+int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
+             const std::string& into, const Output& output);
+
+struct DiagnoseOptions {
+  SpecOptions spec;
+  std::string flight_log;
+  std::string power_log;
+  std::vector<std::string> base;  ///< ids of effects that are part of the base model
+  FlightOptions flight;
+  bool into = false;      ///< print the extended spec instead of the diagnosis
+  std::string into_file;  ///< write it there instead, beside the diagnosis
+};
+
+/// What the logs say; either may be absent.
+struct ToldDiagnosis {
+  std::optional<Diagnosis> flight;
+  std::optional<Diagnosis> power;
+  nlohmann::ordered_json extended;  ///< the spec with the findings of both
+};
+
+/// Compares each log that `options` name with the spec as it stands; what both together do to the
+/// design stands in the last of them. Drag that a flight shows directly outranks what the power at
+/// the motors says of it. Throws InputError for bad input.
+[[nodiscard]] ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file);
+
+int run_diagnose(const DiagnoseOptions& options, const Output& output);
+
+// --- Figures and pages ------------------------------------------------------------------------
+
+struct PlotOptions {
+  std::string kind;                ///< as in `plot_kinds_help`
+  std::vector<std::string> files;  ///< the spec, logs or CSV that the kind is drawn from
+  std::vector<std::string> given;  ///< names of all options that were given
+  DiagnoseOptions made_of;         ///< changes of the spec, logs and what is known of them
+  std::string output;              ///< empty: characters on standard output
+  std::string title;               ///< above the figure; empty: the design's or the file's name
+  double width_mm = 85;
+  std::vector<std::string> motors{"all"};
+  std::string view;
+  std::string x;
+  std::string y;
+  std::string value;
+};
+
+/// Names and what they show, for help and messages.
+[[nodiscard]] std::string plot_kinds_help();
+
+/// Draws one figure.
+int run_plot(const PlotOptions& options);
+
+/// Writes the page. `options` names the spec and the logs, which may both be there; `command` is
+/// what was typed, for a shell. The exit code is that of `optimize` for the spec.
+int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output);
+
+/// The command line, given with the program's name, as one may type it into a shell again.
+[[nodiscard]] std::string shell_command(std::span<const char* const> arguments);
+
+}  // namespace tethercalc::cli

@@ -1,0 +1,44 @@
+#include "report/result_values.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tethercalc {
+
+ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? number_or_null(*value) : ordered_json(nullptr);
+}
+
+ordered_json operating_point_json(const OperatingPoint& point) {
+  ordered_json out = ordered_json::object();
+  for (const OperatingPointField& field : operating_point_fields()) {
+    out[std::string(field.key)] = number_or_null(practical_value(point, field));
+  }
+  return out;
+}
+
+std::string csv_text(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string csv_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+std::string csv_cell(const ordered_json& value) {
+  if (value.is_string()) return csv_text(value.get_ref<const std::string&>());
+  return value.is_number() ? csv_number(value.get<double>()) : "";
+}
+
+}  // namespace tethercalc

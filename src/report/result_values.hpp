@@ -1,0 +1,40 @@
+// Values as JSON and CSV write them: what does not exist is null there and empty here.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/result_keys.hpp"
+
+namespace tethercalc {
+
+using nlohmann::ordered_json;
+
+/// The number, or null where it does not exist: JSON knows neither NaN nor infinity.
+[[nodiscard]] ordered_json number_or_null(double value);
+[[nodiscard]] ordered_json number_or_null(const std::optional<double>& value);
+
+/// A list of what `of` makes of each of `values`.
+template <typename Values, typename Of>
+[[nodiscard]] ordered_json json_list(const Values& values, const Of& of) {
+  ordered_json out = ordered_json::array();
+  for (const auto& value : values) out.push_back(of(value));
+  return out;
+}
+
+/// An operating point under the keys of `operating_point_fields`.
+[[nodiscard]] ordered_json operating_point_json(const OperatingPoint& point);
+
+/// A text as one cell of CSV, quoted where it has to be (RFC 4180).
+[[nodiscard]] std::string csv_text(std::string_view text);
+
+/// The shortest text that reads back as the same number; empty where it does not exist.
+[[nodiscard]] std::string csv_number(double value);
+
+/// A text, a number or null as one cell of CSV.
+[[nodiscard]] std::string csv_cell(const ordered_json& value);
+
+}  // namespace tethercalc
