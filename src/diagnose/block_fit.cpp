@@ -32,29 +32,17 @@ constexpr int most_iterations = 40;
 constexpr double loading = 1e-9;
 
 double robust_sigma(const VectorXd& residual) {
-  std::vector<double> magnitude(static_cast<std::size_t>(residual.size()));
-  for (Index i = 0; i < residual.size(); ++i) {
-    magnitude[static_cast<std::size_t>(i)] = std::abs(residual[i]);
-  }
-  return mad_to_sigma * median(std::move(magnitude));
-}
-
-double huber_loss(const VectorXd& residual, double bound) {
-  double loss = 0;
-  for (const double r : residual) {
-    const double magnitude = std::abs(r);
-    loss += magnitude <= bound ? 0.5 * r * r : bound * (magnitude - 0.5 * bound);
-  }
-  return loss;
+  const VectorXd magnitude = residual.cwiseAbs();
+  return mad_to_sigma * median({magnitude.begin(), magnitude.end()});
 }
 
 VectorXd huber_weights(const VectorXd& residual, double bound) {
-  VectorXd weight(residual.size());
-  for (Index i = 0; i < residual.size(); ++i) {
-    const double magnitude = std::abs(residual[i]);
-    weight[i] = magnitude <= bound ? 1.0 : bound / magnitude;
-  }
-  return weight;
+  return (bound / residual.array().abs().max(bound)).matrix();
+}
+
+double huber_loss(const VectorXd& residual, double bound) {
+  const auto beyond = residual.array().abs() - residual.array().abs().min(bound);
+  return 0.5 * (residual.squaredNorm() - beyond.square().sum());
 }
 
 MatrixXd normal_matrix(const MatrixXd& jacobian, const VectorXd& weight) {

@@ -38,9 +38,7 @@ void shift_tilt(FlightPrediction& p, double delay) {
 }
 
 std::vector<Effect> flight_effects() {
-  std::vector<Effect> effects;
-
-  effects.push_back(
+  return {
       {.id = "attitude_delay",
        .title = "Attitude logged late",
        .mechanism = "The logged attitude lags behind the logged velocity (estimator filter, clock "
@@ -52,11 +50,11 @@ std::vector<Effect> flight_effects() {
        .change = "θ(t) → θ(t + τ)",
        .channel = "tilt_rate",
        .flight_phase = FlightPhase::attitude,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         if (x[0] != 0) shift_tilt(p, x[0]);
-       }});
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             if (x[0] != 0) shift_tilt(p, x[0]);
+           }},
 
-  effects.push_back(
       {.id = "pitch_trim",
        .title = "Pitch offset of the attitude estimate",
        .mechanism = "The estimator reads this pitch when the thrust points straight up, so a "
@@ -72,11 +70,11 @@ std::vector<Effect> flight_effects() {
        .change = "θ → θ + trim (pitch positive nose-up, θ positive leaning forward)",
        .channel = "tilt",
        .flight_phase = FlightPhase::attitude,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         for (double& tilt : p.tilt) tilt += x[0];
-       }});
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (double& tilt : p.tilt) tilt += x[0];
+           }},
 
-  effects.push_back(
       {.id = "linear_drag",
        .title = "Drag in proportion to speed",
        .mechanism = "Propellers in a cross-flow lose momentum in proportion to the airspeed "
@@ -93,9 +91,8 @@ std::vector<Effect> flight_effects() {
        .change = "F_D: u|u| → u|u| + j·u",
        .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
-       .on_flight = [](FlightPrediction& p, Values x) { p.law.linear_speed += x[0]; }});
+       .on_flight = [](FlightPrediction& p, Values x) { p.law.linear_speed += x[0]; }},
 
-  effects.push_back(
       {.id = "wind",
        .title = "Steady wind along the flight axis",
        .mechanism = "The air moves along the forward axis, so airspeed differs from the logged "
@@ -106,11 +103,11 @@ std::vector<Effect> flight_effects() {
        .change = "u = v − w",
        .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         for (double& headwind : p.headwind) headwind += x[0];
-       }});
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (double& headwind : p.headwind) headwind += x[0];
+           }},
 
-  effects.push_back(
       {.id = "turning_wind",
        .title = "Wind fixed in the world while the drone turns",
        .mechanism = "The wind keeps its direction over ground, so its part along the forward axis "
@@ -126,15 +123,15 @@ std::vector<Effect> flight_effects() {
            "the yaw hardly turns in this flight, where a wind over ground is a steady headwind",
        .replaces = "wind",
        .flight_phase = FlightPhase::air,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         if (x[0] == 0 && x[1] == 0) return;
-         for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-           const double yaw = p.record.yaw[i];
-           p.headwind[i] += x[0] * std::cos(yaw) + x[1] * std::sin(yaw);
-         }
-       }});
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             if (x[0] == 0 && x[1] == 0) return;
+             for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+               const double yaw = p.record.yaw[i];
+               p.headwind[i] += x[0] * std::cos(yaw) + x[1] * std::sin(yaw);
+             }
+           }},
 
-  effects.push_back(
       {.id = "wind_drift",
        .title = "Wind that changes steadily during the flight",
        .mechanism = "The wind along the forward axis rises or falls from the beginning of the "
@@ -145,14 +142,14 @@ std::vector<Effect> flight_effects() {
        .change = "w → w + d·(t − t_middle)/duration: d is the change over the whole flight",
        .channel = "time",
        .flight_phase = FlightPhase::air,
-       .on_flight = [](FlightPrediction& p, Values x) {
-         const double rate = p.record.duration > 0 ? x[0] / p.record.duration : 0;
-         for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-           p.headwind[i] += rate * (p.record.time[i] - p.record.middle_time);
-         }
-       }});
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             const double rate = p.record.duration > 0 ? x[0] / p.record.duration : 0;
+             for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+               p.headwind[i] += rate * (p.record.time[i] - p.record.middle_time);
+             }
+           }},
 
-  effects.push_back(
       {.id = "fore_aft_asymmetry",
        .title = "Different drag forward and backward",
        .mechanism = "The airframe is not symmetric: at the same airspeed, drag flying forward is "
@@ -170,9 +167,8 @@ std::vector<Effect> flight_effects() {
        .change = "F_D → F_D·(1 + a·sign u)",
        .channel = "forward_speed",
        .flight_phase = FlightPhase::air,
-       .on_flight = [](FlightPrediction& p, Values x) { p.law.fore_aft_asymmetry += x[0]; }});
+       .on_flight = [](FlightPrediction& p, Values x) { p.law.fore_aft_asymmetry += x[0]; }},
 
-  effects.push_back(
       {.id = "propwash",
        .title = "Propwash while braking",
        .mechanism = "Leaning against the motion, the drone flies into the turbulent air of its own "
@@ -183,33 +179,33 @@ std::vector<Effect> flight_effects() {
        .change = "F_D → F_D − k·u·|θ| while u·θ < 0",
        .channel = "braking",
        .flight_phase = FlightPhase::force,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.drag.size(); ++i) {
+               const double against = -p.airspeed[i] * p.tilt[i];
+               if (against > 0) p.drag[i] -= x[0] * p.airspeed[i] * std::abs(p.tilt[i]);
+             }
+           }},
+
+      {.id = "vertical_coupling",
+       .title = "Drag that depends on climbing and sinking",
+       .mechanism = "Flow through the propellers from below or above changes the "
+                    "force they feel from the side.",
+       .parameters = {{.name = "vertical_coupling",
+                       .unit = "N·s²/m²",
+                       .lower = -2,
+                       .upper = 2,
+                       .scale = 0.05}},
+       .needs = {"vd_m_s"},
+       .to_separate = "climb and sink at constant forward speed",
+       .change = "F_D → F_D + c·u·v_D",
+       .channel = "sinking",
+       .flight_phase = FlightPhase::force,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.drag.size(); ++i) {
-           const double against = -p.airspeed[i] * p.tilt[i];
-           if (against > 0) p.drag[i] -= x[0] * p.airspeed[i] * std::abs(p.tilt[i]);
+           p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
          }
-       }});
-
-  effects.push_back({.id = "vertical_coupling",
-                     .title = "Drag that depends on climbing and sinking",
-                     .mechanism = "Flow through the propellers from below or above changes the "
-                                  "force they feel from the side.",
-                     .parameters = {{.name = "vertical_coupling",
-                                     .unit = "N·s²/m²",
-                                     .lower = -2,
-                                     .upper = 2,
-                                     .scale = 0.05}},
-                     .needs = {"vd_m_s"},
-                     .to_separate = "climb and sink at constant forward speed",
-                     .change = "F_D → F_D + c·u·v_D",
-                     .channel = "sinking",
-                     .flight_phase = FlightPhase::force,
-                     .on_flight = [](FlightPrediction& p, Values x) {
-                       for (std::size_t i = 0; i < p.drag.size(); ++i) {
-                         p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
-                       }
-                     }});
-  return effects;
+       }}};
 }
 
 std::vector<Effect> all_effects() {

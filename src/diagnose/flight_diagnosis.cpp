@@ -12,8 +12,8 @@
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/flight_structure.hpp"
 #include "diagnose/log_model.hpp"
-#include "identify/series.hpp"
 #include "diagnose/unit_checks.hpp"
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
@@ -223,131 +223,103 @@ class Report {
   Report(const FlightData& data, const FlightModel& model, const Selection& selection)
       : data_(data), model_(model), selection_(selection) {}
 
-  void write(const FlightDiagnosisOptions& options, Diagnosis& d) const;
+  void write(const FlightDiagnosisOptions& options, Diagnosis& d) const {
+    d.not_identifiable.push_back(
+        {"extra_mass",
+         "a wrong mass only rescales the drag areas, since both enter as force over mass"});
+    tell(model_, selection_, d);
+    d.samples = selection_.rows;
+    d.effective_samples = effective_samples();
+    d.compared.push_back(compared());
+    size_up(d.unexplained);
+    d.spec_changes = spec_changes();
+    for (const Selection::TooSmall& small : selection_.too_small) {
+      d.notes.push_back(fmt::format(
+          "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",
+          model_.effect(small.group).id, small.gain_percent, options.selection.least_gain_percent));
+    }
+    d.further.push_back(
+        {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
+         "m/s", speed_rmse(selection_.base, options.speed_window),
+         speed_rmse(selection_.extended, options.speed_window)});
+  }
 
  private:
-  void size_up(Unexplained& unexplained) const;
-  [[nodiscard]] std::vector<SpecChange> spec_changes() const;
-  [[nodiscard]] double speed_rmse(const ModelFit& fit, double window) const;
-  [[nodiscard]] double effective_samples() const;
-  [[nodiscard]] ComparedSeries compared() const;
+  void size_up(Unexplained& unexplained) const {
+    if (!unexplained.detected) return;
+    unexplained.size =
+        selection_.extended.holdout_rmse * std::sqrt(unexplained.share_percent / 100);
+    unexplained.size_unit = unit_of_flights;
+    unexplained.shape = fmt::format(
+        "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
+        "stays unnamed",
+        unexplained.regressor);
+  }
+
+  [[nodiscard]] std::vector<SpecChange> spec_changes() const {
+    const ModelFit& fit = selection_.complete;
+    std::vector<SpecChange> out{{"drone.drag.front_area_m2", fit.values[0]},
+                                {"drone.drag.top_area_m2", fit.values[1]}};
+    for (std::size_t g = 0; g < model_.effects().size(); ++g) {
+      for (std::size_t k = 0; k < model_.effect(g).parameters.size(); ++k) {
+        const EffectParameter& p = model_.effect(g).parameters[k];
+        // Also where neutral: the fitted areas belong to a drag law without it.
+        if (p.spec_field.empty()) continue;
+        out.push_back({p.spec_field, fit.values[model_.first_parameter(g) + k] / p.unit_SI});
+      }
+    }
+    return out;
+  }
+
+  /// Each block is simulated with the parameters fitted without it.
+  [[nodiscard]] double speed_rmse(const ModelFit& fit, double window) const {
+    double sum = 0;
+    std::size_t count = 0;
+    const FlightRecord& record = data_.record;
+    for (std::size_t first = 0; first < record.size();) {
+      const int block = data_.block[first];
+      std::size_t last = first + 1;
+      while (last < record.size() && data_.block[last] == block) ++last;
+      if (block >= 0) {
+        const FlightRecord part = part_of(record, first, last);
+        const auto& values = fit.without_block[static_cast<std::size_t>(block)];
+        const std::vector<double> speed = simulate_speed(
+            part, flight_base(values), model_.freed(values), window, step_tolerance * data_.step);
+        for (std::size_t i = 0; i < speed.size(); ++i) {
+          sum += std::pow(speed[i] - part.forward_speed[i], 2);
+        }
+        count += speed.size();
+      }
+      first = last;
+    }
+    return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+  }
+
+  [[nodiscard]] double effective_samples() const {
+    std::vector<double> residuals;
+    for (std::size_t i = 0; i < data_.block.size(); ++i) {
+      if (data_.block[i] >= 0) residuals.push_back(selection_.complete.holdout_residual[i]);
+    }
+    return effective_sample_size(residuals);
+  }
+
+  [[nodiscard]] ComparedSeries compared() const {
+    ComparedSeries series;
+    series.time = data_.record.time;
+    series.measured = model_.problem.measured;
+    for (std::size_t i = 0; i < series.time.size(); ++i) {
+      const double used = data_.block[i] < 0 ? nan : series.measured[i];
+      series.before.push_back(used - selection_.base.holdout_residual[i]);
+      series.after.push_back(used - selection_.extended.holdout_residual[i]);
+    }
+    series.stage = to_string(Stage::airframe);
+    return series;
+  }
 
   const FlightData& data_;
   const FlightModel& model_;
   const Selection& selection_;
 };
-
-void Report::size_up(Unexplained& unexplained) const {
-  if (!unexplained.detected) return;
-  unexplained.size = selection_.extended.holdout_rmse * std::sqrt(unexplained.share_percent / 100);
-  unexplained.size_unit = unit_of_flights;
-  unexplained.shape = fmt::format(
-      "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
-      "stays unnamed",
-      unexplained.regressor);
-}
-
-std::vector<SpecChange> Report::spec_changes() const {
-  const ModelFit& fit = selection_.complete;
-  std::vector<SpecChange> out{{"drone.drag.front_area_m2", fit.values[0]},
-                              {"drone.drag.top_area_m2", fit.values[1]}};
-  for (std::size_t g = 0; g < model_.effects().size(); ++g) {
-    for (std::size_t k = 0; k < model_.effect(g).parameters.size(); ++k) {
-      const EffectParameter& p = model_.effect(g).parameters[k];
-      // Also where neutral: the fitted areas belong to a drag law without it.
-      if (p.spec_field.empty()) continue;
-      out.push_back({p.spec_field, fit.values[model_.first_parameter(g) + k] / p.unit_SI});
-    }
-  }
-  return out;
-}
-
-/// Each block is simulated with the parameters fitted without it.
-double Report::speed_rmse(const ModelFit& fit, double window) const {
-  double sum = 0;
-  std::size_t count = 0;
-  const FlightRecord& record = data_.record;
-  for (std::size_t first = 0; first < record.size();) {
-    const int block = data_.block[first];
-    std::size_t last = first + 1;
-    while (last < record.size() && data_.block[last] == block) ++last;
-    if (block >= 0) {
-      const FlightRecord part = part_of(record, first, last);
-      const auto& values = fit.without_block[static_cast<std::size_t>(block)];
-      const std::vector<double> speed = simulate_speed(
-          part, flight_base(values), model_.freed(values), window, step_tolerance * data_.step);
-      for (std::size_t i = 0; i < speed.size(); ++i) {
-        sum += std::pow(speed[i] - part.forward_speed[i], 2);
-      }
-      count += speed.size();
-    }
-    first = last;
-  }
-  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
-}
-
-double Report::effective_samples() const {
-  std::vector<double> residuals;
-  for (std::size_t i = 0; i < data_.block.size(); ++i) {
-    if (data_.block[i] >= 0) residuals.push_back(selection_.complete.holdout_residual[i]);
-  }
-  return effective_sample_size(residuals);
-}
-
-ComparedSeries Report::compared() const {
-  ComparedSeries series;
-  series.time = data_.record.time;
-  series.measured = model_.problem.measured;
-  for (std::size_t i = 0; i < series.time.size(); ++i) {
-    const double used = data_.block[i] < 0 ? nan : series.measured[i];
-    series.before.push_back(used - selection_.base.holdout_residual[i]);
-    series.after.push_back(used - selection_.extended.holdout_residual[i]);
-  }
-  series.stage = to_string(Stage::airframe);
-  return series;
-}
-
-void Report::write(const FlightDiagnosisOptions& options, Diagnosis& d) const {
-  d.not_identifiable.push_back(
-      {"extra_mass",
-       "a wrong mass only rescales the drag areas, since both enter as force over mass"});
-  tell(model_, selection_, d);
-  d.samples = selection_.rows;
-  d.effective_samples = effective_samples();
-  d.compared.push_back(compared());
-  size_up(d.unexplained);
-  d.spec_changes = spec_changes();
-  for (const Selection::TooSmall& small : selection_.too_small) {
-    d.notes.push_back(fmt::format(
-        "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",
-        model_.effect(small.group).id, small.gain_percent, options.selection.least_gain_percent));
-  }
-  d.further.push_back(
-      {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
-       "m/s", speed_rmse(selection_.base, options.speed_window),
-       speed_rmse(selection_.extended, options.speed_window)});
-}
-
-void check_options(const Design& design, const FlightDiagnosisOptions& options) {
-  if (!(design.drone.mass > 0) || !(design.flight.air_density > 0)) {
-    throw std::invalid_argument("mass and air density must be positive");
-  }
-  std::string unknown;
-  std::string known;
-  for (const Effect& effect : effect_catalogue()) {
-    if (effect.log == LogKind::flight) known += (known.empty() ? "" : ", ") + effect.id;
-  }
-  for (const std::string& id : options.base) {
-    const Effect* effect = find_effect(id);
-    if (effect == nullptr || effect->log != LogKind::flight) {
-      unknown += (unknown.empty() ? "" : ", ") + id;
-    }
-  }
-  if (!unknown.empty()) {
-    throw std::invalid_argument(
-        fmt::format("no effect of a flight is called {}; there are {}", unknown, known));
-  }
-}
 
 Diagnosis too_short(const FlightData& data) {
   Diagnosis d;
@@ -375,7 +347,10 @@ Diagnosis too_short(const FlightData& data) {
 Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
                           const FlightDiagnosisOptions& options,
                           const SelectionProgress& progress) {
-  check_options(design, options);
+  if (!(design.drone.mass > 0) || !(design.flight.air_density > 0)) {
+    throw std::invalid_argument("mass and air density must be positive");
+  }
+  check_base_effects(LogKind::flight, options.base);
   const FlightData data = read_flight(design, log, options);
 
   Diagnosis d;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "model/constants.hpp"
@@ -199,6 +200,20 @@ bool LogModel::is_neutral(std::size_t group, std::span<const double> values) con
           .first(std::min(effects_[group]->sizes, effects_[group]->parameters.size()));
   return std::equal(sizes.begin(), sizes.end(), problem.groups[group].parameters.begin(),
                     [](double value, const ModelParameter& p) { return value == p.neutral; });
+}
+
+void check_base_effects(LogKind kind, std::span<const std::string> ids) {
+  std::vector<std::string> known, unknown;
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.log == kind) known.push_back(effect.id);
+  }
+  for (const std::string& id : ids) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) unknown.push_back(id);
+  }
+  if (unknown.empty()) return;
+  throw std::invalid_argument(fmt::format("no effect of a {} is called {}; there are {}",
+                                          kind == LogKind::flight ? "flight" : "power log",
+                                          fmt::join(unknown, ", "), fmt::join(known, ", ")));
 }
 
 void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis) {

@@ -55,6 +55,9 @@ class LogModel {
   std::vector<std::size_t> first_;
 };
 
+/// Throws std::invalid_argument unless each of `ids` is an effect of such logs.
+void check_base_effects(LogKind kind, std::span<const std::string> ids);
+
 /// All that is told alike of every kind of log: qualities and parameters of the models, findings
 /// with their traces, aliases, the error budget, and of the unexplained all but its size.
 void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "model/constants.hpp"
 #include "tethercalc/model/steady_flight.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {
@@ -29,10 +29,49 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 
 }  // namespace
 
-std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log) {
+const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
+    const PowerModel& model, const PowerLog& log) {
+  const Design& design = model.design;
+  const Tether& tether = design.tether;
+  const double radius = conductor_radius(*tether.cross_section);
+  const SteadyFlight anywhere(design, flight_state_at(design, 0, 0));
+  const std::optional<double> derating = drum_derating(tether.drum);
+  std::vector<double> inputs{model.supply_current_gain,
+                             tether.conductor.resistivity_20C,
+                             tether.conductor.temperature_coefficient,
+                             radius,
+                             anywhere.wall(),
+                             tether.insulation.thermal_conductivity,
+                             anywhere.state().ambient_temperature_C,
+                             tether.sun,
+                             derating.value_or(0),
+                             derating ? tether.length : 0,
+                             derating ? tether.spooled_length : 0,
+                             design.flight.air_density,
+                             design.flight.gravity,
+                             design.flight.headwind};
+  const auto found = std::find_if(known_.begin(), known_.end(),
+                                  [&](const Known& known) { return known.inputs == inputs; });
+  if (found != known_.end()) {
+    std::rotate(known_.begin(), found, found + 1);
+    return known_.front().temperatures;
+  }
+  constexpr std::size_t kept = 8;  // more than a slope by every parameter looks back
+  if (known_.size() == kept) known_.pop_back();
+  Known& latest = known_.emplace_front(Known{std::move(inputs), {}});
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    const SteadyFlight flight(design, state_at(design, log, i));
+    const double current = log.supply_current[i] / model.supply_current_gain;
+    latest.temperatures.push_back(TetherHeat(flight, radius).temperatures(std::abs(current)));
+  }
+  return latest.temperatures;
+}
+
+std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log, CableHeat& heat) {
   const Tether& tether = model.design.tether;
   const double radius = conductor_radius(*tether.cross_section);
   const bool measured = tether.heating.rise_per_loss > 0;
+  const auto* warm = is_heated(tether) && !measured ? &heat.temperatures(model, log) : nullptr;
   double rise = 0;  // K over the air, of a cable whose heating was measured
   std::vector<double> resistance(log.time.size());
   for (std::size_t i = 0; i < resistance.size(); ++i) {
@@ -49,9 +88,9 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
       rise += (rise - settled) *
               std::expm1((log.time[i] - log.time[i + 1]) / tether.heating.time_constant);
     } else {
-      const TetherHeat heat(flight, radius);
-      const auto temperatures = heat.temperatures(std::abs(current));
-      resistance[i] = temperatures ? heat.resistance(*temperatures) : nan;
+      const auto& t = (*warm)[i];
+      resistance[i] =
+          t ? flight.tether().resistance(radius, t->in_air, t->on_drum.value_or(t->in_air)) : nan;
     }
   }
   return resistance;

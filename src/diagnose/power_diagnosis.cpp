@@ -1,6 +1,7 @@
 #include "tethercalc/diagnose/power_diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "diagnose/channels.hpp"
 #include "diagnose/log_model.hpp"
+#include "diagnose/power_channels.hpp"
 #include "diagnose/power_effects.hpp"
 #include "diagnose/power_residuals.hpp"
 #include "diagnose/power_shapes.hpp"
@@ -34,35 +36,24 @@ constexpr std::ptrdiff_t fewest_power_samples = 100;
 constexpr double false_alarm_probability = 0.002;
 
 void check_lengths(const PowerLog& log) {
-  const std::size_t n = log.time.size();
-  const auto mandatory = {&log.height, &log.airspeed, &log.supply_voltage, &log.supply_current};
-  const auto optional = {&log.ambient_temperature_C, &log.drone_voltage, &log.bus_voltage,
-                         &log.bus_current};
-  const auto fits = [n](const std::vector<double>* x) { return x->size() == n; };
-  if (!std::all_of(mandatory.begin(), mandatory.end(), fits) ||
-      !std::all_of(optional.begin(), optional.end(),
-                   [&](const std::vector<double>* x) { return x->empty() || fits(x); })) {
-    throw std::invalid_argument("the channels of a power log must be equally long");
+  for (const PowerChannel& channel : power_channels) {
+    const std::size_t size = (log.*channel.values).size();
+    if (size != log.time.size() && !(channel.optional && size == 0)) {
+      throw std::invalid_argument("the channels of a power log must be equally long");
+    }
   }
-}
-
-bool has_channel(const PowerLog& log, const std::string& name) {
-  if (name == "drone_voltage_V") return !log.drone_voltage.empty();
-  if (name == "bus_voltage_V") return !log.bus_voltage.empty();
-  if (name == "bus_current_A") return !log.bus_current.empty();
-  if (name == "ambient_temperature_C") return !log.ambient_temperature_C.empty();
-  return true;
 }
 
 /// Channels that the effect needs and the log lacks, "" where none.
 std::string lacking(const Effect& effect, const PowerLog& log) {
-  std::string names;
-  for (const std::string& need : effect.needs) {
-    if (has_channel(log, need)) continue;
-    if (!names.empty()) names += ", ";
-    names += need;
+  std::vector<std::string_view> names;
+  for (const PowerChannel& channel : power_channels) {
+    if (!(log.*channel.values).empty()) continue;
+    if (std::find(effect.needs.begin(), effect.needs.end(), channel.name) != effect.needs.end()) {
+      names.push_back(channel.name);
+    }
   }
-  return names;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// Equal stretches of time.
@@ -378,15 +369,6 @@ std::vector<const Effect*> testable_effects(const std::vector<Effect>& catalogue
   return effects;
 }
 
-void check_base(const std::vector<Effect>& catalogue, std::span<const std::string> base_effects) {
-  for (const std::string& id : base_effects) {
-    if (std::none_of(catalogue.begin(), catalogue.end(),
-                     [&](const Effect& effect) { return effect.id == id; })) {
-      throw std::invalid_argument("\"" + id + "\" is not an effect of power logs");
-    }
-  }
-}
-
 /// True where nothing can be judged from a log this short, which is then told.
 bool too_short(const PowerLog& log, const std::vector<Effect>& catalogue, Diagnosis& diagnosis) {
   const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
@@ -438,7 +420,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
         "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
   }
   const std::vector<Effect> catalogue = power_effects();
-  check_base(catalogue, base_effects);
+  check_base_effects(LogKind::power, base_effects);
 
   PowerDiagnosis result{{}, design};
   Diagnosis& diagnosis = result.diagnosis;

@@ -36,19 +36,18 @@ std::vector<std::string> channels_needed(Stage stage) {
 }  // namespace
 
 std::vector<Effect> power_effects() {
-  std::vector<Effect> effects;
-  effects.push_back({.id = "current_sensor_gain",
-                     .title = "The ground ammeter reads wrong",
-                     .mechanism = "The supply current is read too high or too low by one factor, "
-                                  "in the tether's loss and at the converter alike.",
-                     .stage = Stage::supply,
-                     .parameters = {{"supply_current_gain", "1", 1, 1, 0.5, 2, 0.03, ""}},
-                     .to_separate = "Compare the ammeter with another one",
-                     .change = "I = I_read/g",
-                     .channel = "supply_current",
-                     .on_power = [](PowerModel& m, Values x) { m.supply_current_gain *= x[0]; }});
+  std::vector<Effect> effects{
+      {.id = "current_sensor_gain",
+       .title = "The ground ammeter reads wrong",
+       .mechanism = "The supply current is read too high or too low by one factor, "
+                    "in the tether's loss and at the converter alike.",
+       .stage = Stage::supply,
+       .parameters = {{"supply_current_gain", "1", 1, 1, 0.5, 2, 0.03, ""}},
+       .to_separate = "Compare the ammeter with another one",
+       .change = "I = I_read/g",
+       .channel = "supply_current",
+       .on_power = [](PowerModel& m, Values x) { m.supply_current_gain *= x[0]; }},
 
-  effects.push_back(
       {.id = "conductor_resistivity",
        .title = "The conductor resists more than its material should",
        .mechanism = "Alloy, stranding or damage make the resistivity another than the spec's, so "
@@ -58,11 +57,9 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_tether,
        .change = "R = f·2hρ/A",
        .channel = "current_height",
-       .on_power = [](PowerModel& m, Values x) {
-         m.design.tether.conductor.resistivity_20C *= x[0];
-       }});
+       .on_power = [](PowerModel& m,
+                      Values x) { m.design.tether.conductor.resistivity_20C *= x[0]; }},
 
-  effects.push_back(
       {.id = "conductor_heating",
        .title = "The current heats the conductor",
        .mechanism = "The cable warms above ambient by its own I²R, within minutes and less in the "
@@ -81,11 +78,11 @@ std::vector<Effect> power_effects() {
                       "drift of the resistance, everything else does not",
        .change = "R = 2hρ(T)/A, τ·dT/dt = T_ambient + k·I²R′/(1 + c·√v) − T",
        .channel = "time",
-       .on_power = [](PowerModel& m, Values x) {
-         m.design.tether.heating = {x[0], x[1], x[2]};
-       }});
+       .on_power =
+           [](PowerModel& m, Values x) {
+             m.design.tether.heating = {x[0], x[1], x[2]};
+           }},
 
-  effects.push_back(
       {.id = "contact_resistance",
        .title = "Plugs or slip rings add resistance",
        .mechanism =
@@ -96,9 +93,8 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_tether,
        .change = "R = 2hρ/A + R_c",
        .channel = "supply_current",
-       .on_power = [](PowerModel& m, Values x) { m.design.tether.contact_resistance += x[0]; }});
+       .on_power = [](PowerModel& m, Values x) { m.design.tether.contact_resistance += x[0]; }},
 
-  effects.push_back(
       {.id = "spooled_length",
        .title = "Cable on the drum carries the current too",
        .mechanism = "The whole cable is in the circuit at every height: what is not in the air is "
@@ -108,9 +104,8 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_tether,
        .change = "R = 2(L + s)ρ/A at every height, L the design length",
        .channel = "supply_current",
-       .on_power = [](PowerModel& m, Values x) { m.design.tether.spooled_length += x[0]; }});
+       .on_power = [](PowerModel& m, Values x) { m.design.tether.spooled_length += x[0]; }},
 
-  effects.push_back(
       {.id = "converter_efficiency_curve",
        .title = "The converter's efficiency depends on its load",
        .mechanism = "A converter loses a fixed power and one that grows with the square of its "
@@ -125,11 +120,11 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_converter,
        .change = "P_in = P_out + P_0 + c·P_out²",
        .channel = "bus_power",
-       .on_power = [](PowerModel& m, Values x) {
-         m.design.supply.converter.losses = {x[0], x[1]};
-       }});
+       .on_power =
+           [](PowerModel& m, Values x) {
+             m.design.supply.converter.losses = {x[0], x[1]};
+           }},
 
-  effects.push_back(
       {.id = "auxiliary_power",
        .title = "Payload and electronics draw another power",
        .mechanism = "Flight controller and payload draw a constant power at the converter's input "
@@ -140,9 +135,8 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_converter,
        .change = "P_aux + ΔP",
        .channel = "bus_power",
-       .on_power = [](PowerModel& m, Values x) { m.design.drone.auxiliary_power += x[0]; }});
+       .on_power = [](PowerModel& m, Values x) { m.design.drone.auxiliary_power += x[0]; }},
 
-  effects.push_back(
       {.id = "motor_power_scale",
        .title = "The motors need more power than their data sheet says",
        .mechanism = "Worn bearings, other propellers or thin air scale the power for every thrust "
@@ -152,9 +146,8 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_motors,
        .change = "f·P_motor(T)",
        .channel = "height",
-       .on_power = [](PowerModel& m, Values x) { m.design.drone.motor_power_factor *= x[0]; }});
+       .on_power = [](PowerModel& m, Values x) { m.design.drone.motor_power_factor *= x[0]; }},
 
-  effects.push_back(
       {.id = "translational_lift",
        .title = "Moving through the air saves hover power",
        .mechanism = "In forward flight the rotors take in more air, so the induced part of the "
@@ -169,21 +162,21 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_airspeed,
        .change = "P·(1 − s·(1 − ν(v/v_h))), ν√((v/v_h)² + ν²) = 1",
        .channel = "airspeed",
-       .on_power = [](PowerModel& m, Values x) {
-         m.design.drone.translational_lift = {x[0], x[1]};
-       }});
+       .on_power =
+           [](PowerModel& m, Values x) {
+             m.design.drone.translational_lift = {x[0], x[1]};
+           }},
 
-  effects.push_back({.id = "extra_mass",
-                     .title = "The drone is heavier than the spec says",
-                     .mechanism = "More weight needs more thrust at every height and airspeed.",
-                     .stage = Stage::airframe,
-                     .parameters = {{"extra_mass_kg", "kg", 1, 0, -0.5, 5, 0.05, "drone.mass_g"}},
-                     .to_separate = to_separate_motors,
-                     .change = "m_d + Δm",
-                     .channel = "height",
-                     .on_power = [](PowerModel& m, Values x) { m.design.drone.mass += x[0]; }});
+      {.id = "extra_mass",
+       .title = "The drone is heavier than the spec says",
+       .mechanism = "More weight needs more thrust at every height and airspeed.",
+       .stage = Stage::airframe,
+       .parameters = {{"extra_mass_kg", "kg", 1, 0, -0.5, 5, 0.05, "drone.mass_g"}},
+       .to_separate = to_separate_motors,
+       .change = "m_d + Δm",
+       .channel = "height",
+       .on_power = [](PowerModel& m, Values x) { m.design.drone.mass += x[0]; }},
 
-  effects.push_back(
       {.id = "tether_drag",
        .title = "The tether drags more, or less, than assumed",
        .mechanism = "The wind's force on the cable grows with deployed length and the square of "
@@ -193,22 +186,21 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_airspeed,
        .change = "f·C",
        .channel = "airspeed",
-       .on_power = [](PowerModel& m, Values x) { m.design.tether.drag_coefficient *= x[0]; }});
+       .on_power = [](PowerModel& m, Values x) { m.design.tether.drag_coefficient *= x[0]; }},
 
-  effects.push_back({.id = "airframe_drag",
-                     .title = "The drone drags more, or less, than assumed",
-                     .mechanism = "Payload or landing gear scale the drag of the drone, which it "
-                                  "tilts against at every height.",
-                     .stage = Stage::airframe,
-                     .parameters = {{"airframe_drag_factor", "1", 1, 1, 0, 10, 0.2, "drone.drag"}},
-                     .to_separate = to_separate_airspeed,
-                     .change = "f·A_f, f·A_t",
-                     .channel = "airspeed",
-                     .on_power = [](PowerModel& m, Values x) {
-                       m.design.drone.drag.front_area *= x[0];
-                       m.design.drone.drag.top_area *= x[0];
-                     }});
-
+      {.id = "airframe_drag",
+       .title = "The drone drags more, or less, than assumed",
+       .mechanism = "Payload or landing gear scale the drag of the drone, which it "
+                    "tilts against at every height.",
+       .stage = Stage::airframe,
+       .parameters = {{"airframe_drag_factor", "1", 1, 1, 0, 10, 0.2, "drone.drag"}},
+       .to_separate = to_separate_airspeed,
+       .change = "f·A_f, f·A_t",
+       .channel = "airspeed",
+       .on_power = [](PowerModel& m, Values x) {
+         m.design.drone.drag.front_area *= x[0];
+         m.design.drone.drag.top_area *= x[0];
+       }}};
   for (Effect& effect : effects) {
     effect.log = LogKind::power;
     effect.needs = channels_needed(effect.stage);

@@ -67,35 +67,28 @@ Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
   constexpr int waves = 6;
   const auto n = static_cast<Eigen::Index>(log.time.size());
   std::vector<Eigen::VectorXd> columns;
-  const Eigen::Map<const Eigen::ArrayXd> h(log.height.data(), n);
-  const Eigen::Map<const Eigen::ArrayXd> v(log.airspeed.data(), n);
-  const Eigen::Map<const Eigen::ArrayXd> current(log.supply_current.data(), n);
-  const Eigen::ArrayXd height = h / 10;
-  const Eigen::ArrayXd speed = v / 5;
-  columns.emplace_back(Eigen::VectorXd::Ones(n));
-  for (const Eigen::ArrayXd& x :
-       {Eigen::ArrayXd(height), Eigen::ArrayXd(height.square()), Eigen::ArrayXd(speed),
-        Eigen::ArrayXd(speed.square()), Eigen::ArrayXd(speed.cube()),
-        Eigen::ArrayXd(height * speed), Eigen::ArrayXd(height * speed.square())}) {
+  const auto values = [n](const std::vector<double>& x) {
+    return Eigen::Map<const Eigen::ArrayXd>(x.data(), n);
+  };
+  const Eigen::ArrayXd height = values(log.height) / 10;
+  const Eigen::ArrayXd speed = values(log.airspeed) / 5;
+  const Eigen::ArrayXd elapsed = values(log.time) - log.time.front();
+  for (const Eigen::ArrayXd& x : std::initializer_list<Eigen::ArrayXd>{
+           Eigen::ArrayXd::Ones(n), height, height.square(), speed, speed.square(), speed.cube(),
+           height * speed, height * speed.square()}) {
     columns.emplace_back(x.matrix());
   }
-  const double duration = log.time.back() - log.time.front();
   for (int k = 1; k <= waves; ++k) {
-    Eigen::VectorXd wave(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      wave[i] = std::cos(std::numbers::pi * k *
-                         (log.time[static_cast<std::size_t>(i)] - log.time.front()) / duration);
-    }
-    columns.push_back(wave);
-    if (stage == Stage::tether) columns.emplace_back((wave.array() * height).matrix());
+    const Eigen::ArrayXd wave = (std::numbers::pi * k * elapsed / elapsed[n - 1]).cos();
+    columns.emplace_back(wave.matrix());
+    if (stage == Stage::tether) columns.emplace_back((wave * height).matrix());
   }
   if (stage == Stage::tether) {
-    for (Eigen::VectorXd& column : columns) column.array() *= current;
+    for (Eigen::VectorXd& column : columns) column.array() *= values(log.supply_current);
   }
   if (stage == Stage::converter) {
-    const Eigen::Map<const Eigen::ArrayXd> power(bus_power.data(), n);
-    columns.emplace_back((power / 300).matrix());
-    columns.emplace_back((power / 300).square().matrix());
+    columns.emplace_back((values(bus_power) / 300).matrix());
+    columns.emplace_back((values(bus_power) / 300).square().matrix());
   }
   Eigen::MatrixXd shapes(n, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -104,25 +97,27 @@ Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
   return shapes;
 }
 
+/// The usable values, 0 in place of the others.
+Eigen::VectorXd usable_part(const std::vector<double>& x, const std::vector<char>& usable) {
+  Eigen::VectorXd part(static_cast<Eigen::Index>(x.size()));
+  std::transform(x.begin(), x.end(), usable.begin(), part.begin(),
+                 [](double value, char ok) { return ok ? value : 0.0; });
+  return part;
+}
+
 /// What `shapes` leave of `x` by least squares over usable rows; 0 in the others.
 std::vector<double> without_shapes(const Eigen::MatrixXd& shapes, const std::vector<double>& x,
                                    const std::vector<char>& usable) {
+  const Eigen::VectorXd target = usable_part(x, usable);
   Eigen::MatrixXd used = shapes;
-  Eigen::VectorXd target(shapes.rows());
   for (Eigen::Index i = 0; i < shapes.rows(); ++i) {
-    const bool ok = usable[static_cast<std::size_t>(i)];
-    target[i] = ok ? x[static_cast<std::size_t>(i)] : 0;
-    if (!ok) used.row(i).setZero();
+    if (!usable[static_cast<std::size_t>(i)]) used.row(i).setZero();
   }
   // Heights or airspeeds that never change make columns equal: the decomposition must bear that.
   const Eigen::MatrixXd normal = used.transpose() * used;
-  const Eigen::VectorXd fit =
-      used * normal.completeOrthogonalDecomposition().solve(used.transpose() * target);
-  std::vector<double> rest(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    rest[i] = target[static_cast<Eigen::Index>(i)] - fit[static_cast<Eigen::Index>(i)];
-  }
-  return rest;
+  const Eigen::VectorXd rest =
+      target - used * normal.completeOrthogonalDecomposition().solve(used.transpose() * target);
+  return {rest.begin(), rest.end()};
 }
 
 /// Autoregression by Levinson and Durbin's recursion; its order has the least BIC (Schwarz 1978).
@@ -131,38 +126,25 @@ struct Autoregression {
   double innovation = 1;  ///< standard deviation of the white part over that of `x`
 };
 
-Autoregression autoregression(const std::vector<double>& x, const std::vector<char>& usable) {
-  constexpr std::size_t largest_order = 20;
-  const std::size_t orders = std::min(largest_order, x.size() / 20);
-  std::vector<double> covariance(orders + 1, 0);
-  std::size_t count = 0;
-  for (std::size_t lag = 0; lag <= orders; ++lag) {
-    double sum = 0;
-    std::size_t pairs = 0;
-    for (std::size_t i = lag; i < x.size(); ++i) {
-      if (!usable[i] || !usable[i - lag]) continue;
-      sum += x[i] * x[i - lag];
-      ++pairs;
-    }
-    if (lag == 0) count = pairs;
-    // Dividing by all usable samples keeps the sequence positive definite.
-    covariance[lag] = count > 0 ? sum / static_cast<double>(count) : 0;
+/// Of `x`, which is 0 where it is not usable; `samples` of it are.
+Autoregression autoregression(const Eigen::VectorXd& x, double samples) {
+  const Eigen::Index orders = std::min<Eigen::Index>(20, x.size() / 20);
+  // Without a division by the number of pairs the sequence stays positive definite.
+  Eigen::VectorXd covariance(orders + 1);
+  for (Eigen::Index lag = 0; lag <= orders; ++lag) {
+    covariance[lag] = x.head(x.size() - lag).dot(x.tail(x.size() - lag));
   }
   Autoregression best;
   if (!(covariance[0] > 0)) return best;
-  std::vector<double> phi;
+  covariance /= covariance[0];
+  Eigen::VectorXd phi;
   double variance = 1;
   double best_criterion = 0;
-  const auto samples = static_cast<double>(count);
-  for (std::size_t order = 1; order <= orders; ++order) {
-    double reflected = covariance[order] / covariance[0];
-    for (std::size_t j = 0; j < phi.size(); ++j) {
-      reflected -= phi[j] * covariance[order - 1 - j] / covariance[0];
-    }
-    reflected /= variance;
-    std::vector<double> next(order);
-    for (std::size_t j = 0; j + 1 < order; ++j) next[j] = phi[j] - reflected * phi[order - 2 - j];
-    next[order - 1] = reflected;
+  for (Eigen::Index order = 1; order <= orders; ++order) {
+    const double reflected =
+        (covariance[order] - phi.dot(covariance.segment(1, order - 1).reverse())) / variance;
+    Eigen::VectorXd next = Eigen::VectorXd::Constant(order, reflected);
+    next.head(order - 1) = phi - reflected * phi.reverse();
     phi = std::move(next);
     variance *= 1 - reflected * reflected;
     if (!(variance > 0)) break;
@@ -170,7 +152,7 @@ Autoregression autoregression(const std::vector<double>& x, const std::vector<ch
         samples * std::log(variance) + static_cast<double>(order) * std::log(samples);
     if (criterion < best_criterion) {
       best_criterion = criterion;
-      best = {phi, std::sqrt(variance)};
+      best = {{phi.begin(), phi.end()}, std::sqrt(variance)};
     }
   }
   return best;
@@ -208,35 +190,27 @@ std::vector<double> row_means(const PowerStage& stage, std::span<const double> s
   return means;
 }
 
+/// Standard deviation of the usable values after a fit of so many parameters; 0 of none.
+double deviation_of(const Eigen::VectorXd& usable_values, double count, double parameters) {
+  return count > 0 ? std::sqrt(usable_values.squaredNorm() / std::max(1.0, count - parameters)) : 0;
+}
+
+double count_of(const std::vector<char>& usable) {
+  return static_cast<double>(std::count(usable.begin(), usable.end(), char{1}));
+}
+
 /// Standard deviation and memory of the stage's noise, from what a fit with `parameters` left.
-void set_noise(std::vector<double> noise, std::size_t parameters, PowerStage& stage) {
-  double square = 0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < noise.size(); ++i) {
-    if (!stage.usable[i]) continue;
-    square += noise[i] * noise[i];
-    ++count;
-  }
-  if (count > parameters) {
-    stage.noise = std::sqrt(square / static_cast<double>(count - parameters));
-  }
+void set_noise(std::vector<double> noise, double parameters, PowerStage& stage) {
+  stage.noise = deviation_of(usable_part(noise, stage.usable), count_of(stage.usable), parameters);
   if (!(stage.noise > 0) || !std::isfinite(stage.noise)) stage.noise = 1;
   for (double& x : noise) x /= stage.noise;
   set_usable_rows(stage);
-  const std::vector<double> averaged = row_means(stage, noise);
-  const Autoregression fitted = autoregression(averaged, stage.usable_rows);
-  double row_square = 0;
-  std::size_t row_count = 0;
-  for (std::size_t i = 0; i < averaged.size(); ++i) {
-    if (!stage.usable_rows[i]) continue;
-    row_square += averaged[i] * averaged[i];
-    ++row_count;
-  }
-  // The parameters took as many degrees of freedom from the means as from the samples.
-  const double degrees =
-      std::max(1.0, static_cast<double>(row_count) - static_cast<double>(parameters));
+  const Eigen::VectorXd averaged = usable_part(row_means(stage, noise), stage.usable_rows);
+  const double rows = count_of(stage.usable_rows);
+  const Autoregression fitted = autoregression(averaged, rows);
   stage.memory = fitted.memory;
-  stage.innovation = fitted.innovation * std::sqrt(row_square / degrees);
+  // The parameters took as many degrees of freedom from the means as from the samples.
+  stage.innovation = fitted.innovation * deviation_of(averaged, rows, parameters);
   if (!(stage.innovation > 0)) stage.innovation = 1;
 }
 
@@ -260,15 +234,10 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
 
   screened_.log.height = steadied(log.height);
 
-  const auto add = [&](Stage stage, const char* quantity, const char* unit,
-                       const std::vector<char>& usable) {
+  const auto add = [&](PowerStage s, const std::vector<char>& usable) {
     if (usable.empty()) return;
-    PowerStage s;
-    s.stage = stage;
-    s.quantity = quantity;
-    s.unit = unit;
     s.usable = usable;
-    if (stage == Stage::motors) {
+    if (s.stage == Stage::motors) {
       const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
       s.samples_per_row = std::max<std::size_t>(
           1, static_cast<std::size_t>(std::lround(motor_averaging / interval)));
@@ -278,9 +247,12 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
     rows_ += s.rows;
     stages_.push_back(std::move(s));
   };
-  add(Stage::tether, "voltage lost in the tether", "V", screened_.tether_usable);
-  add(Stage::converter, "power at the converter's input", "W", screened_.converter_usable);
-  add(Stage::motors, "power at the motors' bus", "%", screened_.motors_usable);
+  add({Stage::tether, "voltage lost in the tether", "V", "tether resistance", "ohm"},
+      screened_.tether_usable);
+  add({Stage::converter, "power at the converter's input", "W", "converter input power", "W"},
+      screened_.converter_usable);
+  add({Stage::motors, "power at the motors' bus", "%", "motor power", "%"},
+      screened_.motors_usable);
   for (std::size_t k = 0; k < stages_.size(); ++k) estimate_noise(base, stages_[k], k);
 }
 
@@ -331,7 +303,7 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
     }
     noise = without_shapes(shapes, raw, stage.usable);
   }
-  set_noise(std::move(noise), static_cast<std::size_t>(shapes.cols()), stage);
+  set_noise(std::move(noise), static_cast<double>(shapes.cols()), stage);
 }
 
 void PowerResiduals::refine_noise(std::size_t k, const PowerModel& model) {
@@ -349,7 +321,7 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   const double gain = model.supply_current_gain;
   switch (stage.stage) {
     case Stage::tether: {
-      const std::vector<double> resistance = loop_resistance(model, log);
+      const std::vector<double> resistance = loop_resistance(model, log, heat_);
       for (std::size_t i = 0; i < out.size(); ++i) {
         const double lost = log.supply_voltage[i] - log.drone_voltage[i];
         out[i] = (lost - log.supply_current[i] / gain * resistance[i]) / stage.noise;

@@ -18,15 +18,17 @@ struct PowerStage {
   Stage stage = Stage::tether;  ///< which part of the chain
   std::string quantity;         ///< in words: "voltage lost in the tether"
   std::string unit;             ///< of `noise`
+  std::string shaped;           ///< what a shape without a name changes, in words
+  std::string shaped_unit;      ///< its unit
   double noise = 1;             ///< standard deviation of one sample, all instruments together
-  std::vector<char> usable;     ///< one a sample
+  std::vector<char> usable{};   ///< one a sample
 
   std::size_t samples_per_row = 1;  ///< averaged into one row
   std::size_t first_row = 0;        ///< among the rows of all stages
   std::size_t rows = 0;             ///< number of samples used
-  std::vector<char> usable_rows;    ///< at least half of the samples are usable
+  std::vector<char> usable_rows{};  ///< at least half of the samples are usable
   std::vector<double>
-      memory;             ///< φ of the autoregression that the rows' noise follows; empty: white
+      memory{};           ///< φ of the autoregression that the rows' noise follows; empty: white
   double innovation = 1;  ///< standard deviation of the rows' white part over `noise`
 };
 
@@ -81,6 +83,7 @@ class PowerResiduals {
   std::size_t rows_ = 0;
   std::vector<double> bus_power_;
   std::vector<double> log_bus_power_;
+  mutable CableHeat heat_;
   double input_variance_ = 1;   ///< W², of U_drone·I
   double output_variance_ = 0;  ///< W², of the bus power
 };

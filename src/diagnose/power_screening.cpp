@@ -9,28 +9,11 @@
 #include <numeric>
 #include <utility>
 
+#include "diagnose/power_channels.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
-
-struct Channel {
-  const char* name;
-  std::vector<double> PowerLog::*values;
-  bool optional;
-  bool may_rest;  ///< a steady reading is possible in flight
-};
-
-constexpr std::array<Channel, 8> channels{{
-    {"height_m", &PowerLog::height, false, true},
-    {"airspeed_m_s", &PowerLog::airspeed, false, true},
-    {"ambient_temperature_C", &PowerLog::ambient_temperature_C, true, true},
-    {"supply_voltage_V", &PowerLog::supply_voltage, false, true},
-    {"supply_current_A", &PowerLog::supply_current, false, false},
-    {"drone_voltage_V", &PowerLog::drone_voltage, true, false},
-    {"bus_voltage_V", &PowerLog::bus_voltage, true, true},
-    {"bus_current_A", &PowerLog::bus_current, true, false},
-}};
 
 // A noisy instrument repeats its last digit by chance: with noise of one digit in about a third of
 // the samples, twenty times running once in 10⁹ samples.
@@ -194,14 +177,14 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
            std::vector<std::string>& notes) {
   const std::size_t n = log.time.size();
   const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
-  using Series = std::vector<double> PowerLog::*;
+  using Member = std::vector<double> PowerLog::*;
 
   // Shifts channels to where `compared`, made of a log with them shifted, changes as `with` does.
-  const auto shift = [&](const char* names, std::initializer_list<Series> channels_shifted,
+  const auto shift = [&](const char* names, std::initializer_list<Member> channels_shifted,
                          const std::vector<double>& with, const auto& compared) {
     const auto shifted = [&](double delay) {
       PowerLog result = log;
-      for (const Series x : channels_shifted) result.*x = advanced(log.time, log.*x, delay);
+      for (const Member x : channels_shifted) result.*x = advanced(log.time, log.*x, delay);
       return result;
     };
     const double delay =
@@ -222,7 +205,8 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
   shift("height_m and airspeed_m_s", {&PowerLog::height, &PowerLog::airspeed}, supply_power,
         [&model](const PowerLog& l) { return motor_power(model, l); });
   if (!log.drone_voltage.empty()) {
-    const std::vector<double> lost = product(log.supply_current, loop_resistance(model, log));
+    CableHeat heat;
+    const std::vector<double> lost = product(log.supply_current, loop_resistance(model, log, heat));
     shift("drone_voltage_V", {&PowerLog::drone_voltage}, lost, [](PowerLog l) {
       for (double& v : l.drone_voltage) v = -v;
       return l.drone_voltage;
@@ -238,38 +222,38 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
   PowerLog& clean = screened.log;
   const std::size_t n = log.time.size();
 
-  std::array<std::vector<char>, channels.size()> bad;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    std::vector<double>& x = clean.*channels[c].values;
+  std::array<std::vector<char>, power_channels.size()> bad;
+  for (std::size_t c = 0; c < bad.size(); ++c) {
+    const PowerChannel& channel = power_channels[c];
+    std::vector<double>& x = clean.*channel.values;
     if (x.empty()) continue;
     bad[c].assign(n, 0);
-    const std::size_t stuck = mark_stuck(x, channels[c].may_rest, bad[c]);
+    const std::size_t stuck = mark_stuck(x, channel.may_rest, bad[c]);
     const std::size_t spikes = mark_spikes(x, bad[c]);
-    const auto percent = [&](std::size_t k) {
-      return 100.0 * static_cast<double>(k) / static_cast<double>(n);
-    };
-    if (stuck > 0 && channels[c].optional && 2 * stuck > n) {
+    const bool gone = channel.optional && 2 * stuck > n;
+    if (stuck > 0) {
+      screened.notes.push_back(
+          fmt::format("{} is stuck for {:.0f} % of the log: {}", channel.name,
+                      100.0 * static_cast<double>(stuck) / static_cast<double>(n),
+                      gone ? "not used" : "left out there"));
+    }
+    if (gone) {
       x.clear();
       bad[c].clear();
-      screened.notes.push_back(fmt::format("{} is stuck for {:.0f} % of the log: not used",
-                                           channels[c].name, percent(stuck)));
       continue;
-    }
-    if (stuck > 0) {
-      screened.notes.push_back(fmt::format("{} is stuck for {:.0f} % of the log: left out there",
-                                           channels[c].name, percent(stuck)));
     }
     // A corner of a climb may look like one; a handful is nothing to report.
     if (500 * spikes > n) {
-      screened.notes.push_back(fmt::format("{}: {} spikes left out", channels[c].name, spikes));
+      screened.notes.push_back(fmt::format("{}: {} spikes left out", channel.name, spikes));
     }
     fill_in(log.time, bad[c], x);
   }
 
   const auto usable = [&](std::initializer_list<std::vector<double> PowerLog::*> needed) {
     std::vector<char> all(n, 1);
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      if (std::find(needed.begin(), needed.end(), channels[c].values) == needed.end()) continue;
+    for (std::size_t c = 0; c < bad.size(); ++c) {
+      if (std::find(needed.begin(), needed.end(), power_channels[c].values) == needed.end())
+        continue;
       if (bad[c].empty()) return std::vector<char>{};
       for (std::size_t i = 0; i < n; ++i) all[i] = all[i] && !bad[c][i];
     }

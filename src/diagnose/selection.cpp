@@ -89,7 +89,31 @@ class Search {
     student_factor_ = boost::math::quantile(boost::math::students_t(degrees_), 0.975);
   }
 
-  Selection run();
+  Selection run() {
+    Selection result;
+    result.rows = static_cast<std::size_t>(record_.rows());
+    result.blocks = record_.blocks();
+    result.student_factor = student_factor_;
+
+    tell("fitting the base model");
+    const BlockFit base = fit(selected_, nullptr);
+    current_ = base;
+    result.base = model_fit(base);
+    for (const std::size_t g : candidates()) {
+      if (auto aliased = aliased_in(record_, base, g))
+        result.aliased.push_back(std::move(*aliased));
+    }
+    for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
+
+    // Every round either ends or puts an effect on the list of those never tried again.
+    do {
+      step_forward();
+    } while (drop_outdone());
+    find_unnamed();
+    if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+    sum_up(base, result);
+    return result;
+  }
 
  private:
   /// A fit with one more group and what speaks for it.
@@ -107,26 +131,344 @@ class Search {
     return record_.problem().groups[g];
   }
 
-  [[nodiscard]] Freed freed(const std::vector<std::size_t>& selected) const;
-  [[nodiscard]] BlockFit fit(const std::vector<std::size_t>& selected, const BlockFit* near) const;
-  [[nodiscard]] double p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const;
-  [[nodiscard]] double wald_p_value(std::size_t g, const BlockFit& without,
-                                    const BlockFit& with) const;
-  [[nodiscard]] bool earns_without_shapes(std::size_t g) const;
-  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
-                            std::size_t tested) const;
-  [[nodiscard]] std::vector<std::size_t> candidates() const;
-  [[nodiscard]] std::optional<Trial> best_step() const;
-  [[nodiscard]] std::vector<std::size_t> selected_without(std::size_t g) const;
+  [[nodiscard]] Freed freed(const std::vector<std::size_t>& selected) const {
+    std::set<std::size_t> replaced;
+    for (const std::size_t g : selected) {
+      if (group(g).replaces) replaced.insert(*group(g).replaces);
+    }
+    Freed result;
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      const bool wanted = group(g).role == ParameterGroup::Role::fitted ||
+                          std::find(selected.begin(), selected.end(), g) != selected.end();
+      if (wanted && !replaced.contains(g)) result.groups.push_back(g);
+    }
+    result.unnamed = unnamed_;
+    return result;
+  }
 
-  void step_forward();
-  void drop_superfluous();
-  bool drop_outdone();
-  void find_unnamed();
-  void add_unnamed();
-  void sum_up(const BlockFit& base, Selection& result) const;
-  [[nodiscard]] std::vector<std::size_t> rivals(std::size_t g, const BlockFit& all) const;
-  [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const;
+  [[nodiscard]] BlockFit fit(const std::vector<std::size_t>& selected, const BlockFit* near) const {
+    return fit_blocks(record_, freed(selected), near);
+  }
+
+  /// Of the hypothesis that the group is neutral. A group that replaces another has no neutral
+  /// value to compare with; it is tested in the model that holds both, where neutral leaves the
+  /// other alone (the encompassing test of non-nested models: Davidson and MacKinnon, Econometrica
+  /// 49, 1981).
+  [[nodiscard]] double p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
+    if (!group(g).replaces) return wald_p_value(g, without, with);
+    Freed both = with.freed;
+    const auto replaced =
+        std::find(without.freed.groups.begin(), without.freed.groups.end(), *group(g).replaces);
+    if (replaced == without.freed.groups.end()) return wald_p_value(g, without, with);
+    both.groups.insert(std::upper_bound(both.groups.begin(), both.groups.end(), *replaced),
+                       *replaced);
+    return wald_p_value(g, without, fit_blocks(record_, both, &with));
+  }
+
+  /// Wald's statistic with the jackknife covariance, referred to Hotelling's distribution for as
+  /// many blocks, in the quantities that enter the prediction linearly. Where all parameters rest
+  /// on a bound, and so do not vary between blocks, the held-out errors of the blocks are compared
+  /// by Student's test instead.
+  [[nodiscard]] double wald_p_value(std::size_t g, const BlockFit& without,
+                                    const BlockFit& with) const {
+    const auto column_of = [&with](std::size_t parameter) {
+      return std::find(with.active.begin(), with.active.end(), parameter) - with.active.begin();
+    };
+    const auto active = static_cast<Index>(with.active.size());
+    std::vector<double> distance;
+    std::vector<VectorXd> without_block;
+    for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
+      const std::size_t index = record_.first_parameter(g) + k;
+      const ModelParameter& p = record_.parameters()[index];
+      const Index column = column_of(index);
+      if (p.shape_only || column == active) continue;
+      distance.push_back((with.values[index] - p.neutral) / p.scale);
+      without_block.push_back(with.left_out.row(column).transpose());
+      if (!p.product_with) continue;
+      const double other = with.values[*p.product_with];
+      const Index other_column = column_of(*p.product_with);
+      without_block.back() *= other;
+      if (other_column != active) {
+        without_block.back() += distance.back() * record_.parameters()[*p.product_with].scale *
+                                with.left_out.row(other_column).transpose();
+      }
+      distance.back() *= other;
+    }
+    if (distance.empty()) {
+      const BlockDifference gain = difference(without.block_error, with.block_error);
+      return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
+    }
+    const auto count = static_cast<Index>(distance.size());
+    MatrixXd spread(count, static_cast<Index>(record_.blocks()));
+    for (Index k = 0; k < count; ++k) spread.row(k) = without_block[static_cast<std::size_t>(k)];
+    const VectorXd offset = VectorXd::Map(distance.data(), count);
+    const MatrixXd covariance = jackknife_covariance(std::move(spread));
+    const double t2 = offset.dot(covariance.completeOrthogonalDecomposition().solve(offset));
+    const auto numerator = static_cast<double>(count);
+    const double denominator = degrees_ + 1 - numerator;
+    return fisher_p_value(t2 / numerator * denominator / degrees_, numerator, denominator);
+  }
+
+  /// Whether the group lowers the held-out error of the named part alone, too. A name that helps
+  /// only beside an unnamed shape mends the shape, not the model.
+  [[nodiscard]] bool earns_without_shapes(std::size_t g) const {
+    if (unnamed_.empty()) return true;
+    Search named = *this;
+    named.unnamed_.clear();
+    const BlockFit without = named.fit(selected_, &current_);
+    const BlockFit with = named.fit(selected_with(g), &without);
+    return gain_percent(without.squared_error(), with.squared_error()) >=
+           options_.least_gain_percent;
+  }
+
+  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
+                            std::size_t tested) const {
+    Trial trial;
+    trial.group = g;
+    trial.p_value = p_value(g, without, with);
+    const double gain = gain_percent(without.squared_error(), with.squared_error());
+    const double least_gain =
+        options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
+    trial.worth_a_name =
+        gain >= least_gain && gain > 2 * gain_se_percent(without.block_error, with.block_error) &&
+        trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
+    trial.fit = std::move(with);
+    return trial;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> candidates() const {
+    std::set<std::size_t> taken(selected_.begin(), selected_.end());
+    for (const std::size_t g : selected_) {
+      if (group(g).replaces) taken.insert(*group(g).replaces);
+    }
+    std::vector<std::size_t> result;
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      if (group(g).role == ParameterGroup::Role::candidate && !taken.contains(g) &&
+          !aliased_.contains(g) && !rejected_.contains(g)) {
+        result.push_back(g);
+      }
+    }
+    return result;
+  }
+
+  /// The candidate with the least held-out error; among those within one standard error of it the
+  /// one with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical
+  /// Learning, 2nd ed., section 7.10).
+  [[nodiscard]] std::optional<Trial> best_step() const {
+    const std::vector<std::size_t> open = candidates();
+    std::vector<Trial> worthy;
+    for (const std::size_t g : open) {
+      tell("trying " + group(g).id);
+      Trial trial = judge(g, current_, fit(selected_with(g), &current_), open.size());
+      if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
+    }
+    if (worthy.empty()) return std::nullopt;
+    const auto best = std::min_element(
+        worthy.begin(), worthy.end(),
+        [](const auto& a, const auto& b) { return a.fit.squared_error() < b.fit.squared_error(); });
+    const Trial* chosen = &*best;
+    for (const Trial& trial : worthy) {
+      const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
+      const std::size_t count = group(trial.group).parameters.size();
+      const std::size_t chosen_count = group(chosen->group).parameters.size();
+      const bool simpler =
+          count < chosen_count ||
+          (count == chosen_count && trial.fit.squared_error() < chosen->fit.squared_error());
+      if (simpler && excess.sum <= excess.se) chosen = &trial;
+    }
+    return *chosen;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> selected_with(std::size_t g) const {
+    std::vector<std::size_t> more = selected_;
+    more.push_back(g);
+    return more;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> selected_without(std::size_t g) const {
+    std::vector<std::size_t> rest = selected_;
+    std::erase(rest, g);
+    return rest;
+  }
+
+  void step_forward() {
+    while (selected_.size() < options_.most_findings) {
+      std::optional<Trial> step = best_step();
+      if (!step) return;
+      selected_.push_back(step->group);
+      current_ = std::move(step->fit);
+      tell("found " + group(step->group).id);
+      if (unnamed_.empty()) drop_superfluous();
+    }
+  }
+
+  /// Takes back what the other names make superfluous, the weakest first.
+  void drop_superfluous() {
+    while (selected_.size() > 1) {
+      std::optional<std::size_t> weakest;
+      double weakest_error = infinity;
+      BlockFit rest_fit;
+      for (const std::size_t g : selected_) {
+        BlockFit without = fit(selected_without(g), &current_);
+        const std::size_t tested = candidates().size() + 1;
+        const bool earns = judge(g, without, current_, tested).worth_a_name;
+        if (!earns && without.squared_error() < weakest_error) {
+          weakest = g;
+          weakest_error = without.squared_error();
+          rest_fit = std::move(without);
+        }
+      }
+      if (!weakest) return;
+      tell("taking back " + group(*weakest).id);
+      selected_ = selected_without(*weakest);
+      rejected_.insert(*weakest);
+      current_ = std::move(rest_fit);
+    }
+  }
+
+  /// Takes back a name if an unnamed regressor in its place explains significantly more and, once
+  /// that is in, the name has nothing left to explain. Both are needed: an unnamed shape may
+  /// outweigh a weak effect that is there beside it, and a flexible shape may mimic a name without
+  /// doing better.
+  bool drop_outdone() {
+    for (const std::size_t g : selected_) {
+      const BlockFit without = fit(selected_without(g), &current_);
+      const std::optional<UnnamedTrial> best =
+          best_unnamed(record_, without, unnamed_, options_.false_alarm_probability);
+      if (!best) continue;
+      const BlockDifference better = difference(current_.block_error, best->block_error);
+      const double earned = without.squared_error() - current_.squared_error();
+      if (better.sum <= student_factor_ * better.se || better.sum <= outdone_gain * earned)
+        continue;
+
+      Search beside = *this;
+      beside.unnamed_.push_back(best->regressor);
+      BlockFit name_and_shape = beside.fit(selected_, &current_);
+      const BlockFit shape = beside.fit(selected_without(g), &name_and_shape);
+      if (beside.judge(g, shape, std::move(name_and_shape), candidates().size() + 1).worth_a_name) {
+        continue;
+      }
+      tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
+           " explains more");
+      selected_ = selected_without(g);
+      rejected_.insert(g);
+      current_ = fit(selected_, &current_);
+      return true;
+    }
+    return false;
+  }
+
+  /// Looks beside all effects that are certain, those too small for a name included: what a known
+  /// effect explains is no unknown one.
+  void find_unnamed() {
+    tell("looking for structure without a name");
+    Search certain = *this;
+    certain.options_.least_gain_percent = 0;
+    certain.step_forward();
+    certain.options_ = options_;
+    certain.add_unnamed();
+    unnamed_ = certain.unnamed_;
+    too_small_.clear();
+    for (const std::size_t g : certain.selected_) {
+      if (std::find(selected_.begin(), selected_.end(), g) == selected_.end()) {
+        too_small_.push_back(g);
+      }
+    }
+    current_ = fit(selected_, &current_);
+  }
+
+  void add_unnamed() {
+    constexpr std::size_t most_regressors = 4;  // more would describe noise nobody reads
+    while (unnamed_.size() < most_regressors) {
+      const std::optional<UnnamedTrial> best =
+          best_unnamed(record_, current_, unnamed_, options_.false_alarm_probability);
+      if (!best) return;
+      const BlockDifference drop = difference(current_.block_error, best->block_error);
+      if (drop.sum <= student_factor_ * drop.se ||
+          gain_percent(current_.squared_error(), best->block_error.sum()) <
+              options_.least_unexplained_percent) {
+        return;
+      }
+      unnamed_.push_back(best->regressor);
+      current_ = fit(selected_, &current_);
+    }
+  }
+
+  void sum_up(const BlockFit& base, Selection& result) const {
+    const auto rmse = [this](const BlockFit& f) {
+      return std::sqrt(f.squared_error() / static_cast<double>(record_.rows()));
+    };
+    for (const std::size_t g : selected_) {
+      SelectedGroup entry;
+      entry.group = g;
+      entry.p_value = p_value(g, fit(selected_without(g), &current_), current_);
+      entry.indistinguishable = rivals(g, current_);
+      result.selected.push_back(std::move(entry));
+    }
+    // The named part alone, one finding after the other.
+    Search named = *this;
+    named.unnamed_.clear();
+    BlockFit before = base;
+    std::vector<std::size_t> so_far;
+    for (SelectedGroup& entry : result.selected) {
+      so_far.push_back(entry.group);
+      BlockFit after = named.fit(so_far, &before);
+      entry.rmse_before = rmse(before);
+      entry.rmse_after = rmse(after);
+      entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
+      entry.gain_se_percent = gain_se_percent(before.block_error, after.block_error);
+      before = std::move(after);
+    }
+    result.extended = model_fit(before);
+    for (const std::size_t g : too_small_) {
+      const BlockFit with = named.fit(selected_with(g), &before);
+      result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
+    }
+    const double share = 1 - current_.squared_error() / before.squared_error();
+    const bool disturbed =
+        share >= structure_that_disturbs && precision(current_) > precision(before);
+    result.complete = model_fit(disturbed ? current_ : before);
+
+    if (unnamed_.empty()) return;
+    result.unnamed.regressors = unnamed_;
+    result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
+    name_channels(record_.problem(), result.unnamed);
+    result.unnamed.share_percent = 100 * std::max(0.0, share);
+  }
+
+  [[nodiscard]] std::vector<std::size_t> rivals(std::size_t g, const BlockFit& all) const {
+    const BlockFit without = fit(selected_without(g), &all);
+    const double earned = without.squared_error() - all.squared_error();
+    std::vector<std::pair<double, std::size_t>> found;
+    for (std::size_t c = 0; c < record_.problem().groups.size(); ++c) {
+      const bool open = group(c).role == ParameterGroup::Role::candidate && !aliased_.contains(c) &&
+                        std::find(selected_.begin(), selected_.end(), c) == selected_.end();
+      if (!open || group(c).replaces == g) continue;
+      std::vector<std::size_t> instead = selected_without(g);
+      instead.push_back(c);
+      const BlockFit rival = fit(instead, &all);
+      const BlockDifference excess = difference(rival.block_error, all.block_error);
+      if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
+          excess.sum <= student_factor_ * excess.se) {
+        found.emplace_back(rival.squared_error(), c);
+      }
+    }
+    return nearest_rivals(std::move(found));
+  }
+
+  [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const {
+    ModelFit result = neutral_fit(record_.problem(), record_.blocks());
+    std::vector<int> block_ids(record_.blocks());
+    std::iota(block_ids.begin(), block_ids.end(), 0);
+    add_fit(record_, fit, block_ids, systematic_variance(record_, fit), result);
+    result.holdout_rmse = std::sqrt(fit.squared_error() / static_cast<double>(record_.rows()));
+    result.holdout_residual.assign(record_.problem().measured.size(), 0);
+    for (Index i = 0; i < record_.rows(); ++i) {
+      const std::size_t row = record_.row_in_problem(i);
+      result.holdout_residual[row] = fit.holdout_residual[i] * record_.problem().noise[row];
+    }
+    return result;
+  }
 
   Record record_;
   SelectionOptions options_;
@@ -140,370 +482,6 @@ class Search {
   std::set<std::size_t> rejected_;      ///< taken back once; never tried again, so the search ends
   BlockFit current_;
 };
-
-Freed Search::freed(const std::vector<std::size_t>& selected) const {
-  std::set<std::size_t> replaced;
-  for (const std::size_t g : selected) {
-    if (group(g).replaces) replaced.insert(*group(g).replaces);
-  }
-  Freed result;
-  for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-    const bool wanted = group(g).role == ParameterGroup::Role::fitted ||
-                        std::find(selected.begin(), selected.end(), g) != selected.end();
-    if (wanted && !replaced.contains(g)) result.groups.push_back(g);
-  }
-  result.unnamed = unnamed_;
-  return result;
-}
-
-BlockFit Search::fit(const std::vector<std::size_t>& selected, const BlockFit* near) const {
-  return fit_blocks(record_, freed(selected), near);
-}
-
-/// Of the hypothesis that the group is neutral. A group that replaces another has no neutral value
-/// to compare with; it is tested in the model that holds both, where neutral leaves the other alone
-/// (the encompassing test of non-nested models: Davidson and MacKinnon, Econometrica 49, 1981).
-double Search::p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
-  if (!group(g).replaces) return wald_p_value(g, without, with);
-  Freed both = with.freed;
-  const auto replaced =
-      std::find(without.freed.groups.begin(), without.freed.groups.end(), *group(g).replaces);
-  if (replaced == without.freed.groups.end()) return wald_p_value(g, without, with);
-  both.groups.insert(std::upper_bound(both.groups.begin(), both.groups.end(), *replaced),
-                     *replaced);
-  return wald_p_value(g, without, fit_blocks(record_, both, &with));
-}
-
-/// Wald's statistic with the jackknife covariance, referred to Hotelling's distribution for as many
-/// blocks, in the quantities that enter the prediction linearly. Where all parameters rest on a
-/// bound, and so do not vary between blocks, the held-out errors of the blocks are compared by
-/// Student's test instead.
-double Search::wald_p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
-  const auto column_of = [&with](std::size_t parameter) {
-    return std::find(with.active.begin(), with.active.end(), parameter) - with.active.begin();
-  };
-  const auto active = static_cast<Index>(with.active.size());
-  std::vector<double> distance;
-  std::vector<VectorXd> without_block;
-  for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
-    const std::size_t index = record_.first_parameter(g) + k;
-    const ModelParameter& p = record_.parameters()[index];
-    const Index column = column_of(index);
-    if (p.shape_only || column == active) continue;
-    distance.push_back((with.values[index] - p.neutral) / p.scale);
-    without_block.push_back(with.left_out.row(column).transpose());
-    if (!p.product_with) continue;
-    const double other = with.values[*p.product_with];
-    const Index other_column = column_of(*p.product_with);
-    without_block.back() *= other;
-    if (other_column != active) {
-      without_block.back() += distance.back() * record_.parameters()[*p.product_with].scale *
-                              with.left_out.row(other_column).transpose();
-    }
-    distance.back() *= other;
-  }
-  if (distance.empty()) {
-    const BlockDifference gain = difference(without.block_error, with.block_error);
-    return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
-  }
-  const auto count = static_cast<Index>(distance.size());
-  MatrixXd spread(count, static_cast<Index>(record_.blocks()));
-  for (Index k = 0; k < count; ++k) spread.row(k) = without_block[static_cast<std::size_t>(k)];
-  const VectorXd offset = VectorXd::Map(distance.data(), count);
-  const MatrixXd covariance = jackknife_covariance(std::move(spread));
-  const double t2 = offset.dot(covariance.completeOrthogonalDecomposition().solve(offset));
-  const auto numerator = static_cast<double>(count);
-  const double denominator = degrees_ + 1 - numerator;
-  return fisher_p_value(t2 / numerator * denominator / degrees_, numerator, denominator);
-}
-
-Search::Trial Search::judge(std::size_t g, const BlockFit& without, BlockFit with,
-                            std::size_t tested) const {
-  Trial trial;
-  trial.group = g;
-  trial.p_value = p_value(g, without, with);
-  const double gain = gain_percent(without.squared_error(), with.squared_error());
-  const double least_gain =
-      options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
-  trial.worth_a_name =
-      gain >= least_gain && gain > 2 * gain_se_percent(without.block_error, with.block_error) &&
-      trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
-  trial.fit = std::move(with);
-  return trial;
-}
-
-std::vector<std::size_t> Search::candidates() const {
-  std::set<std::size_t> taken(selected_.begin(), selected_.end());
-  for (const std::size_t g : selected_) {
-    if (group(g).replaces) taken.insert(*group(g).replaces);
-  }
-  std::vector<std::size_t> result;
-  for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-    if (group(g).role == ParameterGroup::Role::candidate && !taken.contains(g) &&
-        !aliased_.contains(g) && !rejected_.contains(g)) {
-      result.push_back(g);
-    }
-  }
-  return result;
-}
-
-/// Whether the group lowers the held-out error of the named part alone, too. A name that helps only
-/// beside an unnamed shape mends the shape, not the model.
-bool Search::earns_without_shapes(std::size_t g) const {
-  if (unnamed_.empty()) return true;
-  Search named = *this;
-  named.unnamed_.clear();
-  const BlockFit without = named.fit(selected_, &current_);
-  std::vector<std::size_t> more = selected_;
-  more.push_back(g);
-  const BlockFit with = named.fit(more, &without);
-  return gain_percent(without.squared_error(), with.squared_error()) >= options_.least_gain_percent;
-}
-
-/// The candidate with the least held-out error; among those within one standard error of it the one
-/// with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical Learning,
-/// 2nd ed., section 7.10).
-std::optional<Search::Trial> Search::best_step() const {
-  const std::vector<std::size_t> open = candidates();
-  std::vector<Trial> worthy;
-  for (const std::size_t g : open) {
-    tell("trying " + group(g).id);
-    std::vector<std::size_t> more = selected_;
-    more.push_back(g);
-    Trial trial = judge(g, current_, fit(more, &current_), open.size());
-    if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
-  }
-  if (worthy.empty()) return std::nullopt;
-  const auto best = std::min_element(
-      worthy.begin(), worthy.end(),
-      [](const auto& a, const auto& b) { return a.fit.squared_error() < b.fit.squared_error(); });
-  const Trial* chosen = &*best;
-  for (const Trial& trial : worthy) {
-    const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
-    const std::size_t count = group(trial.group).parameters.size();
-    const std::size_t chosen_count = group(chosen->group).parameters.size();
-    const bool simpler =
-        count < chosen_count ||
-        (count == chosen_count && trial.fit.squared_error() < chosen->fit.squared_error());
-    if (simpler && excess.sum <= excess.se) chosen = &trial;
-  }
-  return *chosen;
-}
-
-std::vector<std::size_t> Search::selected_without(std::size_t g) const {
-  std::vector<std::size_t> rest = selected_;
-  std::erase(rest, g);
-  return rest;
-}
-
-void Search::step_forward() {
-  while (selected_.size() < options_.most_findings) {
-    std::optional<Trial> step = best_step();
-    if (!step) return;
-    selected_.push_back(step->group);
-    current_ = std::move(step->fit);
-    tell("found " + group(step->group).id);
-    if (unnamed_.empty()) drop_superfluous();
-  }
-}
-
-/// Takes back what the other names make superfluous, the weakest first.
-void Search::drop_superfluous() {
-  while (selected_.size() > 1) {
-    std::optional<std::size_t> weakest;
-    double weakest_error = infinity;
-    BlockFit rest_fit;
-    for (const std::size_t g : selected_) {
-      BlockFit without = fit(selected_without(g), &current_);
-      const std::size_t tested = candidates().size() + 1;
-      const bool earns = judge(g, without, current_, tested).worth_a_name;
-      if (!earns && without.squared_error() < weakest_error) {
-        weakest = g;
-        weakest_error = without.squared_error();
-        rest_fit = std::move(without);
-      }
-    }
-    if (!weakest) return;
-    tell("taking back " + group(*weakest).id);
-    selected_ = selected_without(*weakest);
-    rejected_.insert(*weakest);
-    current_ = std::move(rest_fit);
-  }
-}
-
-/// Takes back a name if an unnamed regressor in its place explains significantly more and, once
-/// that is in, the name has nothing left to explain. Both are needed: an unnamed shape may outweigh
-/// a weak effect that is there beside it, and a flexible shape may mimic a name without doing
-/// better.
-bool Search::drop_outdone() {
-  for (const std::size_t g : selected_) {
-    const BlockFit without = fit(selected_without(g), &current_);
-    const std::optional<UnnamedTrial> best =
-        best_unnamed(record_, without, unnamed_, options_.false_alarm_probability);
-    if (!best) continue;
-    const BlockDifference better = difference(current_.block_error, best->block_error);
-    const double earned = without.squared_error() - current_.squared_error();
-    if (better.sum <= student_factor_ * better.se || better.sum <= outdone_gain * earned) continue;
-
-    Search beside = *this;
-    beside.unnamed_.push_back(best->regressor);
-    BlockFit name_and_shape = beside.fit(selected_, &current_);
-    const BlockFit shape = beside.fit(selected_without(g), &name_and_shape);
-    if (beside.judge(g, shape, std::move(name_and_shape), candidates().size() + 1).worth_a_name) {
-      continue;
-    }
-    tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
-         " explains more");
-    selected_ = selected_without(g);
-    rejected_.insert(g);
-    current_ = fit(selected_, &current_);
-    return true;
-  }
-  return false;
-}
-
-/// Looks beside all effects that are certain, those too small for a name included: what a known
-/// effect explains is no unknown one.
-void Search::find_unnamed() {
-  tell("looking for structure without a name");
-  Search certain = *this;
-  certain.options_.least_gain_percent = 0;
-  certain.step_forward();
-  certain.options_ = options_;
-  certain.add_unnamed();
-  unnamed_ = certain.unnamed_;
-  too_small_.clear();
-  for (const std::size_t g : certain.selected_) {
-    if (std::find(selected_.begin(), selected_.end(), g) == selected_.end()) {
-      too_small_.push_back(g);
-    }
-  }
-  current_ = fit(selected_, &current_);
-}
-
-void Search::add_unnamed() {
-  constexpr std::size_t most_regressors = 4;  // more would describe noise nobody reads
-  while (unnamed_.size() < most_regressors) {
-    const std::optional<UnnamedTrial> best =
-        best_unnamed(record_, current_, unnamed_, options_.false_alarm_probability);
-    if (!best) return;
-    const BlockDifference drop = difference(current_.block_error, best->block_error);
-    if (drop.sum <= student_factor_ * drop.se ||
-        gain_percent(current_.squared_error(), best->block_error.sum()) <
-            options_.least_unexplained_percent) {
-      return;
-    }
-    unnamed_.push_back(best->regressor);
-    current_ = fit(selected_, &current_);
-  }
-}
-
-std::vector<std::size_t> Search::rivals(std::size_t g, const BlockFit& all) const {
-  const BlockFit without = fit(selected_without(g), &all);
-  const double earned = without.squared_error() - all.squared_error();
-  std::vector<std::pair<double, std::size_t>> found;
-  for (std::size_t c = 0; c < record_.problem().groups.size(); ++c) {
-    const bool open = group(c).role == ParameterGroup::Role::candidate && !aliased_.contains(c) &&
-                      std::find(selected_.begin(), selected_.end(), c) == selected_.end();
-    if (!open || group(c).replaces == g) continue;
-    std::vector<std::size_t> instead = selected_without(g);
-    instead.push_back(c);
-    const BlockFit rival = fit(instead, &all);
-    const BlockDifference excess = difference(rival.block_error, all.block_error);
-    if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
-        excess.sum <= student_factor_ * excess.se) {
-      found.emplace_back(rival.squared_error(), c);
-    }
-  }
-  return nearest_rivals(std::move(found));
-}
-
-ModelFit Search::model_fit(const BlockFit& fit) const {
-  ModelFit result = neutral_fit(record_.problem(), record_.blocks());
-  std::vector<int> block_ids(record_.blocks());
-  std::iota(block_ids.begin(), block_ids.end(), 0);
-  add_fit(record_, fit, block_ids, systematic_variance(record_, fit), result);
-  result.holdout_rmse = std::sqrt(fit.squared_error() / static_cast<double>(record_.rows()));
-  result.holdout_residual.assign(record_.problem().measured.size(), 0);
-  for (Index i = 0; i < record_.rows(); ++i) {
-    const std::size_t row = record_.row_in_problem(i);
-    result.holdout_residual[row] = fit.holdout_residual[i] * record_.problem().noise[row];
-  }
-  return result;
-}
-
-void Search::sum_up(const BlockFit& base, Selection& result) const {
-  const auto rmse = [this](const BlockFit& f) {
-    return std::sqrt(f.squared_error() / static_cast<double>(record_.rows()));
-  };
-  for (const std::size_t g : selected_) {
-    SelectedGroup entry;
-    entry.group = g;
-    entry.p_value = p_value(g, fit(selected_without(g), &current_), current_);
-    entry.indistinguishable = rivals(g, current_);
-    result.selected.push_back(std::move(entry));
-  }
-  // The named part alone, one finding after the other.
-  Search named = *this;
-  named.unnamed_.clear();
-  BlockFit before = base;
-  std::vector<std::size_t> so_far;
-  for (SelectedGroup& entry : result.selected) {
-    so_far.push_back(entry.group);
-    BlockFit after = named.fit(so_far, &before);
-    entry.rmse_before = rmse(before);
-    entry.rmse_after = rmse(after);
-    entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
-    entry.gain_se_percent = gain_se_percent(before.block_error, after.block_error);
-    before = std::move(after);
-  }
-  result.extended = model_fit(before);
-  for (const std::size_t g : too_small_) {
-    const BlockFit with = named.fit(
-        [&] {
-          std::vector<std::size_t> more = selected_;
-          more.push_back(g);
-          return more;
-        }(),
-        &before);
-    result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
-  }
-  const double share = 1 - current_.squared_error() / before.squared_error();
-  const bool disturbed =
-      share >= structure_that_disturbs && precision(current_) > precision(before);
-  result.complete = model_fit(disturbed ? current_ : before);
-
-  if (unnamed_.empty()) return;
-  result.unnamed.regressors = unnamed_;
-  result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
-  name_channels(record_.problem(), result.unnamed);
-  result.unnamed.share_percent = 100 * std::max(0.0, share);
-}
-
-Selection Search::run() {
-  Selection result;
-  result.rows = static_cast<std::size_t>(record_.rows());
-  result.blocks = record_.blocks();
-  result.student_factor = student_factor_;
-
-  tell("fitting the base model");
-  const BlockFit base = fit(selected_, nullptr);
-  current_ = base;
-  result.base = model_fit(base);
-  for (const std::size_t g : candidates()) {
-    if (auto aliased = aliased_in(record_, base, g)) result.aliased.push_back(std::move(*aliased));
-  }
-  for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
-
-  // Every round either ends or puts an effect on the list of those never tried again.
-  do {
-    step_forward();
-  } while (drop_outdone());
-  find_unnamed();
-  if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
-  sum_up(base, result);
-  return result;
-}
 
 }  // namespace
 

@@ -57,7 +57,16 @@ class PartSearch {
     shape_price_ = price(problem_.unnamed.size());
   }
 
-  void run();
+  void run() {
+    base_ = model({}, {}, nullptr);
+    best_ = base_;
+    find_aliased(base_, false);
+    for (const Selection::Aliased& a : aliased_) std::erase(candidates_, a.group);
+    search_names();
+    search_shapes();
+    if (!best_.shapes.empty()) add_names();
+    if (!best_.named.empty()) find_aliased(best_, true);
+  }
 
   [[nodiscard]] const Record& record() const { return record_; }
   [[nodiscard]] const Model& base() const { return base_; }
@@ -65,8 +74,39 @@ class PartSearch {
   [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
 
   /// The named effects of the best model in the order of what they add, with the fit after each.
-  [[nodiscard]] std::vector<std::pair<std::size_t, BlockFit>> in_order() const;
-  [[nodiscard]] Groups rivals(std::size_t g) const;
+  [[nodiscard]] std::vector<std::pair<std::size_t, BlockFit>> in_order() const {
+    std::vector<std::pair<std::size_t, BlockFit>> order;
+    Groups so_far;
+    const BlockFit* near = &best_.fit;
+    while (so_far.size() < best_.named.size()) {
+      std::optional<std::pair<std::size_t, BlockFit>> next;
+      for (const std::size_t g : best_.named) {
+        if (std::binary_search(so_far.begin(), so_far.end(), g)) continue;
+        BlockFit fit = model(with(so_far, g), {}, near).fit;
+        if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
+      }
+      so_far = with(so_far, next->first);
+      order.push_back(std::move(*next));
+    }
+    return order;
+  }
+
+  [[nodiscard]] Groups rivals(std::size_t g) const {
+    const Groups rest = without(best_.named, g);
+    const double alone = model(rest, best_.shapes, &best_.fit).fit.squared_error();
+    const double earned = alone - best_.fit.squared_error();
+    std::vector<std::pair<double, std::size_t>> found;
+    for (const std::size_t c : candidates_) {
+      if (std::binary_search(best_.named.begin(), best_.named.end(), c)) continue;
+      const Model rival = model(with(rest, c), best_.shapes, &best_.fit);
+      if (rival.length - best_.length <= rival_excess &&
+          alone - rival.fit.squared_error() >= rival_gain * earned) {
+        found.emplace_back(rival.length, c);
+      }
+    }
+    return nearest_rivals(std::move(found));
+  }
+
   [[nodiscard]] double length_without(std::size_t g) const {
     return model(without(best_.named, g), best_.shapes, &best_.fit).fit.squared_error();
   }
@@ -80,15 +120,112 @@ class PartSearch {
     std::erase(named, g);
     return named;
   }
-  [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near) const;
+
+  [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
+    Freed freed;
+    freed.groups = fitted_;
+    freed.groups.insert(freed.groups.end(), named.begin(), named.end());
+    std::sort(freed.groups.begin(), freed.groups.end());
+    freed.unnamed = shapes;
+    Model result{named, shapes, fit_blocks(record_, freed, near), 0};
+    result.length = result.fit.squared_error() + name_price_ * static_cast<double>(named.size()) +
+                    shape_price_ * static_cast<double>(shapes.size());
+    if (!named.empty() && !shapes.empty()) {
+      freed.unnamed.clear();
+      const double named_alone = fit_blocks(record_, freed, near).squared_error();
+      result.length += missed_by_shapes * static_cast<double>(named.size()) *
+                       std::max(0.0, named_alone - result.fit.squared_error());
+    }
+    return result;
+  }
+
   void consider(Model candidate, double handicap = 0) {
     if (candidate.length + handicap < best_.length) best_ = std::move(candidate);
   }
-  void search_names();
-  void search_shapes();
-  [[nodiscard]] Model with_shapes(Model start) const;
-  void add_names();
-  void find_aliased(const Model& model, bool beside_findings);
+
+  void search_names() {
+    std::vector<Model> level{base_};
+    for (std::size_t size = 1; size <= std::min(options_.most_findings, candidates_.size());
+         ++size) {
+      std::map<Groups, Model> next;
+      for (const Model& parent : level) {
+        for (const std::size_t g : candidates_) {
+          if (std::binary_search(parent.named.begin(), parent.named.end(), g)) continue;
+          const Groups named = with(parent.named, g);
+          if (next.contains(named)) continue;
+          if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
+          next.emplace(named, model(named, {}, &parent.fit));
+        }
+      }
+      level.clear();
+      for (auto& [named, m] : next) level.push_back(std::move(m));
+      std::sort(level.begin(), level.end(),
+                [](const Model& a, const Model& b) { return a.length < b.length; });
+      const bool better = !level.empty() && level.front().length < best_.length;
+      if (better) consider(level.front());
+      // Two effects may cancel, so pairs are tried whatever singles say; three hardly do.
+      if (size >= 2 && !better) break;
+      if (size >= 2 && level.size() > beam) level.erase(level.begin() + beam, level.end());
+    }
+  }
+
+  /// Shapes beside all of the names, beside all but one of them, and instead of them.
+  void search_shapes() {
+    if (problem_.unnamed.empty()) return;
+    if (progress_) progress_("looking for structure without a name");
+    const Model named = best_;
+    consider(with_shapes(named));
+    if (named.named.empty()) return;
+    if (named.named.size() > 1) {
+      for (const std::size_t g : named.named) {
+        consider(with_shapes(model(without(named.named, g), {}, &named.fit)), name_preference);
+      }
+    }
+    consider(with_shapes(base_), name_preference);
+  }
+
+  /// Adds the unnamed shapes that are worth their price.
+  [[nodiscard]] Model with_shapes(Model start) const {
+    Model best = std::move(start);
+    while (best.shapes.size() < most_shapes) {
+      const std::optional<UnnamedTrial> trial =
+          best_unnamed(record_, best.fit, best.shapes, options_.false_alarm_probability);
+      if (!trial || best.fit.squared_error() - trial->block_error.sum() < shape_price_) {
+        break;
+      }
+      Groups shapes = best.shapes;
+      shapes.push_back(trial->regressor);
+      best = model(best.named, shapes, &best.fit);
+    }
+    return best;
+  }
+
+  /// What the unknown had hidden; and names that beside it explain nothing go.
+  void add_names() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      const Model now = best_;
+      for (const std::size_t g : candidates_) {
+        const bool in = std::binary_search(now.named.begin(), now.named.end(), g);
+        if (!in && now.named.size() >= options_.most_findings) continue;
+        consider(model(in ? without(now.named, g) : with(now.named, g), now.shapes, &now.fit));
+      }
+      for (const std::size_t u : now.shapes)
+        consider(model(now.named, without(now.shapes, u), &now.fit));
+      changed = best_.length < now.length - 1e-9;
+    }
+  }
+
+  void find_aliased(const Model& model, bool beside_findings) {
+    for (const std::size_t g : candidates_) {
+      if (is_aliased(g) || std::binary_search(model.named.begin(), model.named.end(), g)) continue;
+      auto aliased = aliased_in(record_, model.fit, g);
+      if (aliased && !(aliased->with.empty() && beside_findings)) {
+        aliased_.push_back(std::move(*aliased));
+      }
+    }
+  }
+
   [[nodiscard]] bool is_aliased(std::size_t g) const {
     return std::any_of(aliased_.begin(), aliased_.end(),
                        [g](const Selection::Aliased& a) { return a.group == g; });
@@ -106,150 +243,6 @@ class PartSearch {
   Model best_;
   std::vector<Selection::Aliased> aliased_;
 };
-
-Model PartSearch::model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
-  Freed freed;
-  freed.groups = fitted_;
-  freed.groups.insert(freed.groups.end(), named.begin(), named.end());
-  std::sort(freed.groups.begin(), freed.groups.end());
-  freed.unnamed = shapes;
-  Model result{named, shapes, fit_blocks(record_, freed, near), 0};
-  result.length = result.fit.squared_error() + name_price_ * static_cast<double>(named.size()) +
-                  shape_price_ * static_cast<double>(shapes.size());
-  if (!named.empty() && !shapes.empty()) {
-    freed.unnamed.clear();
-    const double named_alone = fit_blocks(record_, freed, near).squared_error();
-    result.length += missed_by_shapes * static_cast<double>(named.size()) *
-                     std::max(0.0, named_alone - result.fit.squared_error());
-  }
-  return result;
-}
-
-void PartSearch::run() {
-  base_ = model({}, {}, nullptr);
-  best_ = base_;
-  find_aliased(base_, false);
-  for (const Selection::Aliased& a : aliased_) std::erase(candidates_, a.group);
-  search_names();
-  search_shapes();
-  if (!best_.shapes.empty()) add_names();
-  if (!best_.named.empty()) find_aliased(best_, true);
-}
-
-void PartSearch::search_names() {
-  std::vector<Model> level{base_};
-  for (std::size_t size = 1; size <= std::min(options_.most_findings, candidates_.size()); ++size) {
-    std::map<Groups, Model> next;
-    for (const Model& parent : level) {
-      for (const std::size_t g : candidates_) {
-        if (std::binary_search(parent.named.begin(), parent.named.end(), g)) continue;
-        const Groups named = with(parent.named, g);
-        if (next.contains(named)) continue;
-        if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
-        next.emplace(named, model(named, {}, &parent.fit));
-      }
-    }
-    level.clear();
-    for (auto& [named, m] : next) level.push_back(std::move(m));
-    std::sort(level.begin(), level.end(),
-              [](const Model& a, const Model& b) { return a.length < b.length; });
-    const bool better = !level.empty() && level.front().length < best_.length;
-    if (better) consider(level.front());
-    // Two effects may cancel, so pairs are tried whatever singles say; three hardly do.
-    if (size >= 2 && !better) break;
-    if (size >= 2 && level.size() > beam) level.erase(level.begin() + beam, level.end());
-  }
-}
-
-/// Adds the unnamed shapes that are worth their price.
-Model PartSearch::with_shapes(Model start) const {
-  Model best = std::move(start);
-  while (best.shapes.size() < most_shapes) {
-    const std::optional<UnnamedTrial> trial =
-        best_unnamed(record_, best.fit, best.shapes, options_.false_alarm_probability);
-    if (!trial || best.fit.squared_error() - trial->block_error.sum() < shape_price_) {
-      break;
-    }
-    Groups shapes = best.shapes;
-    shapes.push_back(trial->regressor);
-    best = model(best.named, shapes, &best.fit);
-  }
-  return best;
-}
-
-/// Shapes beside all of the names, beside all but one of them, and instead of them.
-void PartSearch::search_shapes() {
-  if (problem_.unnamed.empty()) return;
-  if (progress_) progress_("looking for structure without a name");
-  const Model named = best_;
-  consider(with_shapes(named));
-  if (named.named.empty()) return;
-  if (named.named.size() > 1) {
-    for (const std::size_t g : named.named) {
-      consider(with_shapes(model(without(named.named, g), {}, &named.fit)), name_preference);
-    }
-  }
-  consider(with_shapes(base_), name_preference);
-}
-
-/// What the unknown had hidden; and names that beside it explain nothing go.
-void PartSearch::add_names() {
-  for (bool changed = true; changed;) {
-    changed = false;
-    const Model now = best_;
-    for (const std::size_t g : candidates_) {
-      const bool in = std::binary_search(now.named.begin(), now.named.end(), g);
-      if (!in && now.named.size() >= options_.most_findings) continue;
-      consider(model(in ? without(now.named, g) : with(now.named, g), now.shapes, &now.fit));
-    }
-    for (const std::size_t u : now.shapes)
-      consider(model(now.named, without(now.shapes, u), &now.fit));
-    changed = best_.length < now.length - 1e-9;
-  }
-}
-
-void PartSearch::find_aliased(const Model& model, bool beside_findings) {
-  for (const std::size_t g : candidates_) {
-    if (is_aliased(g) || std::binary_search(model.named.begin(), model.named.end(), g)) continue;
-    auto aliased = aliased_in(record_, model.fit, g);
-    if (aliased && !(aliased->with.empty() && beside_findings)) {
-      aliased_.push_back(std::move(*aliased));
-    }
-  }
-}
-
-std::vector<std::pair<std::size_t, BlockFit>> PartSearch::in_order() const {
-  std::vector<std::pair<std::size_t, BlockFit>> order;
-  Groups so_far;
-  const BlockFit* near = &best_.fit;
-  while (so_far.size() < best_.named.size()) {
-    std::optional<std::pair<std::size_t, BlockFit>> next;
-    for (const std::size_t g : best_.named) {
-      if (std::binary_search(so_far.begin(), so_far.end(), g)) continue;
-      BlockFit fit = model(with(so_far, g), {}, near).fit;
-      if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
-    }
-    so_far = with(so_far, next->first);
-    order.push_back(std::move(*next));
-  }
-  return order;
-}
-
-Groups PartSearch::rivals(std::size_t g) const {
-  const Groups rest = without(best_.named, g);
-  const double alone = model(rest, best_.shapes, &best_.fit).fit.squared_error();
-  const double earned = alone - best_.fit.squared_error();
-  std::vector<std::pair<double, std::size_t>> found;
-  for (const std::size_t c : candidates_) {
-    if (std::binary_search(best_.named.begin(), best_.named.end(), c)) continue;
-    const Model rival = model(with(rest, c), best_.shapes, &best_.fit);
-    if (rival.length - best_.length <= rival_excess &&
-        alone - rival.fit.squared_error() >= rival_gain * earned) {
-      found.emplace_back(rival.length, c);
-    }
-  }
-  return nearest_rivals(std::move(found));
-}
 
 /// Standard errors from the curvature of the likelihood, by parameter. Unlike the jackknife of the
 /// fit, they count what a parameter that rests on a bound leaves open in the others.

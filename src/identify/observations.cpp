@@ -22,9 +22,9 @@ constexpr double moving_duration = 1.0;  // s: longer than a twitch of the estim
 constexpr double longest_pause = 30.0;   // s: shorter than landing, waiting and taking off again
 constexpr double gap_factor = 3.0;       // tolerates two lost samples; jitter stays well below 2
 constexpr double steepest_angle =
-    75 * unit::degree;  // cos is 1/4: expected acceleration amplifies errors
+    75 * unit::degree;                      // cos is 1/4: expected acceleration amplifies errors
 constexpr double fastest_multirotor = 200;  // m/s: beyond every speed on record
-constexpr double lost_estimates = 0.01;  // of the samples
+constexpr double lost_estimates = 0.01;     // of the samples
 
 struct NamedSeries {
   std::string_view name;
@@ -92,14 +92,6 @@ void demand_possible_velocities(const FlightLog& log, const SampleRange& range) 
       "flies: the estimator has diverged; choose a range before it did",
       log.time[fastest], speed(fastest), std::abs(log.down_velocity[fastest]),
       log.down_velocity[fastest] > 0 ? "downward" : "upward"));
-}
-
-void reserve(Observations& out, std::size_t count) {
-  for (auto* series : {&out.time, &out.tilt, &out.roll, &out.yaw, &out.forward_speed,
-                       &out.right_speed, &out.down_speed, &out.forward_acceleration,
-                       &out.down_acceleration, &out.expected_acceleration}) {
-    series->reserve(count);
-  }
 }
 
 }  // namespace
@@ -266,7 +258,6 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
   };
 
   Observations out;
-  reserve(out, range.size());
   for (std::size_t i = range.first; i < range.last; ++i) {
     const Neighbours use{i > 0 && connected(i - 1), i + 1 < size && connected(i)};
     if (!use.before && !use.after) continue;

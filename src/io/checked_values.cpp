@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -12,8 +13,6 @@ namespace tethercalc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t most_problems = 100;
 
 std::string_view last_key(std::string_view pointer) {
   return pointer.substr(pointer.rfind('/') + 1);
@@ -140,7 +139,7 @@ bool commands_a_terminal(const std::string& text) {
 }  // namespace
 
 void Problems::add(std::string where, std::string message) {
-  if (kept_.size() == most_problems) {
+  if (kept_.size() == most_) {
     ++omitted_;
     return;
   }
@@ -155,7 +154,7 @@ void Problems::throw_if_any() const {
   if (kept_.empty()) return;
   std::vector<InputProblem> problems = kept_;
   if (omitted_ > 0) {
-    problems.push_back({"in all", fmt::format("{} more problems of this kind", omitted_)});
+    problems.push_back({in_all_, fmt::format("and {} more problems", omitted_)});
   }
   throw InputError(std::move(problems));
 }
@@ -197,6 +196,14 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
     return std::nullopt;
   }
   return number;
+}
+
+std::optional<double> parsed_number(std::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 std::string checked_text(const JsonPlace& place, Problems& problems) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/json_document.hpp"
@@ -15,10 +16,14 @@
 
 namespace tethercalc {
 
-/// The problems found so far. Keeps the first hundred: nobody reads more, and a file that is
+/// The problems found so far. Keeps the first `most`: nobody reads more, and a file that is
 /// something else altogether would have one a line.
 class Problems {
  public:
+  /// `in_all` is where the message about the others is said to stand.
+  explicit Problems(std::size_t most = 100, std::string in_all = "in all")
+      : most_(most), in_all_(std::move(in_all)) {}
+
   void add(std::string where, std::string message);
   void add(std::vector<InputProblem> problems);
 
@@ -29,6 +34,8 @@ class Problems {
   void throw_if_any() const;
 
  private:
+  std::size_t most_;
+  std::string in_all_;
   std::vector<InputProblem> kept_;
   std::size_t omitted_ = 0;
 };
@@ -58,6 +65,9 @@ const JsonPlace& place_of(std::string_view pointer, std::span<const SpecField> f
 /// where the field is optional.
 std::optional<double> checked_number(const JsonPlace& place, const SpecField& field,
                                      Problems& problems);
+
+/// The finite number that the whole of `text` is; nothing where it is none.
+std::optional<double> parsed_number(std::string_view text);
 
 /// The text at a place; empty where it is not given or, with a problem, is no text.
 std::string checked_text(const JsonPlace& place, Problems& problems);

@@ -1,6 +1,7 @@
 #include "io/csv_columns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 
 namespace tethercalc {
@@ -19,36 +21,34 @@ constexpr std::size_t most_cell_problems = 20;
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-class CellProblems {
+class CellProblems : public Problems {
  public:
-  explicit CellProblems(std::string_view file_name) : file_name_(file_name) {}
+  explicit CellProblems(std::string_view file)
+      : Problems(most_cell_problems, std::string(file)), file_(file) {}
 
   void add(std::size_t line, std::string message) {
-    if (found_.size() < most_cell_problems) {
-      found_.push_back({fmt::format("{}:{}", file_name_, line), std::move(message)});
-    } else {
-      ++untold_;
-    }
-  }
-
-  void throw_if_any() {
-    if (found_.empty()) return;
-    if (untold_ > 0) {
-      found_.push_back({std::string(file_name_), fmt::format("and {} more problems", untold_)});
-    }
-    throw InputError(std::move(found_));
+    Problems::add(fmt::format("{}:{}", file_, line), std::move(message));
   }
 
  private:
-  std::string_view file_name_;
-  std::vector<InputProblem> found_;
-  std::size_t untold_ = 0;
+  std::string_view file_;
 };
 
 std::string_view without_blanks(std::string_view cell) {
   const auto first = cell.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
   return cell.substr(first, cell.find_last_not_of(" \t") - first + 1);
+}
+
+/// The cells of one line, blanks around each removed.
+std::vector<std::string_view> split_csv_line(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(without_blanks(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
 }
 
 /// Takes the next line, without its end, off the front of `text`.
@@ -70,25 +70,14 @@ std::string shown_cell(std::string_view cell) {
   return cell.size() > longest ? text + "…" : text;
 }
 
-std::string names_of(std::span<const CsvColumn> wanted) {
-  std::string names;
-  for (const CsvColumn& column : wanted) {
-    if (!names.empty()) names += ',';
-    names += column.name;
-  }
+std::vector<std::string> names_of(std::span<const CsvColumn> wanted) {
+  std::vector<std::string> names;
+  for (const CsvColumn& column : wanted) names.emplace_back(column.name);
   return names;
 }
 
 /// For each cell of a row, which wanted column it fills, if any.
 using CellMeaning = std::vector<std::optional<std::size_t>>;
-
-void report_unknown(std::string_view name, std::span<const CsvColumn> wanted,
-                    CellProblems& problems) {
-  std::vector<std::string> names;
-  for (const CsvColumn& column : wanted) names.emplace_back(column.name);
-  problems.add(1, fmt::format("unknown column \"{}\", known are {}{}", shown_cell(name),
-                              names_of(wanted), did_you_mean(name, names)));
-}
 
 CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted,
                         OtherCsvColumns others, CellProblems& problems) {
@@ -99,7 +88,11 @@ CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted
                                     [&](const CsvColumn& column) { return column.name == name; });
     if (match == wanted.end()) {
       meaning.emplace_back();
-      if (others == OtherCsvColumns::rejected) report_unknown(name, wanted, problems);
+      if (others == OtherCsvColumns::rejected) {
+        const std::vector<std::string> names = names_of(wanted);
+        problems.add(1, fmt::format("unknown column \"{}\", known are {}{}", shown_cell(name),
+                                    fmt::join(names, ","), did_you_mean(name, names)));
+      }
       continue;
     }
     const auto index = static_cast<std::size_t>(match - wanted.begin());
@@ -152,23 +145,14 @@ bool in_order(double value, const std::vector<double>& above, const CsvColumn& c
 
 }  // namespace
 
-std::vector<std::string_view> split_csv_line(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(without_blanks(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
                                                   std::span<const CsvColumn> wanted,
                                                   OtherCsvColumns others) {
   CellProblems problems(file_name);
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   if (text.empty()) {
-    problems.add(1, fmt::format("the file is empty, expected the header {}", names_of(wanted)));
+    problems.add(1, fmt::format("the file is empty, expected the header {}",
+                                fmt::join(names_of(wanted), ",")));
     problems.throw_if_any();
   }
   const CellMeaning meaning = read_header(take_line(text), wanted, others, problems);

@@ -42,7 +42,4 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
                                                   std::span<const CsvColumn> wanted,
                                                   OtherCsvColumns others);
 
-/// The cells of one line, blanks around each removed, without a line end.
-std::vector<std::string_view> split_csv_line(std::string_view line);
-
 }  // namespace tethercalc

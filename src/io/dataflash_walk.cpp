@@ -95,37 +95,16 @@ constexpr std::array<std::byte, fmt_length> built_in_fmt = make_definition_of_fm
 const std::byte* definition_of_fmt() { return built_in_fmt.data(); }
 
 std::size_t size_of_kind(char kind) {
-  switch (kind) {
-    case 'b':
-    case 'B':
-    case 'M':
-      return 1;
-    case 'h':
-    case 'H':
-    case 'c':
-    case 'C':
-    case 'g':
-      return 2;
-    case 'i':
-    case 'I':
-    case 'e':
-    case 'E':
-    case 'L':
-    case 'f':
-    case 'n':
-      return 4;
-    case 'q':
-    case 'Q':
-    case 'd':
-      return 8;
-    case 'N':
-      return 16;
-    case 'a':
-    case 'Z':
-      return 64;
-    default:
-      return 0;
+  struct Kinds {
+    std::string_view of_size;
+    std::size_t bytes;
+  };
+  static constexpr Kinds all[] = {{"bBM", 1}, {"hHcCg", 2}, {"iIfLeEn", 4},
+                                  {"qQd", 8}, {"N", 16},    {"aZ", 64}};
+  for (const Kinds& kinds : all) {
+    if (kinds.of_size.find(kind) != std::string_view::npos) return kinds.bytes;
   }
+  return 0;
 }
 
 DataFlashFormat parse_format(const std::byte* message) {

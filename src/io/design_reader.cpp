@@ -73,12 +73,13 @@ void read_efficiency(const JsonPlace& place, const SpecField& field, Converter& 
   } else if (place.value->empty()) {
     problems.add(place.where(), "an efficiency curve needs at least one point");
   } else {
-    read_points<EfficiencyPoint>(place, efficiency_point_fields(), problems, [&](auto points) {
-      Converter candidate = converter;
-      candidate.efficiency = std::move(points);
-      validate(candidate);
-      converter = std::move(candidate);
-    });
+    read_points<EfficiencyPoint>(place, object_fields(FieldKind::efficiency), problems,
+                                 [&](auto points) {
+                                   Converter candidate = converter;
+                                   candidate.efficiency = std::move(points);
+                                   validate(candidate);
+                                   converter = std::move(candidate);
+                                 });
   }
 }
 
@@ -89,10 +90,11 @@ void read_converter_masses(const JsonPlace& place, Converter& converter, Problem
                              type_name(*place.value)));
     return;
   }
-  read_points<ConverterMassPoint>(place, converter_mass_fields(), problems, [&](auto points) {
-    validate(points);
-    converter.masses = std::move(points);
-  });
+  read_points<ConverterMassPoint>(place, object_fields(FieldKind::converter_masses), problems,
+                                  [&](auto points) {
+                                    validate(points);
+                                    converter.masses = std::move(points);
+                                  });
 }
 
 /// Fills a DesignFile field by field.

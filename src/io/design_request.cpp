@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -16,15 +16,6 @@
 
 namespace tethercalc {
 namespace {
-
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 /// Refuses more combinations of choices than can be searched, and choices in conflict with each
 /// other or with the spec, whatever the ranges.
@@ -122,7 +113,7 @@ class RequestReader {
   void read_limit(const std::string& text) {
     const std::string where = "--subject-to " + text;
     const std::size_t at = text.find("<=") != std::string::npos ? text.find("<=") : text.find(">=");
-    const auto bound = at == std::string::npos ? std::nullopt : number_of(text.substr(at + 2));
+    const auto bound = at == std::string::npos ? std::nullopt : parsed_number(text.substr(at + 2));
     if (!bound) throw InputError(where, "expected KEY<=VALUE or KEY>=VALUE");
     question_.problem.limits.push_back(
         {text, candidate_quantity(text.substr(0, at), where), *bound, text[at] == '<' ? 1 : -1});

@@ -48,9 +48,10 @@ bool set_curve(MotorEntry& entry, const std::vector<BenchPoint>& measured, const
                     in_practical_units(pool.mean), members));
   }
   if (isotonic.points.size() < 2) {
-    problems.add(where, fmt::format("a motor curve needs at least 2 points of rising thrust and "
-                                    "power, found {}",
-                                    isotonic.points.size()));
+    problems.add(
+        where,
+        fmt::format("a motor curve needs at least 2 points of rising thrust and power, found {}",
+                    isotonic.points.size()));
     return false;
   }
   entry.curve = MotorCurve(isotonic.points);
@@ -58,7 +59,7 @@ bool set_curve(MotorEntry& entry, const std::vector<BenchPoint>& measured, const
 }
 
 std::optional<MotorPoint> read_motor_point(const JsonPlace& place, Problems& problems) {
-  const auto fields = motor_point_fields();
+  const auto fields = object_fields(FieldKind::motor_points);
   const std::size_t before = problems.count();
   const std::vector<JsonPlace> places = field_places(place, fields, problems);
   const auto number = [&](std::string_view pointer) {
@@ -146,7 +147,7 @@ class EntryObject {
 };
 
 std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& problems) {
-  EntryObject entry_object(object, motor_fields(), problems);
+  EntryObject entry_object(object, object_fields(FieldKind::motor), problems);
   MotorEntry entry;
   entry_object.set_texts(entry);
   entry.voltage_V = entry_object.number("/voltage_V");
@@ -159,7 +160,7 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
 }
 
 std::optional<ConductorEntry> conductor_from_object(const JsonPlace& object, Problems& problems) {
-  EntryObject entry_object(object, conductor_fields(), problems);
+  EntryObject entry_object(object, object_fields(FieldKind::conductor), problems);
   ConductorEntry entry;
   entry_object.set_texts(entry);
   entry.conductor = entry_object.numbers().tether.conductor;
@@ -167,7 +168,7 @@ std::optional<ConductorEntry> conductor_from_object(const JsonPlace& object, Pro
 }
 
 std::optional<InsulationEntry> insulation_from_object(const JsonPlace& object, Problems& problems) {
-  EntryObject entry_object(object, insulation_fields(), problems);
+  EntryObject entry_object(object, object_fields(FieldKind::insulation_material), problems);
   InsulationEntry entry;
   entry_object.set_texts(entry);
   entry.insulation = entry_object.numbers().tether.insulation;

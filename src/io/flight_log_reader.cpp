@@ -132,9 +132,9 @@ const DataFlashField* core_field(const DataFlashFormat& format) {
 [[noreturn]] void fail_without_estimator(const DataFlashContents& contents,
                                          const std::string& name) {
   if (contents.messages == 0) {
-    fail(name, fmt::format("no DataFlash message found in {} bytes; expected an ArduPilot .bin log "
-                           "or CSV",
-                           contents.bytes));
+    fail(name, fmt::format(
+                   "no DataFlash message found in {} bytes; expected an ArduPilot .bin log or CSV",
+                   contents.bytes));
   }
   fail(name, fmt::format("the log holds {} messages, but no attitude and velocity: expected XKF1, "
                          "NKF1 or EKF1 messages (set bit 'attitude' of LOG_BITMASK to log them)",

@@ -71,11 +71,11 @@ const std::array all_spec_fields{
         "/drone/translational_lift/hover_induced_speed_m_s", number, "m/s", above(0, 100), "6",
         "Speed of the air through the rotor discs in hover.", 1,
         at<&Design::drone, &Drone::translational_lift, &TranslationalLift::hover_induced_speed>},
-    SpecField{
-        "/drone/reserve_battery/specific_energy_Wh_kg", number, "Wh/kg", between(0, 1000), "0",
-        "Energy per mass of a battery that lands the drone from its height if the tether fails; "
-        "its mass, as the landing asks for, comes to mass_g. 0: there is none.",
-        3600, at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::specific_energy>},
+    SpecField{"/drone/reserve_battery/specific_energy_Wh_kg", number, "Wh/kg", between(0, 1000),
+              "0",
+              "Energy per mass of a battery that lands the drone from its height if the tether "
+              "fails; its mass, as the landing asks for, comes to mass_g. 0: there is none.",
+              3600, at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::specific_energy>},
     SpecField{"/drone/reserve_battery/usable_share", number, "", positive_fraction, "0.8",
               "Part of its energy that the landing may use.", 1,
               at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::usable_share>},
@@ -215,10 +215,10 @@ const std::array all_spec_fields{
     SpecField{"/requirements/buffer_battery", boolean, "", any_number, "false",
               "A battery on board covers peaks of thrust: headroom is reported, not enforced.", 1,
               at<&Design::requirements, &Requirements::buffer_battery>},
-    SpecField{"/requirements/strength_safety_factor", number, "", between(0, 1000), "0",
-              "Breaking load of the tether over its tension at the drone, at least; 0: not asked "
-              "for.",
-              1, at<&Design::requirements, &Requirements::strength_safety_factor>},
+    SpecField{
+        "/requirements/strength_safety_factor", number, "", between(0, 1000), "0",
+        "Breaking load of the tether over its tension at the drone, at least; 0: not asked for.", 1,
+        at<&Design::requirements, &Requirements::strength_safety_factor>},
 };
 
 const SpecField id_field{"/id", text, "", any_number, "\"\"", "Name in the library."};
@@ -308,11 +308,7 @@ std::span<const SpecField> fields_and_material_numbers() {
     std::vector<SpecField> fields;
     for (const SpecField& field : all_spec_fields) {
       fields.push_back(field);
-      const auto parts = field.kind == FieldKind::conductor ? conductor_fields()
-                         : field.kind == FieldKind::insulation_material
-                             ? insulation_fields()
-                             : std::span<const SpecField>();
-      for (SpecField part : parts) {
+      for (SpecField part : object_fields(field.kind)) {
         if (!is_numeric(part)) continue;
         part.pointer =
             pointers.emplace_back(std::string(field.pointer) + std::string(part.pointer));
@@ -334,12 +330,25 @@ bool FieldRange::contains(double value) const {
 }
 
 std::span<const SpecField> spec_fields() { return all_spec_fields; }
-std::span<const SpecField> motor_fields() { return all_motor_fields; }
-std::span<const SpecField> motor_point_fields() { return all_motor_point_fields; }
-std::span<const SpecField> conductor_fields() { return all_conductor_fields; }
-std::span<const SpecField> insulation_fields() { return all_insulation_fields; }
-std::span<const SpecField> efficiency_point_fields() { return all_efficiency_point_fields; }
-std::span<const SpecField> converter_mass_fields() { return all_converter_mass_fields; }
+
+std::span<const SpecField> object_fields(FieldKind kind) {
+  switch (kind) {
+    case motor:
+      return all_motor_fields;
+    case motor_points:
+      return all_motor_point_fields;
+    case conductor:
+      return all_conductor_fields;
+    case insulation_material:
+      return all_insulation_fields;
+    case efficiency:
+      return all_efficiency_point_fields;
+    case converter_masses:
+      return all_converter_mass_fields;
+    default:
+      return {};
+  }
+}
 
 std::string dot_path(std::string_view pointer) {
   std::string path(pointer.substr(pointer.starts_with('/') ? 1 : 0));
@@ -482,45 +491,40 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
   std::vector<FieldConflict> conflicts;
   const Converter& converter = design.supply.converter;
   if (converter.max_input_voltage && *converter.max_input_voltage < design.supply.voltage) {
-    conflicts.push_back(
-        {"/supply/converter/max_input_voltage_V",
-         fmt::format("the converter stands {} V at its input, but the supply gives {} V, which is "
-                     "what arrives when no current flows",
-                     *converter.max_input_voltage, design.supply.voltage)});
+    conflicts.push_back({"/supply/converter/max_input_voltage_V",
+                         fmt::format("the converter stands {} V at its input, but the supply gives "
+                                     "{} V, which is what arrives when no current flows",
+                                     *converter.max_input_voltage, design.supply.voltage)});
   }
   if (converter.min_input_voltage >= design.supply.voltage) {
-    conflicts.push_back(
-        {"/supply/converter/min_input_voltage_V",
-         fmt::format(
-             "the converter cuts off below {} V, but the supply gives only {} V; the supply "
-             "voltage must be the higher one",
-             converter.min_input_voltage, design.supply.voltage)});
+    conflicts.push_back({"/supply/converter/min_input_voltage_V",
+                         fmt::format("the converter cuts off below {} V, but the supply gives only "
+                                     "{} V; the supply voltage must be the higher one",
+                                     converter.min_input_voltage, design.supply.voltage)});
   }
   if (converter.min_input_voltage < design.supply.voltage &&
       lowest_input_voltage(converter) >= design.supply.voltage) {
-    conflicts.push_back(
-        {"/supply/converter/min_output_voltage_V",
-         fmt::format("behind the fixed ratio of {} even the supply's {} V make only {} V, and the "
-                     "motors need {} V",
-                     *converter.fixed_ratio, design.supply.voltage,
-                     *converter.fixed_ratio * design.supply.voltage,
-                     converter.min_output_voltage)});
+    conflicts.push_back({"/supply/converter/min_output_voltage_V",
+                         fmt::format("behind the fixed ratio of {} even the supply's {} V make "
+                                     "only {} V, and the motors need {} V",
+                                     *converter.fixed_ratio, design.supply.voltage,
+                                     *converter.fixed_ratio * design.supply.voltage,
+                                     converter.min_output_voltage)});
   }
   if (!converter.fixed_ratio && converter.min_output_voltage > 0) {
     conflicts.push_back({"/supply/converter/min_output_voltage_V",
                          "is for converters whose output follows their input; give fixed_ratio"});
   }
   if (!converter.rated_output_power && (converter.specific_mass > 0 || !converter.masses.empty())) {
-    conflicts.push_back(
-        {converter.masses.empty() ? "/supply/converter/specific_mass_kg_per_kW"
-                                  : "/supply/converter/mass_table",
-         "the converter's mass follows from its rated output, which is not known; give "
-         "rated_output_W"});
+    conflicts.push_back({converter.masses.empty() ? "/supply/converter/specific_mass_kg_per_kW"
+                                                  : "/supply/converter/mass_table",
+                         "the converter's mass follows from its rated output, which is not known; "
+                         "give rated_output_W"});
   }
   if (converter.specific_mass > 0 && !converter.masses.empty()) {
-    conflicts.push_back({"/supply/converter/mass_table",
-                         "and specific_mass_kg_per_kW both give the converter's mass; only one can "
-                         "be right"});
+    conflicts.push_back(
+        {"/supply/converter/mass_table",
+         "and specific_mass_kg_per_kW both give the converter's mass; only one can be right"});
   }
   const Insulation& insulation = design.tether.insulation;
   if (insulation.dielectric_safety_factor > 0 && !(insulation.breakdown_strength > 0)) {

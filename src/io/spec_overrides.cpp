@@ -26,25 +26,6 @@ std::string pointer_of(std::string_view dotted) {
   return pointer;
 }
 
-std::span<const SpecField> fields_of_object(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::motor:
-      return motor_fields();
-    case FieldKind::conductor:
-      return conductor_fields();
-    case FieldKind::insulation_material:
-      return insulation_fields();
-    case FieldKind::motor_points:
-      return motor_point_fields();
-    case FieldKind::efficiency:
-      return efficiency_point_fields();
-    case FieldKind::converter_masses:
-      return converter_mass_fields();
-    default:
-      return {};
-  }
-}
-
 bool is_list(FieldKind kind) {
   return kind == FieldKind::motor_points || kind == FieldKind::efficiency ||
          kind == FieldKind::converter_masses;
@@ -63,7 +44,7 @@ bool may_exist(std::string_view pointer, std::span<const SpecField> fields) {
     if (!is_at_or_below(pointer, field.pointer)) return false;
     std::string_view rest = pointer.substr(field.pointer.size());
     if (is_list(field.kind)) rest = without_index(rest);
-    return rest.empty() || may_exist(rest, fields_of_object(field.kind));
+    return rest.empty() || may_exist(rest, object_fields(field.kind));
   });
 }
 

@@ -1,5 +1,6 @@
 // docs/spec.md, made from the tables of fields.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 #include <string_view>
@@ -10,15 +11,16 @@ namespace tethercalc {
 namespace {
 
 std::string allowed(const SpecField& field) {
+  const auto words = field_words(field.kind);
   switch (field.kind) {
     case FieldKind::boolean:
       return "`true` or `false`";
+    case FieldKind::condition:
+    case FieldKind::strength_material:
+      return fmt::format("`\"{}\"` or `\"{}\"`",
+                         fmt::join(words.begin(), words.end() - 1, "\"`, `\""), words.back());
     case FieldKind::text:
       return "text";
-    case FieldKind::condition:
-      return "`\"hover\"` or `\"forward\"`";
-    case FieldKind::strength_material:
-      return "`\"none\"`, `\"aramid\"` or `\"uhmwpe\"`";
     case FieldKind::motor:
       return "name, `.json` or `.csv` file, [motor](#motor)";
     case FieldKind::conductor:
@@ -89,16 +91,17 @@ std::string spec_reference() {
   text += table_head;
   for (const SpecField& field : spec_fields()) text += row(field, dot_path(field.pointer));
   text += "\nThe converter must cut off below the supply voltage.\n";
-  text += object_section("Motor", motor_fields());
-  text += object_section("Point of a motor curve", motor_point_fields());
+  text += object_section("Motor", object_fields(FieldKind::motor));
+  text += object_section("Point of a motor curve", object_fields(FieldKind::motor_points));
   text += "\nEach point has exactly one of `efficiency_g_per_W` and `power_W`.\n";
-  text += object_section("Conductor", conductor_fields());
-  text += object_section("Insulation material", insulation_fields());
-  text += object_section("Point of an efficiency curve", efficiency_point_fields());
+  text += object_section("Conductor", object_fields(FieldKind::conductor));
+  text += object_section("Insulation material", object_fields(FieldKind::insulation_material));
+  text += object_section("Point of an efficiency curve", object_fields(FieldKind::efficiency));
   text +=
       "\nThe points stand by rising `output_W`; efficiency is linear between them and constant\n"
       "outside. The power drawn must rise with the output.\n";
-  text += object_section("Row of a converter's table of masses", converter_mass_fields());
+  text += object_section("Row of a converter's table of masses",
+                         object_fields(FieldKind::converter_masses));
   text +=
       "\nThe rows stand by rising `rated_output_W`; mass is linear between them, that of the "
       "first\n"

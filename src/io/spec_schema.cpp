@@ -47,9 +47,10 @@ Json schema_of_kind(FieldKind kind) {
     case FieldKind::text:
       return {{"type", "string"}};
     case FieldKind::condition:
-      return {{"enum", {"hover", "forward"}}};
-    case FieldKind::strength_material:
-      return {{"enum", {"none", "aramid", "uhmwpe"}}};
+    case FieldKind::strength_material: {
+      const auto words = field_words(kind);
+      return {{"enum", std::vector<std::string>(words.begin(), words.end())}};
+    }
     case FieldKind::motor:
       return name_or_object("motor", "name in the library, or path of a .json or .csv file");
     case FieldKind::conductor:
@@ -112,7 +113,7 @@ Json schema_of_object(std::span<const SpecField> fields) {
 }
 
 Json motor_point_schema() {
-  Json schema = schema_of_object(motor_point_fields());
+  Json schema = schema_of_object(object_fields(FieldKind::motor_points));
   const auto with = [](const char* key) {
     return Json{{"properties", {{key, {{"type", "number"}}}}}, {"required", Json::array({key})}};
   };
@@ -126,12 +127,13 @@ Json spec_schema() {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "Design spec of a tethered drone"}};
   schema.update(schema_of_object(spec_fields()));
-  schema["$defs"] = {{"motor", schema_of_object(motor_fields())},
-                     {"motor_point", motor_point_schema()},
-                     {"conductor", schema_of_object(conductor_fields())},
-                     {"insulation", schema_of_object(insulation_fields())},
-                     {"efficiency_point", schema_of_object(efficiency_point_fields())},
-                     {"converter_mass", schema_of_object(converter_mass_fields())}};
+  schema["$defs"] = {
+      {"motor", schema_of_object(object_fields(FieldKind::motor))},
+      {"motor_point", motor_point_schema()},
+      {"conductor", schema_of_object(object_fields(FieldKind::conductor))},
+      {"insulation", schema_of_object(object_fields(FieldKind::insulation_material))},
+      {"efficiency_point", schema_of_object(object_fields(FieldKind::efficiency))},
+      {"converter_mass", schema_of_object(object_fields(FieldKind::converter_masses))}};
   return schema;
 }
 

@@ -70,8 +70,7 @@ Json entry_numbers(const Design& design, FieldKind kind) {
     }
     return {{"points", points}};
   }
-  for (const SpecField& field :
-       kind == FieldKind::conductor ? conductor_fields() : insulation_fields()) {
+  for (const SpecField& field : object_fields(kind)) {
     if (!is_numeric(field)) continue;
     if (Json value = number_json(design, field); !value.is_null()) {
       numbers[std::string(field.pointer.substr(1))] = std::move(value);
@@ -102,9 +101,7 @@ Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
   if (const Json& there = file.document.at(pointer); there.is_object() && reference.empty()) {
     // Its own object stays, but for the numbers.
     changed = there;
-    for (const SpecField& part : field.kind == FieldKind::conductor ? conductor_fields()
-                                 : field.kind == FieldKind::motor   ? motor_fields()
-                                                                    : insulation_fields()) {
+    for (const SpecField& part : object_fields(field.kind)) {
       const std::string key(part.pointer.substr(1));
       if (is_numeric(part) && !numbers.contains(key)) changed.erase(key);
     }

@@ -28,14 +28,6 @@ constexpr std::int64_t exact_limit = std::int64_t{1} << 53;
 
 // --- Numbers ---------------------------------------------------------------------------------
 
-std::optional<double> parsed_number(std::string_view text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// digits·10^exponent, the number exactly as written.
 struct Decimal {
   std::int64_t digits = 0;
@@ -355,20 +347,13 @@ bool can_conflict(const SweepAxis& axis) {
   return axis.name.starts_with("supply.") || axis.name.starts_with("tether.insulation.");
 }
 
-/// The axes alone whose fields can be in conflict, each with its ends only.
-SweepSpace corner_space(const SweepSpace& space) {
-  std::vector<SweepAxis> corners;
-  for (const SweepAxis& axis : space.axes()) {
-    if (can_conflict(axis)) corners.push_back({axis.name, ends_of(axis), axis.apply});
-  }
-  return SweepSpace(std::move(corners));
-}
-
-/// The axes alone whose fields can be in conflict.
-SweepSpace conflict_space(const SweepSpace& space) {
+/// The axes alone whose fields can be in conflict, each with all of its values or its ends only.
+SweepSpace conflict_space(const SweepSpace& space, bool ends_only) {
   std::vector<SweepAxis> axes;
   for (const SweepAxis& axis : space.axes()) {
-    if (can_conflict(axis)) axes.push_back(axis);
+    if (!can_conflict(axis)) continue;
+    axes.push_back(axis);
+    if (ends_only) axes.back().values = ends_of(axis);
   }
   return SweepSpace(std::move(axes));
 }
@@ -434,12 +419,12 @@ std::vector<SweepAxis> read_axes(std::span<const std::string> texts, const Desig
 void check_sweep_rows(const SweepSpace& space, const DesignFile& base, const std::string& option) {
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   // Where the ends of the axes, each with each, are free of conflicts, so is all between them.
-  std::size_t fields = conflicts_in(corner_space(space), base.design, all).size();
+  std::size_t fields = conflicts_in(conflict_space(space, true), base.design, all).size();
   if (!normal_ends_are_allowed(space, base.design)) fields = all;
   if (fields == 0) return;
   Problems problems;
   for (const auto& [field, message] :
-       conflicts_in(space.sample() ? space : conflict_space(space), base.design, fields)) {
+       conflicts_in(space.sample() ? space : conflict_space(space, false), base.design, fields)) {
     problems.add(option, message);
   }
   problems.throw_if_any();

@@ -35,8 +35,8 @@ std::vector<double> numbers_of(const Design& design) {
     }
   };
   add_fields(spec_fields());
-  add_fields(conductor_fields());
-  add_fields(insulation_fields());
+  add_fields(object_fields(FieldKind::conductor));
+  add_fields(object_fields(FieldKind::insulation_material));
   for (const MotorPoint& point : design.drone.motor.vertices()) {
     numbers.insert(numbers.end(), {point.thrust, point.power});
   }
@@ -80,9 +80,9 @@ void set_off_neutral(Random& random, const SpecField& field, Design& design) {
       design.drone.motor = motor_as_read(test::random_motor(random, 0.5));
       return;
     case FieldKind::conductor:
-      return numbers(conductor_fields());
+      return numbers(object_fields(FieldKind::conductor));
     case FieldKind::insulation_material:
-      return numbers(insulation_fields());
+      return numbers(object_fields(FieldKind::insulation_material));
     case FieldKind::converter_masses: {
       const double mass = random.integer(1, 500) * unit::gram;
       converter.masses = {{random.uniform(1, 400), mass}, {random.uniform(401, 900), 2 * mass}};

@@ -163,8 +163,8 @@ TEST_CASE("the unit in a field's name is the unit on the axis") {
   };
   const std::pair<std::string, std::span<const SpecField>> groups[] = {
       {"", spec_fields()},
-      {"/tether/conductor", conductor_fields()},
-      {"/tether/insulation/material", insulation_fields()}};
+      {"/tether/conductor", object_fields(FieldKind::conductor)},
+      {"/tether/insulation/material", object_fields(FieldKind::insulation_material)}};
   for (const auto& [place, fields] : groups) {
     for (const SpecField& field : fields) {
       const std::string path = dot_path(place + std::string(field.pointer));

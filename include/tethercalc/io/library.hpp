@@ -55,8 +55,8 @@ void put_entry(Design& design, const InsulationEntry& entry);
 [[nodiscard]] std::vector<InsulationEntry> library_insulation();
 
 /// The motor that `reference` names: an id in the library or, where it holds a "/" or ends in
-/// ".json" or ".csv", a file that `load` reads. Such a file is either an object with
-/// `motor_fields` or a test-bench CSV with the columns `thrust_g` and `power_W`; others are
+/// ".json" or ".csv", a file that `load` reads. Such a file is either an object with a
+/// motor's fields or a test-bench CSV with the columns `thrust_g` and `power_W`; others are
 /// ignored. Points that do not rise are pooled (`isotonic_motor_points`), and idle rows of a CSV,
 /// without thrust or power, are left out; `warnings` says so. Throws InputError with all problems
 /// of the file, or with the closest id where there is no such name. `where` is what its message
@@ -65,13 +65,13 @@ void put_entry(Design& design, const InsulationEntry& entry);
                                     const std::string& where = "motor");
 
 /// The conductor material that `reference` names, found as `find_motor` does; a file is a JSON
-/// object with `conductor_fields`.
+/// object with its fields.
 [[nodiscard]] ConductorEntry find_conductor(const std::string& reference,
                                             const TextLoader& load = {},
                                             const std::string& where = "conductor");
 
 /// The insulation material that `reference` names, found as `find_motor` does; a file is a JSON
-/// object with `insulation_fields`.
+/// object with its fields.
 [[nodiscard]] InsulationEntry find_insulation(const std::string& reference,
                                               const TextLoader& load = {},
                                               const std::string& where = "insulation");

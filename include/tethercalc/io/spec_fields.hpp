@@ -28,9 +28,9 @@ enum class FieldKind {
   motor,                ///< name in the library, path of a .json or .csv file, or an object
   conductor,            ///< name in the library, path of a .json file, or an object
   insulation_material,  ///< likewise
-  efficiency,           ///< a number, or a list of objects with `efficiency_point_fields`
-  converter_masses,     ///< a list of objects with `converter_mass_fields`
-  motor_points          ///< a list of objects with `motor_point_fields`, at least two
+  efficiency,           ///< a number, or a list of objects
+  converter_masses,     ///< a list of objects
+  motor_points          ///< a list of objects, at least two
 };
 
 /// Allowed numbers, in the unit of the field.
@@ -68,23 +68,9 @@ struct SpecField {
 /// The fields of a design spec, in the order in which people should read them.
 [[nodiscard]] std::span<const SpecField> spec_fields();
 
-/// The fields of a motor, which a spec may hold or name.
-[[nodiscard]] std::span<const SpecField> motor_fields();
-
-/// The fields of one point of a motor's curve.
-[[nodiscard]] std::span<const SpecField> motor_point_fields();
-
-/// The fields of a conductor material, which a spec may hold or name.
-[[nodiscard]] std::span<const SpecField> conductor_fields();
-
-/// The fields of an insulation material, which a spec may hold or name.
-[[nodiscard]] std::span<const SpecField> insulation_fields();
-
-/// The fields of one point of a converter's efficiency curve.
-[[nodiscard]] std::span<const SpecField> efficiency_point_fields();
-
-/// The fields of one row of a converter's table of masses.
-[[nodiscard]] std::span<const SpecField> converter_mass_fields();
+/// The fields of the object that may stand in a field of this kind, as of a motor, or of every
+/// object in its list, as of an efficiency curve; none for kinds that hold no objects.
+[[nodiscard]] std::span<const SpecField> object_fields(FieldKind kind);
 
 /// The field of a spec at `path`, either "supply.voltage_V" or "/supply/voltage_V", or the number
 /// of a material in it, such as "tether.conductor.density_g_cm3"; null where there is none. Its
