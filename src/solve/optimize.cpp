@@ -152,29 +152,35 @@ void name_obstacle(Optimization& result, const Flights& flights) {
     result.limited_by = Limit::input_voltage;
     return;
   }
-  if (is_cable_judged(design)) {
-    if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
-      const DemandMargin missed = least_missed(flights, flyable);
-      result.limited_by = limit_of(missed.demand);
-      result.limiting_condition = missed.condition;
-      result.best_headroom = best_headroom(flights.in(missed.condition));
-      return;
-    }
-  }
   const Condition asked = need.headroom_at;
   struct Wanted {
     Condition condition;
     double headroom;
   };
   Wanted missed{asked, demanded_headroom(need, asked)};
+  result.best_headroom = best_headroom(flights.in(asked));
+  const bool enough = result.best_headroom.value >= missed.headroom;
+  if (enough && is_cable_judged(design)) {
+    if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
+      const DemandMargin margin = least_missed(flights, flyable);
+      result.limited_by = limit_of(margin.demand);
+      result.limiting_condition = margin.condition;
+      result.best_headroom = best_headroom(flights.in(margin.condition));
+      return;
+    }
+  }
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    if (headroom_areas(flights.in(condition), 1).empty()) {
+    const OperatingPoint& tried = condition == Condition::hover ? result.hover : result.forward;
+    const bool flies = condition == asked ? result.best_headroom.value >= 1
+                                          : tried.headroom >= 1 ||
+                                                !headroom_areas(flights.in(condition), 1).empty();
+    if (!flies) {
       missed = {condition, 1};
       break;
     }
   }
+  if (missed.condition != asked) result.best_headroom = best_headroom(flights.in(missed.condition));
   result.limiting_condition = missed.condition;
-  result.best_headroom = best_headroom(flights.in(missed.condition));
   result.limited_by = obstacle(flights.in(missed.condition), result.best_headroom, missed.headroom);
 }
 
