@@ -381,7 +381,7 @@ class BestHeadroomSearch {
     if (b.at.radius < a.at.radius * (1 + rounding)) return;
     if (++stretches_ > most_stretches) return;
     const double kink = kink_between(a, b);
-    if (b.at.radius < 1.2 * a.at.radius && std::isnan(kink) && a.headroom > 0 && b.headroom > 0 &&
+    if (b.at.radius < 1.02 * a.at.radius && std::isnan(kink) && a.headroom > 0 && b.headroom > 0 &&
         a.steady == b.steady) {
       // Half of the digits: at a smooth maximum the value is then exact to all of them.
       constexpr int bits = std::numeric_limits<double>::digits / 2;
@@ -452,10 +452,11 @@ class BestHeadroomSearch {
                         flight_.output_power(1));
   }
 
-  /// The radius between a and b at which a thrust is just available.
+  /// The radius between a and b at which a thrust is just available: a hair more, or rounding
+  /// would leave much less where a little power makes a leap of thrust.
   [[nodiscard]] double radius_of_available(double thrust, const Look& a, const Look& b) {
     if (std::isnan(thrust)) return nan;
-    const double power = flight_.drone_power(thrust);
+    const double power = flight_.drone_power(thrust) * (1 + 1e-14);
     if (!heated_) return flight_.radius_of_available_power(power);
     // One over the power is a line over one over the radius squared, but for the heat.
     Look lo = a;
