@@ -286,6 +286,8 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   for (int attempt = 0; attempt < 3 && !is_bottom; ++attempt) {
     best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, within}, radii,
                          best);
+    is_bottom = is_proportional(design.supply.converter);
+    if (is_bottom) break;
     const auto [lo, hi] = std::minmax(within, best.thrust.value);
     is_bottom =
         std::isnan(converter_kink(design.supply.converter, flight.output_power(convex.power(lo)),
