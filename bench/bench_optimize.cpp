@@ -74,6 +74,79 @@ void whole_optimum_by_curve_points(benchmark::State& state) {
 }
 BENCHMARK(whole_optimum_by_curve_points)->RangeMultiplier(8)->Range(8, 1 << 15);
 
+// --- Demands, each alone and all together, as sweeps ask for the optimum ---
+
+void none(Design&) {}
+
+void heat(Design& d) {  // in the air and on the drum
+  d.tether.ambient_temperature_C = 35;
+  d.tether.insulation.rated_temperature_C = 90;
+  d.tether.spooled_length = 20;
+  d.tether.drum.layers = 1;
+  d.tether.sun = 1000;
+}
+void reserve_battery(Design& d) {
+  d.drone.reserve_battery.specific_energy = 150 * 3600;
+  d.drone.reserve_battery.discharge_rate = 30 / 3600.0;
+}
+void efficiency_curve(Design& d) {
+  d.supply.converter.efficiency = {{50, 0.8}, {150, 0.9}, {400, 0.93}, {800, 0.92}};
+}
+void strength(Design& d) {
+  d.tether.conductor.tensile_strength = 150e6;
+  d.requirements.strength_safety_factor = 3;
+}
+void converter_rating(Design& d) {
+  d.supply.converter.rated_output_power = 900;
+  d.supply.converter.specific_mass = 0.1e-3;
+}
+void wall_by_voltage(Design& d) {
+  d.tether.insulation.breakdown_strength = 20e6;
+  d.tether.insulation.dielectric_safety_factor = 10;
+}
+void tilt_and_winch(Design& d) {
+  d.requirements.max_pitch = 30 * unit::degree;
+  d.tether.winch_pull = 1;
+}
+void everything(Design& d) {
+  for (const auto demand : {heat, reserve_battery, efficiency_curve, strength, converter_rating,
+                            wall_by_voltage, tilt_and_winch}) {
+    demand(d);
+  }
+}
+void too_much(Design& d) { d.requirements.thrust_headroom = 3; }  // for any cross-section
+void everything_and_too_much(Design& d) {
+  everything(d);
+  too_much(d);
+}
+
+void optimum_with(benchmark::State& state, void (*demand)(Design&)) {
+  Design design = published_design(data_sheet_motor());
+  design.requirements.thrust_headroom = 1.5;
+  demand(design);
+  // Over voltage, length and mass, as in a sweep.
+  int i = 0;
+  for (auto _ : state) {
+    design.supply.voltage = 70 + i % 11 * 6;
+    design.tether.length = 10 + i / 11 % 11 * 3;
+    design.drone.mass = 1.5 + i / 121 % 3 * 0.1;
+    ++i;
+    benchmark::DoNotOptimize(optimum_alone(design));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK_CAPTURE(optimum_with, none, none);
+BENCHMARK_CAPTURE(optimum_with, heat, heat);
+BENCHMARK_CAPTURE(optimum_with, reserve_battery, reserve_battery);
+BENCHMARK_CAPTURE(optimum_with, efficiency_curve, efficiency_curve);
+BENCHMARK_CAPTURE(optimum_with, strength, strength);
+BENCHMARK_CAPTURE(optimum_with, converter_rating, converter_rating);
+BENCHMARK_CAPTURE(optimum_with, wall_by_voltage, wall_by_voltage);
+BENCHMARK_CAPTURE(optimum_with, tilt_and_winch, tilt_and_winch);
+BENCHMARK_CAPTURE(optimum_with, everything, everything);
+BENCHMARK_CAPTURE(optimum_with, too_much, too_much);
+BENCHMARK_CAPTURE(optimum_with, everything_and_too_much, everything_and_too_much);
+
 void feasible_set(benchmark::State& state) {
   const Design design = published_design(data_sheet_motor());
   const SteadyFlight flight(design, Condition::hover);

@@ -196,13 +196,15 @@ class RadiiSearch {
   }
 
   /// Whether the margin only rises or only falls from a to b. A cable that gets cooler from a to b,
-  /// and not much thicker, is taken to do so all the way.
+  /// and not much thicker, is taken to do so all the way, where not even the load at b makes that
+  /// at a run away.
   [[nodiscard]] bool monotone(const End& a, const End& b) const {
     constexpr double not_much = 1.5;
     const int trend = demands_.trend(a.at, b.at);
     if (a.margin.warming == 1 && b.margin.warming == 1) return trend != 0 && !demands_.heated();
     return trend == 1 && b.at.radius < not_much * a.at.radius && a.margin.warming < infinity &&
-           b.margin.warming <= a.margin.warming && b.margin.hottest_C <= a.margin.hottest_C;
+           b.margin.warming <= a.margin.warming && b.margin.hottest_C <= a.margin.hottest_C &&
+           demands_.margin(b.at, a.at).warming < infinity;
   }
 
   /// From a to b the margin only rises or only falls.
@@ -379,7 +381,7 @@ class BestHeadroomSearch {
     if (b.at.radius < a.at.radius * (1 + rounding)) return;
     if (++stretches_ > most_stretches) return;
     const double kink = kink_between(a, b);
-    if (b.at.radius < 1.2 * a.at.radius && std::isnan(kink) && a.available > 0 && b.available > 0 &&
+    if (b.at.radius < 1.02 * a.at.radius && std::isnan(kink) && a.headroom > 0 && b.headroom > 0 &&
         a.steady == b.steady) {
       // Half of the digits: at a smooth maximum the value is then exact to all of them.
       constexpr int bits = std::numeric_limits<double>::digits / 2;
@@ -450,10 +452,11 @@ class BestHeadroomSearch {
                         flight_.output_power(1));
   }
 
-  /// The radius between a and b at which a thrust is just available.
+  /// The radius between a and b at which a thrust is just available: a hair more, or rounding
+  /// would leave much less where a little power makes a leap of thrust.
   [[nodiscard]] double radius_of_available(double thrust, const Look& a, const Look& b) {
     if (std::isnan(thrust)) return nan;
-    const double power = flight_.drone_power(thrust);
+    const double power = flight_.drone_power(thrust) * (1 + 1e-14);
     if (!heated_) return flight_.radius_of_available_power(power);
     // One over the power is a line over one over the radius squared, but for the heat.
     Look lo = a;

@@ -85,10 +85,13 @@ class LeastPowerSearch {
     constexpr double little = 1.03;
     const bool worse = std::isnan(a.power) && std::isnan(b.power);
     if (!(worse && b.at.radius > little * a.at.radius) && one_valley(a, b)) {
-      const Pieces pieces = pieces_between(motor, a.at.thrust.value, b.at.thrust.value);
-      const ThrustAt& start = best_.radius == b.at.radius ? b.at : a.at;
-      (void)consider(
-          valley_bottom(flight_, tether_, motor, pieces, {a.at.radius, b.at.radius}, start));
+      const ThrustAt lo = heated_ && runs_away(a) ? brink(b, a) : a.at;
+      const ThrustAt hi = heated_ && runs_away(b) ? brink(a, b) : b.at;
+      const Pieces pieces = pieces_between(motor, lo.thrust.value, hi.thrust.value);
+      const ThrustAt& start = best_.radius == hi.radius ? hi : lo;
+      (void)consider(lo);
+      (void)consider(hi);
+      (void)consider(valley_bottom(flight_, tether_, motor, pieces, {lo.radius, hi.radius}, start));
       return;
     }
     // Where a cable runs away, others nearby do mostly, too.
@@ -102,6 +105,24 @@ class LeastPowerSearch {
     if (right) improve(middle, b);
     improve(a, middle);
     if (!right) improve(middle, b);
+  }
+
+  /// The place next to where the cable begins to run away between a `steady` one and one where it
+  /// does; that one where both do.
+  [[nodiscard]] ThrustAt brink(const Look& steady, const Look& away) const {
+    if (runs_away(steady)) return away.at;
+    ThrustAt near = steady.at;
+    double far = away.at.radius;
+    for (int step = 0; step < 40; ++step) {  // halves a hundredth to 1e-14
+      const double middle = 0.5 * (near.radius + far);
+      const ThrustAt there = thrust_at(flight_, middle, near.tan_guess(middle));
+      if (total_power(flight_, tether_, there) < infinity) {
+        near = there;
+      } else {
+        far = middle;
+      }
+    }
+    return near;
   }
 
   [[nodiscard]] double warm_power_over(const ThrustAt& at, double radius) const {
@@ -265,6 +286,8 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   for (int attempt = 0; attempt < 3 && !is_bottom; ++attempt) {
     best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, within}, radii,
                          best);
+    is_bottom = is_proportional(design.supply.converter);
+    if (is_bottom) break;
     const auto [lo, hi] = std::minmax(within, best.thrust.value);
     is_bottom =
         std::isnan(converter_kink(design.supply.converter, flight.output_power(convex.power(lo)),

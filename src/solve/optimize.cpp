@@ -36,12 +36,18 @@ double cheapest_area(const SteadyFlight& flight, const IntervalSet& areas,
   return best.area;
 }
 
+/// Evaluates `area`, the flight that asks for headroom first: the other only where that is met.
 void take(Optimization& result, const Flights& flights, double area) {
   result.area = area;
-  result.hover = evaluate(flights.hover, area);
-  result.forward = evaluate(flights.forward, area);
   const Design& design = flights.hover.design();
-  result.feasible = demand_margins(design, result.hover, result.forward).met();
+  const Condition asked = design.requirements.headroom_at;
+  const auto meets = [&](Condition condition) {
+    OperatingPoint& point = condition == Condition::hover ? result.hover : result.forward;
+    point = evaluate(flights.in(condition), area);
+    return demand_margins(design, point, condition).met();
+  };
+  result.feasible =
+      meets(asked) && meets(asked == Condition::hover ? Condition::forward : Condition::hover);
 }
 
 /// The same at `area`, or a hair's breadth inside where it is an edge beyond which a warm cable
@@ -152,29 +158,35 @@ void name_obstacle(Optimization& result, const Flights& flights) {
     result.limited_by = Limit::input_voltage;
     return;
   }
-  if (is_cable_judged(design)) {
-    if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
-      const DemandMargin missed = least_missed(flights, flyable);
-      result.limited_by = limit_of(missed.demand);
-      result.limiting_condition = missed.condition;
-      result.best_headroom = best_headroom(flights.in(missed.condition));
-      return;
-    }
-  }
   const Condition asked = need.headroom_at;
   struct Wanted {
     Condition condition;
     double headroom;
   };
   Wanted missed{asked, demanded_headroom(need, asked)};
+  result.best_headroom = best_headroom(flights.in(asked));
+  const bool enough = result.best_headroom.value >= missed.headroom;
+  if (enough && is_cable_judged(design)) {
+    if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
+      const DemandMargin margin = least_missed(flights, flyable);
+      result.limited_by = limit_of(margin.demand);
+      result.limiting_condition = margin.condition;
+      result.best_headroom = best_headroom(flights.in(margin.condition));
+      return;
+    }
+  }
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    if (headroom_areas(flights.in(condition), 1).empty()) {
+    const OperatingPoint& tried = condition == Condition::hover ? result.hover : result.forward;
+    const bool flies = condition == asked ? result.best_headroom.value >= 1
+                                          : tried.headroom >= 1 ||
+                                                !headroom_areas(flights.in(condition), 1).empty();
+    if (!flies) {
       missed = {condition, 1};
       break;
     }
   }
+  if (missed.condition != asked) result.best_headroom = best_headroom(flights.in(missed.condition));
   result.limiting_condition = missed.condition;
-  result.best_headroom = best_headroom(flights.in(missed.condition));
   result.limited_by = obstacle(flights.in(missed.condition), result.best_headroom, missed.headroom);
 }
 
@@ -189,6 +201,9 @@ void search_feasible_areas(Optimization& result, const Flights& flights) {
     return areas_meeting_demands(flights.in(condition), demanded_headroom(need, condition));
   };
   result.feasible_areas = meeting(asked);
+  if (!is_cable_judged(flights.hover.design()) && !need.buffer_battery) {
+    result.headroom_areas = result.feasible_areas;
+  }
   const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
   if (area > 0) take(result, flights, area);
   if (result.feasible || result.feasible_areas.empty()) return;
@@ -251,7 +266,9 @@ Optimization optimize(const Design& design) {
   const Flights flights = flights_of(design);
   Optimization result = optimum_of(flights);
   const Requirements& need = design.requirements;
-  result.headroom_areas = headroom_areas(flights.in(need.headroom_at), need.thrust_headroom);
+  if (result.headroom_areas.empty()) {
+    result.headroom_areas = headroom_areas(flights.in(need.headroom_at), need.thrust_headroom);
+  }
   // Of an optimum that needed no search.
   if (result.feasible && result.feasible_areas.empty()) {
     result.feasible_areas =

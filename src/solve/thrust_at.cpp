@@ -81,7 +81,12 @@ double battery_kink(const SteadyFlight& flight, double lo, double hi) {
   for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
     if (drone.motor.slope(i) >= drone.motor.slope(i - 1)) continue;
     const double landed = drone.motor.vertices()[i].thrust * drone.motor_count;
-    const double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
+    double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
+    // Rounding may take it to where the battery has leapt already.
+    for (double share = 1e-16; share < kink_rounding / 2 && flight.battery_piece(kink) >= i;
+         share *= 2) {
+      kink *= 1 - share;
+    }
     return lo < kink && kink < hi ? kink : std::sqrt(lo * hi);
   }
   return nan;

@@ -93,6 +93,15 @@ TEST_CASE("no area is better than the optimum of any design that a spec can say"
                     });
 }
 
+TEST_CASE(
+    "cables on the brink of running away, and batteries that leap, are searched up to there") {
+  for (const unsigned seed : {6981U, 7093U, 7717U, 9431U, 200613U, 200988U}) {
+    INFO(seed);
+    test::Random random(seed);
+    check_against_areas(test::random_extreme_design(random), 3000);
+  }
+}
+
 TEST_CASE("a short tether behind a resistive slip ring is given the area that draws least") {
   test::each_random(test::draws(300), [](test::Random& random) {
     Design design = test::published_design();
