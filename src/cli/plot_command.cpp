@@ -16,9 +16,7 @@
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/report/design_figures.hpp"
-#include "tethercalc/report/diagnosis_figure.hpp"
-#include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc::cli {
@@ -120,45 +118,32 @@ constexpr std::array kinds{
 
 const Kind& find_kind(const std::string& name) {
   std::vector<std::string> names;
-  std::string list;
   for (const Kind& kind : kinds) {
     if (kind.name == name) return kind;
     names.emplace_back(kind.name);
-    list += (list.empty() ? "" : ", ") + std::string(kind.name);
   }
-  throw InputError("plot", "there is no kind of figure \"" + name + "\"; allowed are " + list +
-                               did_you_mean(name, names));
+  throw InputError("plot", fmt::format("there is no kind of figure \"{}\"; allowed are {}{}", name,
+                                       fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
 /// An option that belongs to other kinds of figures was meant for something.
 void check_options(const PlotOptions& options) {
-  constexpr std::string_view designs = "optimum, motors, diagnosis";
-  constexpr std::string_view flights = "log, drag, diagnosis";
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> takers{
-      {{"--set", designs},
-       {"--motors", "motors"},
-       {"--view", "drag"},
-       {"--flight", "diagnosis"},
-       {"--power", "diagnosis"},
-       {"--base", "diagnosis"},
-       {"--x", "sweep"},
-       {"--y", "sweep"},
-       {"--value", "sweep"},
-       {"--mass-g", flights},
-       {"--from", flights},
-       {"--to", flights},
-       {"--pitch-offset-deg", flights},
-       {"--trim-log", flights},
-       {"--air-density", flights},
-       {"--pressure-hPa", flights},
-       {"--temperature-C", flights}}};
+  static const std::vector<std::pair<std::string, std::vector<std::string>>> takers{
+      {"optimum, motors, diagnosis", {"--set"}},
+      {"motors", {"--motors"}},
+      {"drag", {"--view"}},
+      {"diagnosis", {"--flight", "--power", "--base"}},
+      {"sweep", {"--x", "--y", "--value"}},
+      {"log, drag, diagnosis",
+       {"--mass-g", "--from", "--to", "--pitch-offset-deg", "--trim-log", "--air-density",
+        "--pressure-hPa", "--temperature-C"}}};
   std::vector<InputProblem> problems;
-  for (const auto& [name, takes] : takers) {
-    const bool given = std::count(options.given.begin(), options.given.end(), name) > 0;
-    if (given && takes.find(options.kind) == std::string_view::npos) {
+  for (const auto& [figures, names] : takers) {
+    if (figures.find(options.kind) != std::string::npos) continue;
+    for (const std::string& name : names) {
+      if (std::count(options.given.begin(), options.given.end(), name) == 0) continue;
       problems.push_back(
-          {std::string(name),
-           fmt::format("is an option of the figures {}, not of {}", takes, options.kind)});
+          {name, fmt::format("is an option of the figures {}, not of {}", figures, options.kind)});
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -1,7 +1,6 @@
 #include "cli/commands.hpp"
 
 #include <string_view>
-#include <utility>
 
 #include "tethercalc/files/gnuplot.hpp"
 #include "tethercalc/files/read_files.hpp"

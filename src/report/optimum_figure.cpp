@@ -2,14 +2,11 @@
 #include <cmath>
 
 #include "report/gnuplot_script.hpp"
-#include "tethercalc/report/design_figures.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 namespace tethercalc {
 namespace {
-
-namespace gp = gnuplot;
-namespace colour = gnuplot::colour;
 
 std::string feasible_style() { return gp::area(colour::green); }
 
@@ -165,7 +162,7 @@ gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> poin
   plot.curve("$curves using 1:4", gp::line(colour::orange, 5), "necessary forward");
   const Optimization& result = study.result;
   if (result.feasible) {
-    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    const OperatingPoint judged = study.points().in(need.headroom_at);
     plot.mark(result.area / unit::square_millimetre, judged.available_thrust / unit::gram_force,
               gp::point(colour::black, 13, 0.9), "");
   } else if (study.best_headroom.value > 0) {
@@ -185,8 +182,7 @@ gp::Plot power_plot(const OptimumStudy& study) {
   gp::Plot plot;
   plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
-    const bool by_hover = study.design.requirements.power_at == Condition::hover;
-    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    const OperatingPoint judged = study.points().in(study.design.requirements.power_at);
     plot.mark(result.area / unit::square_millimetre, judged.total_power,
               gp::point(colour::black, 13, 0.9), "optimum, " + rounded_area(result.area));
   }

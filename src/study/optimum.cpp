@@ -111,7 +111,7 @@ bool converter_caps(const Design& design, Condition condition, double area) {
 
 }  // namespace
 
-Refusal refusal_of(const Design& design, const Optimization& result) {
+Refusal refusal_of(const Design& design, const Optimization& result, const BestHeadroom* known) {
   Refusal refusal{result.limited_by, result.limiting_condition, {}, false};
   switch (result.limited_by) {
     case Limit::conductor_temperature:
@@ -120,7 +120,9 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
     case Limit::input_voltage:
       return refusal;
     default:
-      refusal.best = best_headroom(design, refusal.condition);
+      refusal.best = known != nullptr && refusal.condition == design.requirements.headroom_at
+                         ? *known
+                         : best_headroom(design, refusal.condition);
   }
   refusal.converter_caps =
       refusal.best.value > 0 && converter_caps(design, refusal.condition, refusal.best.area);
@@ -128,9 +130,9 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
 }
 
 DesignOptimum optimum_of(const Design& design) {
-  DesignOptimum optimum{design, optimize(design), {}, {}};
-  if (!optimum.result.feasible) optimum.refusal = refusal_of(design, optimum.result);
-  optimum.best_headroom = best_headroom(design, design.requirements.headroom_at);
+  const BestHeadroom best = best_headroom(design, design.requirements.headroom_at);
+  DesignOptimum optimum{design, optimize(design), {}, best};
+  if (!optimum.result.feasible) optimum.refusal = refusal_of(design, optimum.result, &best);
   return optimum;
 }
 
@@ -164,9 +166,8 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
     with_motor.drone.motor = motor.curve;
     ranking.push_back({optimum_of(with_motor), std::move(motor)});
   }
-  const bool by_hover = design.requirements.power_at == Condition::hover;
-  const auto power = [by_hover](const MotorOptimum& entry) {
-    return by_hover ? entry.result.hover.total_power : entry.result.forward.total_power;
+  const auto power = [&](const MotorOptimum& entry) {
+    return entry.points().in(design.requirements.power_at).total_power;
   };
   std::stable_sort(ranking.begin(), ranking.end(),
                    [&](const MotorOptimum& a, const MotorOptimum& b) {

@@ -22,8 +22,10 @@ struct Refusal {
   bool converter_caps = false;  ///< whether the converter's rating, not the line, allows no more
 };
 
-/// Of a `result` that is infeasible.
-[[nodiscard]] Refusal refusal_of(const Design& design, const Optimization& result);
+/// Of a `result` that is infeasible; `known` is the best headroom at `requirements.headroom_at`,
+/// where it was computed already.
+[[nodiscard]] Refusal refusal_of(const Design& design, const Optimization& result,
+                                 const BestHeadroom* known = nullptr);
 
 /// A conductor that can be bought, or the one of the design.
 struct SizePoints {
@@ -37,6 +39,11 @@ struct DesignOptimum {
   Optimization result;             ///< the optimum
   std::optional<Refusal> refusal;  ///< why there is none
   BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
+
+  /// The optimum, where there is one, in both conditions.
+  [[nodiscard]] AreaPoints points() const {
+    return {result.area, result.hover, result.forward, {}};
+  }
 };
 
 /// Optimises the design.
