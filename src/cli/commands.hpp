@@ -27,8 +27,6 @@ struct SpecOptions {
 /// The spec, read with its changes.
 [[nodiscard]] DesignFile read_spec(const SpecOptions& spec);
 
-// --- Answers about one design -----------------------------------------------------------------
-
 int run_optimize(const SpecOptions& spec, const Output& output);
 
 /// Without `areas_mm2` at the spec's own cross-section.
@@ -47,8 +45,6 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
 /// The envelope of one cross-section: the one of `areas_mm2`, or the spec's own.
 int run_envelope(const SpecOptions& spec, const std::vector<double>& areas_mm2,
                  const Output& output);
-
-// --- Many designs -----------------------------------------------------------------------------
 
 struct SweepOptions {
   SpecOptions spec;
@@ -78,8 +74,6 @@ struct CheckOptions {
 /// InputError where a file could not be checked, after all others were.
 int run_check(const CheckOptions& options, const Output& output);
 
-// --- Specs and the library --------------------------------------------------------------------
-
 /// Reads specs and says what is wrong with them, or that nothing is.
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
                  const Output& output);
@@ -91,8 +85,6 @@ int run_init(const Output& output);
 
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
-
-// --- Logs -------------------------------------------------------------------------------------
 
 /// Which part of which flight log is looked at, and what is known about the flight; what is empty
 /// was not given.
@@ -165,8 +157,6 @@ struct ToldDiagnosis {
 [[nodiscard]] ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file);
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
-
-// --- Figures and pages ------------------------------------------------------------------------
 
 struct PlotOptions {
   std::string kind;                ///< as in `plot_kinds_help`

@@ -27,8 +27,6 @@
 namespace tethercalc::cli {
 namespace {
 
-// --- Interruption ----------------------------------------------------------------------------
-
 volatile std::sig_atomic_t interrupting_signal = 0;
 
 /// While it lives, the first SIGINT or SIGTERM is noted instead of obeyed; a second one ends the
@@ -54,8 +52,6 @@ class InterruptGuard {
  private:
   std::pair<int, struct sigaction> noted_[2] = {{SIGINT, {}}, {SIGTERM, {}}};
 };
-
-// --- Progress ----------------------------------------------------------------------------------
 
 std::string duration_words(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
@@ -99,8 +95,6 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_ + std::chrono::milliseconds(200);
 };
-
-// --- Options -----------------------------------------------------------------------------------
 
 RowFormat row_format(const std::string& format) {
   if (format == "csv") return RowFormat::csv;
@@ -181,8 +175,6 @@ SweepSpace make_space(const SweepOptions& options, const DesignFile& base) {
   }
 }
 
-// --- Resuming ----------------------------------------------------------------------------------
-
 /// One run's rows: which they are, and how they read.
 struct Sweep {
   const SweepSpace& space;
@@ -243,8 +235,6 @@ std::string how_to_continue(const RowFile& file) {
                            file.name())
              : std::string("with --output FILE, --resume could continue");
 }
-
-// --- Running -----------------------------------------------------------------------------------
 
 /// Writes all rows from `first` on. Returns false where it was interrupted.
 bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const ChunkRunner& runner,

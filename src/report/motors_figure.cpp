@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "report/gnuplot_script.hpp"
+#include "tethercalc/report/limit_sentences.hpp"
 #include "tethercalc/report/result_figures.hpp"
 
 namespace tethercalc {
@@ -187,8 +188,7 @@ void explain_marks(gp::Plot& plot, const Requirements& need) {
   const auto explain = [&plot](const char* mark, const std::string& words) {
     plot.points("NaN", fmt::format("lc rgb '{}'{}", colour::black, mark), words);
   };
-  const char* where = need.headroom_at == Condition::hover ? "hover" : "forward flight";
-  explain(circle, fmt::format("necessary in {}", where));
+  explain(circle, "necessary in " + condition_words(need.headroom_at));
   explain(dot, fmt::format("required: {} times that", significant(need.thrust_headroom, 2)));
   explain(plus, "where least power, not headroom, decides");
 }
