@@ -111,7 +111,7 @@ bool converter_caps(const Design& design, Condition condition, double area) {
 
 }  // namespace
 
-Refusal refusal_of(const Design& design, const Optimization& result, const BestHeadroom* known) {
+Refusal refusal_of(const Design& design, const Optimization& result) {
   Refusal refusal{result.limited_by, result.limiting_condition, {}, false};
   switch (result.limited_by) {
     case Limit::conductor_temperature:
@@ -120,9 +120,7 @@ Refusal refusal_of(const Design& design, const Optimization& result, const BestH
     case Limit::input_voltage:
       return refusal;
     default:
-      refusal.best = known != nullptr && refusal.condition == design.requirements.headroom_at
-                         ? *known
-                         : best_headroom(design, refusal.condition);
+      refusal.best = best_headroom(design, refusal.condition);
   }
   refusal.converter_caps =
       refusal.best.value > 0 && converter_caps(design, refusal.condition, refusal.best.area);
@@ -130,9 +128,9 @@ Refusal refusal_of(const Design& design, const Optimization& result, const BestH
 }
 
 DesignOptimum optimum_of(const Design& design) {
-  const BestHeadroom best = best_headroom(design, design.requirements.headroom_at);
-  DesignOptimum optimum{design, optimize(design), {}, best};
-  if (!optimum.result.feasible) optimum.refusal = refusal_of(design, optimum.result, &best);
+  DesignOptimum optimum{design, optimize(design), {}, {}};
+  if (!optimum.result.feasible) optimum.refusal = refusal_of(design, optimum.result);
+  optimum.best_headroom = best_headroom(design, design.requirements.headroom_at);
   return optimum;
 }
 

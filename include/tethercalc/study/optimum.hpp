@@ -22,10 +22,8 @@ struct Refusal {
   bool converter_caps = false;  ///< whether the converter's rating, not the line, allows no more
 };
 
-/// Of a `result` that is infeasible; `known` is the best headroom at `requirements.headroom_at`,
-/// where it was computed already.
-[[nodiscard]] Refusal refusal_of(const Design& design, const Optimization& result,
-                                 const BestHeadroom* known = nullptr);
+/// Of a `result` that is infeasible.
+[[nodiscard]] Refusal refusal_of(const Design& design, const Optimization& result);
 
 /// A conductor that can be bought, or the one of the design.
 struct SizePoints {
