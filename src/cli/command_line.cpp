@@ -16,18 +16,14 @@ namespace {
 /// What a command runs once its arguments are parsed.
 using Action = std::function<int()>;
 
-[[noreturn]] void refuse(const std::string& where, const std::string& message) {
-  throw InputError(where, message);
-}
-
 Format parse_format(const std::string& text) {
   static const std::map<std::string, Format> formats{
       {"table", Format::table}, {"json", Format::json}, {"csv", Format::csv}};
   const auto found = formats.find(text);
   if (found != formats.end()) return found->second;
   const std::vector<std::string> names{"table", "json", "csv"};
-  refuse("--format", "\"" + text + "\" is not a format; allowed are table, json and csv" +
-                         did_you_mean(text, names));
+  throw InputError("--format", "\"" + text + "\" is not a format; allowed are table, json and csv" +
+                                   did_you_mean(text, names));
 }
 
 void add_output_file(CLI::App& command, Output& output) {
@@ -116,9 +112,7 @@ class CommandLine {
     add_design();
     add_envelope();
     add_validate();
-    add_schema();
-    add_init();
-    add_list();
+    add_texts();
     add_drag();
     add_diagnose();
     add_log();
@@ -137,8 +131,8 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       const auto chosen = app_.get_subcommands();
       const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
-      refuse("tethercalc" + name,
-             std::string(error.what()) + " (see tethercalc" + name + " --help)");
+      throw InputError("tethercalc" + name,
+                       std::string(error.what()) + " (see tethercalc" + name + " --help)");
     }
     const CLI::App* command = app_.get_subcommands().front();
     check_extras(*command);
@@ -244,23 +238,17 @@ class CommandLine {
     add_output(command, output_);
   }
 
-  void add_schema() {
-    CLI::App& command = add("schema", "The JSON Schema of design specs, for editors",
-                            [this] { return run_schema(output_); });
-    add_output_file(command, output_);
-  }
-
-  void add_init() {
-    CLI::App& command =
-        add("init", "A starting spec to edit", [this] { return run_init(output_); });
-    add_output_file(command, output_);
-  }
-
-  void add_list() {
-    CLI::App& command = add("list", "The library: motors, conductors, insulation or sizes",
-                            [this] { return run_list(what_, output_); });
-    command.add_option("WHAT", what_, "motors, conductors, insulation or sizes")->required();
-    add_output(command, output_);
+  /// What is printed as it stands: the schema, a starting spec, the library.
+  void add_texts() {
+    add_output_file(add("schema", "The JSON Schema of design specs, for editors",
+                        [this] { return run_schema(output_); }),
+                    output_);
+    add_output_file(add("init", "A starting spec to edit", [this] { return run_init(output_); }),
+                    output_);
+    CLI::App& list = add("list", "The library: motors, conductors, insulation or sizes",
+                         [this] { return run_list(what_, output_); });
+    list.add_option("WHAT", what_, "motors, conductors, insulation or sizes")->required();
+    add_output(list, output_);
   }
 
   void add_drag() {
@@ -339,14 +327,16 @@ class CommandLine {
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
   void check_command(int argc, const char* const* argv) const {
-    if (argc < 2) refuse("tethercalc", "a command is needed (tethercalc --help lists them)");
+    if (argc < 2)
+      throw InputError("tethercalc", "a command is needed (tethercalc --help lists them)");
     if (argv[1][0] == '-') return;
     std::vector<std::string> names;
     for (const auto& [name, action] : actions_) names.push_back(name);
     const std::string given = argv[1];
     if (actions_.count(given) == 0) {
-      refuse("tethercalc", "there is no command \"" + given + "\"" + did_you_mean(given, names) +
-                               " (tethercalc --help lists them)");
+      throw InputError("tethercalc", "there is no command \"" + given + "\"" +
+                                         did_you_mean(given, names) +
+                                         " (tethercalc --help lists them)");
     }
   }
 

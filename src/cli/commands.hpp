@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/flight_options.hpp"
 #include "cli/output.hpp"
 #include "tethercalc/diagnose/diagnosis.hpp"
+#include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
 #include "tethercalc/study/drag.hpp"
@@ -26,8 +26,6 @@ struct SpecOptions {
 
 /// The spec, read with its changes.
 [[nodiscard]] DesignFile read_spec(const SpecOptions& spec);
-
-// --- Answers about one design -----------------------------------------------------------------
 
 int run_optimize(const SpecOptions& spec, const Output& output);
 
@@ -47,8 +45,6 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
 /// The envelope of one cross-section: the one of `areas_mm2`, or the spec's own.
 int run_envelope(const SpecOptions& spec, const std::vector<double>& areas_mm2,
                  const Output& output);
-
-// --- Many designs -----------------------------------------------------------------------------
 
 struct SweepOptions {
   SpecOptions spec;
@@ -78,8 +74,6 @@ struct CheckOptions {
 /// InputError where a file could not be checked, after all others were.
 int run_check(const CheckOptions& options, const Output& output);
 
-// --- Specs and the library --------------------------------------------------------------------
-
 /// Reads specs and says what is wrong with them, or that nothing is.
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
                  const Output& output);
@@ -92,7 +86,35 @@ int run_init(const Output& output);
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
 
-// --- Logs -------------------------------------------------------------------------------------
+/// Which part of which flight log is looked at, and what is known about the flight; what is empty
+/// was not given.
+struct FlightOptions {
+  int core = 0;
+  std::string from;  ///< "25%" of the samples, or seconds of the log's clock
+  std::string to;
+  std::string trim_log;  ///< a hover flight whose mean pitch is the offset
+  std::optional<double> pitch_offset_deg;
+  std::optional<double> mass_g;
+  std::optional<double> air_density_kg_m3;
+  std::optional<double> pressure_hPa;
+  std::optional<double> temperature_C;
+};
+
+/// Where the part of the log begins or ends that `text`, as given to `option`, names: percent of
+/// the samples with a "%", else seconds; nothing for an empty text. Throws InputError for anything
+/// else.
+[[nodiscard]] std::optional<LogPosition> log_position(const std::string& option,
+                                                      const std::string& text);
+
+/// rad: given, from the trim log, or 0.
+[[nodiscard]] double pitch_offset(const FlightOptions& options);
+
+/// The mass in kg that was given, if any. Throws InputError where it is out of range.
+[[nodiscard]] std::optional<double> flown_mass(const FlightOptions& options);
+
+/// kg/m³: given, or from pressure and temperature; nothing where neither was. Throws InputError for
+/// impossible values, half a pair, or both.
+[[nodiscard]] std::optional<double> air_density(const FlightOptions& options);
 
 /// What a DataFlash log holds, or all messages of one name as CSV.
 int run_log(const std::string& file, const std::string& message, const Output& output);
@@ -135,8 +157,6 @@ struct ToldDiagnosis {
 [[nodiscard]] ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file);
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
-
-// --- Figures and pages ------------------------------------------------------------------------
 
 struct PlotOptions {
   std::string kind;                ///< as in `plot_kinds_help`

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -43,7 +44,74 @@ void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptio
   }
 }
 
+void check_range(const char* option, double value, double least, double most, const char* unit) {
+  if (value >= least && value <= most) return;
+  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
+                                       most, unit));
+}
+
 }  // namespace
+
+std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const std::string suffix = end;
+  if (end == text.c_str() || !std::isfinite(value) ||
+      !(suffix.empty() || suffix == "s" || suffix == "%")) {
+    throw InputError(option,
+                     "\"" + text +
+                         "\" is not a place in a log; allowed are seconds (120 or 120s) and "
+                         "percent of the samples (25%)");
+  }
+  return LogPosition{value, suffix == "%"};
+}
+
+double pitch_offset(const FlightOptions& options) {
+  if (options.pitch_offset_deg && !options.trim_log.empty()) {
+    throw InputError("--trim-log",
+                     "and --pitch-offset-deg both give the pitch offset; only one can be right");
+  }
+  if (options.pitch_offset_deg) {
+    const double degrees = *options.pitch_offset_deg;
+    check_range("--pitch-offset-deg", degrees, -45, 45, "degrees");
+    return degrees * unit::degree;
+  }
+  if (options.trim_log.empty()) return 0;
+  try {
+    return pitch_offset_from_hover(read_flight_log(options.trim_log, {options.core}).log);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(options.trim_log, error.what());
+  }
+}
+
+std::optional<double> flown_mass(const FlightOptions& options) {
+  if (!options.mass_g) return std::nullopt;
+  check_range("--mass-g", *options.mass_g, 1, 1000000, "g");
+  return *options.mass_g * unit::gram;
+}
+
+std::optional<double> air_density(const FlightOptions& options) {
+  const bool by_weather = options.pressure_hPa || options.temperature_C;
+  if (options.air_density_kg_m3) {
+    if (by_weather) {
+      throw InputError("--air-density",
+                       "goes without --pressure-hPa and --temperature-C: they give it too");
+    }
+    check_range("--air-density", *options.air_density_kg_m3, 0.1, 2, "kg/m³");
+    return options.air_density_kg_m3;
+  }
+  if (!by_weather) return std::nullopt;
+  if (!options.pressure_hPa || !options.temperature_C) {
+    throw InputError("--pressure-hPa",
+                     "and --temperature-C give the air density together, not alone");
+  }
+  check_range("--pressure-hPa", *options.pressure_hPa, 100, 1200, "hPa");
+  check_range("--temperature-C", *options.temperature_C, -80, 80, "°C");
+  constexpr double pascal_per_hPa = 100;
+  return dry_air_density(*options.pressure_hPa * pascal_per_hPa,
+                         *options.temperature_C + zero_celsius_K);
+}
 
 int run_log(const std::string& file, const std::string& message, const Output& output) {
   const MappedFile log(file);
@@ -83,7 +151,7 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, i
   for (const std::string& name : names) {
     FlightLogReading reading = read_flight_log(name, {core});
     for (const std::string& note : reading.notes) {
-      std::fprintf(stderr, "%s: %s\n", name.c_str(), note.c_str());
+      fmt::print(stderr, "{}: {}\n", name, note);
     }
     logs.push_back(std::move(reading.log));
   }

@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
@@ -28,12 +27,6 @@
 namespace tethercalc::cli {
 namespace {
 
-[[noreturn]] void refuse(const std::string& where, const std::string& message) {
-  throw InputError({{where, message}});
-}
-
-// --- Interruption ----------------------------------------------------------------------------
-
 volatile std::sig_atomic_t interrupting_signal = 0;
 
 /// While it lives, the first SIGINT or SIGTERM is noted instead of obeyed; a second one ends the
@@ -44,25 +37,21 @@ class InterruptGuard {
     struct sigaction noting {};
     noting.sa_handler = [](int signal) { interrupting_signal = signal; };
     noting.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(SIGINT, &noting, &old_int_);
-    ::sigaction(SIGTERM, &noting, &old_term_);
-    // Who started this program deaf to a signal, as shells do in the background, meant it.
-    if (old_int_.sa_handler == SIG_IGN) ::sigaction(SIGINT, &old_int_, nullptr);
-    if (old_term_.sa_handler == SIG_IGN) ::sigaction(SIGTERM, &old_term_, nullptr);
+    for (auto& [signal, old] : noted_) {
+      ::sigaction(signal, &noting, &old);
+      // Who started this program deaf to a signal, as shells do in the background, meant it.
+      if (old.sa_handler == SIG_IGN) ::sigaction(signal, &old, nullptr);
+    }
   }
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
   ~InterruptGuard() {
-    ::sigaction(SIGINT, &old_int_, nullptr);
-    ::sigaction(SIGTERM, &old_term_, nullptr);
+    for (const auto& [signal, old] : noted_) ::sigaction(signal, &old, nullptr);
   }
 
  private:
-  struct sigaction old_int_ {};
-  struct sigaction old_term_ {};
+  std::pair<int, struct sigaction> noted_[2] = {{SIGINT, {}}, {SIGTERM, {}}};
 };
-
-// --- Progress ----------------------------------------------------------------------------------
 
 std::string duration_words(double seconds) {
   const auto whole = static_cast<std::int64_t>(std::ceil(seconds));
@@ -88,10 +77,8 @@ class Progress {
     const auto done = static_cast<double>(row - range_.begin);
     const auto all = static_cast<double>(range_.end - range_.begin);
     const double rate = done / seconds;
-    std::fprintf(stderr, "\r\x1b[K%s",
-                 fmt::format("{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done, all,
-                             100 * done / all, rate, duration_words((all - done) / rate))
-                     .c_str());
+    fmt::print(stderr, "\r\x1b[K{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done, all,
+               100 * done / all, rate, duration_words((all - done) / rate));
     std::fflush(stderr);
     drawn_ = true;
   }
@@ -109,20 +96,18 @@ class Progress {
   Clock::time_point next_ = start_ + std::chrono::milliseconds(200);
 };
 
-// --- Options -----------------------------------------------------------------------------------
-
 RowFormat row_format(const std::string& format) {
   if (format == "csv") return RowFormat::csv;
   if (format == "jsonl" || format == "json") return RowFormat::json_lines;
-  refuse("--format",
-         fmt::format("\"{}\" is no format of a sweep; allowed are csv and jsonl", format));
+  throw InputError(
+      "--format", fmt::format("\"{}\" is no format of a sweep; allowed are csv and jsonl", format));
 }
 
 SampleMethod sample_method(const std::string& method) {
   if (method == "sobol") return SampleMethod::sobol;
   if (method == "lhs") return SampleMethod::latin_hypercube;
-  refuse("--method",
-         fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
+  throw InputError("--method",
+                   fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
 }
 
 /// 0 where the text is no whole number.
@@ -146,7 +131,8 @@ Shard parsed_shard(const std::string& text) {
   const std::string_view after = std::string_view(text).substr(slash);
   const Shard shard{positive_number(before), positive_number(after.substr(after.empty() ? 0 : 1))};
   if (shard.part < 1 || shard.part > shard.parts) {
-    refuse("--shard", fmt::format("\"{}\" is not i/n with i from 1 to n, such as 2/8", text));
+    throw InputError("--shard",
+                     fmt::format("\"{}\" is not i/n with i from 1 to n, such as 2/8", text));
   }
   return shard;
 }
@@ -157,18 +143,19 @@ bool to_standard_output(const SweepOptions& options) {
 
 void check_options(const SweepOptions& options) {
   if (options.varied.empty()) {
-    refuse("tethercalc sweep",
-           "nothing varies: give --vary path=values, such as --vary supply.voltage_V=40:100:5");
+    throw InputError(
+        "tethercalc sweep",
+        "nothing varies: give --vary path=values, such as --vary supply.voltage_V=40:100:5");
   }
   if (options.resume && to_standard_output(options)) {
-    refuse("--resume", "needs --output FILE: only a file can be continued");
+    throw InputError("--resume", "needs --output FILE: only a file can be continued");
   }
-  if (options.sample && *options.sample == 0) refuse("--sample", "must be at least 1");
+  if (options.sample && *options.sample == 0) throw InputError("--sample", "must be at least 1");
   if (!options.summary_file.empty() && !options.sample) {
-    refuse("--summary", "needs --sample N: only a sample has a summary");
+    throw InputError("--summary", "needs --sample N: only a sample has a summary");
   }
   if (!options.summary_file.empty() && !options.shard.empty()) {
-    refuse("--summary", "needs every draw, so it does not go with --shard");
+    throw InputError("--summary", "needs every draw, so it does not go with --shard");
   }
 }
 
@@ -184,11 +171,9 @@ SweepSpace make_space(const SweepOptions& options, const DesignFile& base) {
     check_sweep_rows(space, base);
     return space;
   } catch (const std::invalid_argument& error) {
-    refuse("--vary", error.what());
+    throw InputError("--vary", error.what());
   }
 }
-
-// --- Resuming ----------------------------------------------------------------------------------
 
 /// One run's rows: which they are, and how they read.
 struct Sweep {
@@ -211,10 +196,11 @@ struct Sweep {
 
 [[noreturn]] void refuse_to_resume(const RowFile& file, std::uint64_t line,
                                    const std::string& found, const std::string& expected) {
-  refuse(fmt::format("{}:{}", file.name(), line),
-         fmt::format("does not belong to this sweep, so it cannot be continued: the spec, the "
-                     "options or the program differ\n  found    {}\n  expected {}",
-                     found.substr(0, 200), expected.substr(0, 200)));
+  throw InputError(
+      fmt::format("{}:{}", file.name(), line),
+      fmt::format("does not belong to this sweep, so it cannot be continued: the spec, the "
+                  "options or the program differ\n  found    {}\n  expected {}",
+                  found.substr(0, 200), expected.substr(0, 200)));
 }
 
 /// Number of rows of the sweep that `file` already holds. Its first and last line are compared with
@@ -233,8 +219,8 @@ std::uint64_t rows_done(const Sweep& sweep, const RowFile& file) {
     if (file.first_line() != first) refuse_to_resume(file, 1, file.first_line(), first);
   }
   if (lines > sweep.range.end - sweep.range.begin) {
-    refuse(file.name(), fmt::format("holds {} rows, more than the {} of this sweep", lines,
-                                    sweep.range.end - sweep.range.begin));
+    throw InputError(file.name(), fmt::format("holds {} rows, more than the {} of this sweep",
+                                              lines, sweep.range.end - sweep.range.begin));
   }
   const std::string last = sweep.line(sweep.range.begin + lines - 1);
   if (file.last_line() != last) {
@@ -249,8 +235,6 @@ std::string how_to_continue(const RowFile& file) {
                            file.name())
              : std::string("with --output FILE, --resume could continue");
 }
-
-// --- Running -----------------------------------------------------------------------------------
 
 /// Writes all rows from `first` on. Returns false where it was interrupted.
 bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const ChunkRunner& runner,
@@ -278,16 +262,14 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
     file.close();
   } catch (const std::system_error& error) {
     progress.clear();
-    refuse(file.name(),
-           fmt::format("cannot be written: {}; {}", error.code().message(), how_to_continue(file)));
+    throw InputError(file.name(), fmt::format("cannot be written: {}; {}", error.code().message(),
+                                              how_to_continue(file)));
   }
   progress.clear();
   if (interrupting_signal == 0) return true;
-  std::fprintf(
-      stderr, "%s\n",
-      fmt::format("tethercalc: interrupted after {} of {} designs; {}", written - sweep.range.begin,
-                  sweep.range.end - sweep.range.begin, how_to_continue(file))
-          .c_str());
+  fmt::print(stderr, "tethercalc: interrupted after {} of {} designs; {}\n",
+             written - sweep.range.begin, sweep.range.end - sweep.range.begin,
+             how_to_continue(file));
   return false;
 }
 

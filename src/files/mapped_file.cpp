@@ -9,16 +9,11 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
-#include <utility>
 
 #include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
 namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
-  throw InputError({{path.string(), what}});
-}
 
 struct Descriptor {
   int number;
@@ -36,7 +31,7 @@ std::vector<std::byte> read_to_end(int descriptor, const std::filesystem::path& 
     if (got > 0) {
       all.insert(all.end(), part.begin(), part.begin() + got);
     } else if (errno != EINTR) {
-      fail(path, std::string("cannot be read: ") + std::strerror(errno));
+      throw InputError(path.string(), std::string("cannot be read: ") + std::strerror(errno));
     }
   }
 }
@@ -47,9 +42,11 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) {
-    fail(path, std::string("cannot be opened: ") + std::strerror(errno));
+    throw InputError(path.string(), std::string("cannot be opened: ") + std::strerror(errno));
   }
-  if (S_ISDIR(status.st_mode)) fail(path, "is a directory, expected a file");
+  if (S_ISDIR(status.st_mode)) {
+    throw InputError(path.string(), "is a directory, expected a file");
+  }
   if (S_ISREG(status.st_mode) && status.st_size > 0) {
     const auto size = static_cast<std::size_t>(status.st_size);
     void* const start = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
@@ -67,15 +64,6 @@ MappedFile::~MappedFile() {
   if (copy_.empty() && !bytes_.empty()) {
     ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
   }
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept
-    : bytes_(std::exchange(other.bytes_, {})), copy_(std::move(other.copy_)) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-  std::swap(bytes_, other.bytes_);
-  std::swap(copy_, other.copy_);
-  return *this;
 }
 
 }  // namespace tethercalc

@@ -19,10 +19,6 @@ class MappedFile {
   /// or is a directory.
   explicit MappedFile(const std::filesystem::path& path);
   ~MappedFile();
-  /// Takes the bytes of `other`, which is left without any.
-  MappedFile(MappedFile&& other) noexcept;
-  /// Exchanges the bytes of the two.
-  MappedFile& operator=(MappedFile&& other) noexcept;
   MappedFile(const MappedFile&) = delete;
   MappedFile& operator=(const MappedFile&) = delete;
 

@@ -4,12 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "files/whole_file.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
@@ -25,8 +25,7 @@ bool is_regular_file(int file) {
 int open_or_refuse(const std::string& path, int flags, const char* purpose) {
   const int file = ::open(path.c_str(), flags | O_CREAT | O_CLOEXEC, 0666);
   if (file < 0) {
-    throw InputError(
-        {{path, std::string("cannot be opened for ") + purpose + ": " + reason(errno)}});
+    throw InputError(path, std::string("cannot be opened for ") + purpose + ": " + reason(errno));
   }
   return file;
 }
@@ -43,7 +42,6 @@ RowFile::RowFile(RowFile&& other) noexcept
       name_(std::move(other.name_)),
       size_(other.size_),
       lines_found_(other.lines_found_),
-      lines_appended_(other.lines_appended_),
       first_line_(std::move(other.first_line_)),
       last_line_(std::move(other.last_line_)) {}
 
@@ -65,11 +63,11 @@ RowFile RowFile::create(const std::string& path) {
 
 RowFile RowFile::resume(const std::string& path) {
   RowFile rows(open_or_refuse(path, O_RDWR, "reading and writing"), path, true);
-  if (!rows.regular_) throw InputError({{path, "is no regular file, so it cannot be continued"}});
+  if (!rows.regular_) throw InputError(path, "is no regular file, so it cannot be continued");
   rows.read_what_is_there();
   const auto size = static_cast<off_t>(rows.size_);
   if (::ftruncate(rows.file_, size) != 0 || ::lseek(rows.file_, size, SEEK_SET) != size) {
-    throw InputError({{path, "cannot be continued: " + reason(errno)}});
+    throw InputError(path, "cannot be continued: " + reason(errno));
   }
   return rows;
 }
@@ -80,7 +78,7 @@ void RowFile::read_what_is_there() {
   while (true) {
     const ssize_t count = ::read(file_, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw InputError({{name_, "cannot be read: " + reason(errno)}});
+    if (count < 0) throw InputError(name_, "cannot be read: " + reason(errno));
     if (count == 0) return;
     std::string_view rest(buffer.data(), static_cast<std::size_t>(count));
     for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n')) {
@@ -97,19 +95,10 @@ void RowFile::read_what_is_there() {
 
 void RowFile::append(std::string_view lines) {
   std::string_view rest = lines;
-  int error = 0;
-  while (!rest.empty() && error == 0) {
-    const ssize_t count = ::write(file_, rest.data(), rest.size());
-    if (count >= 0) {
-      rest.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      error = errno;
-    }
-  }
+  const int error = write_all(file_, rest);
   const std::string_view written = lines.substr(0, lines.size() - rest.size());
   const std::string_view whole = written.substr(0, written.rfind('\n') + 1);
   size_ += whole.size();
-  lines_appended_ += static_cast<std::uint64_t>(std::count(whole.begin(), whole.end(), '\n'));
   if (error == 0) return;
   if (regular_ && whole.size() < written.size()) {
     // Nothing better can be done where even this fails; `resume` will cut then.

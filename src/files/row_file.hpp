@@ -46,9 +46,6 @@ class RowFile {
   /// left, reader gone); a regular file then ends with the last line that was written whole.
   void append(std::string_view lines);
 
-  /// Number of lines appended, also where `append` failed.
-  [[nodiscard]] std::uint64_t lines_appended() const { return lines_appended_; }
-
   /// Closes the file; throws std::system_error where the system reports only now that it could not
   /// be written.
   void close();
@@ -63,7 +60,6 @@ class RowFile {
   std::string name_;
   std::uint64_t size_ = 0;  ///< bytes up to the end of the last whole line
   std::uint64_t lines_found_ = 0;
-  std::uint64_t lines_appended_ = 0;
   std::string first_line_;
   std::string last_line_;
 };

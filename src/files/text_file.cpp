@@ -19,10 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const std::string& name, std::string message) {
-  throw InputError({{name, std::move(message)}});
-}
-
 std::string closest_file_hint(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code error;
@@ -43,14 +39,16 @@ std::string read_all(std::FILE* file, const std::string& name) {
     const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file);
     text.append(buffer.data(), count);
     if (text.size() > text_file_limit) {
-      refuse(name, fmt::format("is larger than {} bytes, the most that a spec, a motor or a "
-                               "material may have; is it the right file?",
-                               text_file_limit));
+      throw InputError(name,
+                       fmt::format("is larger than {} bytes, the most that a spec, a motor or a "
+                                   "material may have; is it the right file?",
+                                   text_file_limit));
     }
     if (count < buffer.size()) break;
   }
-  if (std::ferror(file) != 0) refuse(name, fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) refuse(name, "is empty");
+  if (std::ferror(file) != 0)
+    throw InputError(name, fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw InputError(name, "is empty");
   return text;
 }
 
@@ -64,12 +62,13 @@ LoadedText read_text_file(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (path.empty() || status.type() == fs::file_type::not_found) {
-    refuse(path.empty() ? "\"\"" : path, "no such file" + closest_file_hint(path));
+    throw InputError(path.empty() ? "\"\"" : path, "no such file" + closest_file_hint(path));
   }
-  if (fs::is_directory(status)) refuse(path, "is a directory, not a file");
+  if (fs::is_directory(status)) throw InputError(path, "is a directory, not a file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
-  if (file == nullptr) refuse(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  if (file == nullptr)
+    throw InputError(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
   return {path, read_all(file.get(), path)};
 }
 

@@ -15,21 +15,7 @@ namespace tethercalc {
 namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, int error) {
-  throw InputError(
-      {{path.string(), "cannot be written: " + std::generic_category().message(error)}});
-}
-
-/// 0, or the system's error.
-int write_all(int file, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(file, content.data(), content.size());
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      return errno;
-    }
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
+  throw InputError(path.string(), "cannot be written: " + std::generic_category().message(error));
 }
 
 void write_directly(const std::filesystem::path& path, std::string_view content) {
@@ -41,6 +27,15 @@ void write_directly(const std::filesystem::path& path, std::string_view content)
 }
 
 }  // namespace
+
+int write_all(int file, std::string_view& content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file, content.data(), content.size());
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content) {
   std::error_code ignored;

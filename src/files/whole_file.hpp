@@ -11,4 +11,8 @@ namespace tethercalc {
 /// directly. Throws InputError, naming the file and the system's reason, where that fails.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
+/// Writes `content` to an open file. Returns 0 or the system's error; what was not written is left
+/// in `content`.
+[[nodiscard]] int write_all(int file, std::string_view& content);
+
 }  // namespace tethercalc

@@ -59,8 +59,7 @@ std::string battery_sentence(const Design& design, const OperatingPoint& point) 
       by_energy ? "its energy" : "its discharge rate");
 }
 
-std::string converter_sentence(const Design& design, const OperatingPoint& hover,
-                               const OperatingPoint& forward) {
+std::string converter_sentence(const Design& design, const AreaPoints& points) {
   const Converter& converter = design.supply.converter;
   const auto volts = [&](const OperatingPoint& point) {
     const double voltage = output_voltage(design, point);
@@ -69,7 +68,7 @@ std::string converter_sentence(const Design& design, const OperatingPoint& hover
   return fmt::format(
       "The motors get {} in hover and {} in forward flight behind the fixed ratio of {}{}; "
       "without load {} V.",
-      volts(hover), volts(forward), significant(*converter.fixed_ratio, 4),
+      volts(points.hover), volts(points.forward), significant(*converter.fixed_ratio, 4),
       converter.min_output_voltage > 0
           ? fmt::format(", and need {} V", significant(converter.min_output_voltage, 3))
           : "",
@@ -85,16 +84,20 @@ ordered_json battery_json(const Design& design, const OperatingPoint& point) {
            number_or_null(landing_power(design.drone, point.takeoff_mass, design.flight.gravity))}};
 }
 
-ordered_json converter_json(const Design& design, const OperatingPoint& hover,
-                            const OperatingPoint& forward) {
+ordered_json converter_json(const Design& design, const AreaPoints& points) {
   const Converter& converter = design.supply.converter;
   const double mass = converter_mass(converter);
   return {{"mass_g", mass / unit::gram},
-          {"hover_output_voltage_V", number_or_null(output_voltage(design, hover))},
-          {"forward_output_voltage_V", number_or_null(output_voltage(design, forward))}};
+          {"hover_output_voltage_V", number_or_null(output_voltage(design, points.hover))},
+          {"forward_output_voltage_V", number_or_null(output_voltage(design, points.forward))}};
 }
 
-}  // namespace
+/// A range of direct voltages by what protects people from it.
+struct VoltageClass {
+  std::string_view name;
+  double up_to = 0;  ///< V, the highest of the class
+  std::string_view sentence;
+};
 
 VoltageClass voltage_class(double voltage) {
   static constexpr std::array classes{
@@ -113,51 +116,51 @@ VoltageClass voltage_class(double voltage) {
                        [voltage](const VoltageClass& c) { return voltage <= c.up_to; });
 }
 
+}  // namespace
+
 ordered_json voltage_class_json(double voltage) {
   const VoltageClass found = voltage_class(voltage);
   return {{"name", found.name}, {"sentence", found.sentence}};
 }
 
-ordered_json thermal_json(const Design& design, const OperatingPoint& hover,
-                          const OperatingPoint& forward) {
+ordered_json thermal_json(const Design& design, const AreaPoints& points) {
   const Tether& tether = design.tether;
   if (!tether.ambient_temperature_C) return nullptr;
   return {{"ambient_temperature_C", *tether.ambient_temperature_C},
           {"rated_temperature_C", number_or_null(tether.insulation.rated_temperature_C)},
-          {"hover", temperatures_json(hover)},
-          {"forward", temperatures_json(forward)}};
+          {"hover", temperatures_json(points.hover)},
+          {"forward", temperatures_json(points.forward)}};
 }
 
-ordered_json cable_json(const Design& design, const OperatingPoint& hover,
-                        const OperatingPoint& forward) {
-  const double load = breaking_load(design.tether, hover.cross_section);
+ordered_json cable_json(const Design& design, const AreaPoints& points) {
+  const double load = breaking_load(design.tether, points.area);
   const double breakdown = breakdown_voltage(design);
-  return {{"tension_N", number_or_null(std::max(hover.tether_tension, forward.tether_tension))},
+  return {{"tension_N",
+           number_or_null(std::max(points.hover.tether_tension, points.forward.tether_tension))},
           {"breaking_load_N", number_or_null(load > 0 ? load : nan)},
           {"required_safety_factor", design.requirements.strength_safety_factor},
           {"wall_mm",
            insulation_wall(design.tether.insulation, design.supply.voltage) / unit::millimetre},
           {"breakdown_voltage_V", number_or_null(breakdown > 0 ? breakdown : nan)},
-          {"converter", converter_json(design, hover, forward)},
-          {"reserve_battery", battery_json(design, hover)}};
+          {"converter", converter_json(design, points)},
+          {"reserve_battery", battery_json(design, points.hover)}};
 }
 
-std::vector<std::string> cable_sentences(const Design& design, const OperatingPoint& hover,
-                                         const OperatingPoint& forward) {
+std::vector<std::string> cable_sentences(const Design& design, const AreaPoints& points) {
   std::vector<std::string> sentences;
   const Tether& tether = design.tether;
   if (tether.ambient_temperature_C) {
     const auto rated = tether.insulation.rated_temperature_C;
     sentences.push_back(fmt::format(
         "In air of {} °C the conductor's temperature is {} and {}; the insulation is {}.",
-        significant(*tether.ambient_temperature_C, 3), temperature_words("hover", hover),
-        temperature_words("forward flight", forward),
+        significant(*tether.ambient_temperature_C, 3), temperature_words("hover", points.hover),
+        temperature_words("forward flight", points.forward),
         rated ? fmt::format("rated for {} °C", significant(*rated, 3))
               : std::string("of no known rating")));
   }
   if (design.requirements.strength_safety_factor > 0) {
-    const double tension = std::max(hover.tether_tension, forward.tether_tension);
-    const double load = breaking_load(tether, hover.cross_section);
+    const double tension = std::max(points.hover.tether_tension, points.forward.tether_tension);
+    const double load = breaking_load(tether, points.area);
     sentences.push_back(
         fmt::format("The tether pulls at the drone with {} N and breaks at {} N, {} times that.",
                     significant(tension, 3), significant(load, 3), significant(load / tension, 3)));
@@ -176,10 +179,10 @@ std::vector<std::string> cable_sentences(const Design& design, const OperatingPo
                                     significant(mass / unit::gram, 3)));
   }
   if (design.supply.converter.fixed_ratio) {
-    sentences.push_back(converter_sentence(design, hover, forward));
+    sentences.push_back(converter_sentence(design, points));
   }
   if (design.drone.reserve_battery.specific_energy > 0) {
-    sentences.push_back(battery_sentence(design, hover));
+    sentences.push_back(battery_sentence(design, points.hover));
   }
   sentences.push_back(fmt::format("{} V is {}.", significant(design.supply.voltage, 3),
                                   voltage_class(design.supply.voltage).sentence));

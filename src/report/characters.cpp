@@ -74,24 +74,12 @@ std::string printable(std::string_view text, std::size_t longest) {
 std::string markup_text(std::string_view text) {
   std::string out;
   for_each_character(text, [&out](std::uint32_t c, std::string_view bytes) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += unprintable(c) && !is_white_space(c) ? replacement : bytes;
+    constexpr std::string_view special = "&<>\"'";
+    constexpr std::array entities{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+    if (const std::size_t at = special.find(bytes); at != std::string_view::npos) {
+      out += entities.at(at);
+    } else {
+      out += unprintable(c) && !is_white_space(c) ? replacement : bytes;
     }
   });
   return out;

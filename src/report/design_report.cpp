@@ -10,6 +10,7 @@
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc {
 namespace {
@@ -40,20 +41,6 @@ ordered_json ready_spec(const DesignFile& file, const DesignStudy& study) {
   return spec_with(file, design, names);
 }
 
-/// Unit in which a key's name ends, as people write it; empty where it has none.
-std::string unit_of_key(const std::string& key) {
-  const std::string last = key.substr(key.rfind('_') + 1);
-  if (last == "mm2") return "mm²";
-  if (last == "deg") return "°";
-  if (last == "ohm") return "Ω";
-  if (last == "C") return "°C";
-  if (last == "s" && key.ends_with("m_s")) return "m/s";
-  for (const char* plain : {"W", "g", "A", "V", "m", "N", "mm"}) {
-    if (last == plain) return last;
-  }
-  return "";
-}
-
 std::string quantity_words(double value, const std::string& unit) {
   return significant(value, 3) + (unit.empty() || unit == "°" ? unit : " " + unit);
 }
@@ -65,39 +52,10 @@ std::string step_words(double step, const std::string& unit) {
 
 /// What a change of the objective means.
 std::string effect_words(const std::string& key, double change) {
-  const std::string unit = unit_of_key(key);
+  const std::string unit = unit_of(key);
   const std::string amount = quantity_words(std::abs(change), unit);
   if (unit.empty()) return fmt::format("{} {} by {}", change > 0 ? "raise" : "lower", key, amount);
   return fmt::format("{} {}", change > 0 ? "cost" : "save", amount);
-}
-
-/// The demand that binds, in words.
-std::string demand_words(const Design& design, Demand demand) {
-  const Requirements& need = design.requirements;
-  const Converter& converter = design.supply.converter;
-  switch (demand) {
-    case Demand::thrust_headroom:
-      return fmt::format("The thrust headroom of {} in {}", fixed(need.thrust_headroom, 2),
-                         condition_words(need.headroom_at));
-    case Demand::max_pitch:
-      return fmt::format("The largest tilt of {}°", significant(need.max_pitch / unit::degree, 3));
-    case Demand::conductor_temperature:
-    case Demand::drum_temperature:
-      return fmt::format("The insulation's rated {} °C",
-                         significant(*design.tether.insulation.rated_temperature_C, 3));
-    case Demand::tether_strength:
-      return fmt::format("The tether's strength of {} times its tension",
-                         significant(need.strength_safety_factor, 3));
-    case Demand::converter_rating:
-      return fmt::format("The converter's rated {} W",
-                         significant(*converter.rated_output_power, 4));
-    case Demand::input_voltage:
-      return fmt::format("The converter's highest input of {} V",
-                         significant(*converter.max_input_voltage, 4));
-    case Demand::takeoff_mass:
-      break;
-  }
-  return std::string(demand_name(demand));
 }
 
 /// "tether.length_m at the low end of its range", with `verb` before "the".
@@ -124,8 +82,7 @@ std::string binding_words(const DesignStudy& study, const ShadowPrice& price) {
 /// What would cost or save.
 std::string change_words(const ShadowPrice& price) {
   if (price.of != Priced::field) {
-    return step_words(price.step,
-                      unit_of_key(price.name.substr(0, price.name.find_first_of("<>"))));
+    return step_words(price.step, unit_of(price.name.substr(0, price.name.find_first_of("<>"))));
   }
   if (price.name == "tether.length_m") return "One more metre of tether";
   if (price.name == "drone.mass_g") return "100 g more on the drone";
@@ -207,8 +164,7 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
                  fixed(point->headroom, 2), fixed(point->tether_mass / unit::gram, 1)});
     }
     out += "\n" + table.text(style) + "\n";
-    for (const std::string& sentence :
-         cable_sentences(answer.best.design, answer.best.hover, answer.best.forward)) {
+    for (const std::string& sentence : cable_sentences(answer.best.design, answer.best)) {
       out += wrapped(sentence);
     }
   }
@@ -265,8 +221,8 @@ ordered_json design_json(const DesignFile& file, const DesignRequest& request,
       {"hover", exists ? operating_point_json(answer.best.hover) : ordered_json(nullptr)},
       {"forward", exists ? operating_point_json(answer.best.forward) : ordered_json(nullptr)},
       {"voltage_class", voltage_class_json(answer.best.design.supply.voltage)},
-      {"thermal", thermal_json(answer.best.design, answer.best.hover, answer.best.forward)},
-      {"cable", cable_json(answer.best.design, answer.best.hover, answer.best.forward)},
+      {"thermal", thermal_json(answer.best.design, answer.best)},
+      {"cable", cable_json(answer.best.design, answer.best)},
       {"prices", prices},
       {"confidence",
        {{"combinations", answer.combinations},

@@ -1,4 +1,4 @@
-#include "tethercalc/report/diagnosis_figure.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,6 @@
 
 namespace tethercalc {
 namespace {
-
-namespace gp = gnuplot;
-namespace colour = gnuplot::colour;
 
 constexpr std::size_t most_dots = 250;  // a plot and series
 constexpr double dot_width = 0.008;     // of the frame
@@ -131,9 +128,8 @@ std::string finding_panel(const gp::Layout& layout, double top, const Diagnosis&
   std::string out =
       thinned_block(name, rows) + gp::data_block("means" + name, {means[0], means[1], means[2]});
   out += gp::set_range("x", x) + gp::set_range("y", joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
-  out +=
-      "set xtics autofreq\nset xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset format x '%g'\nset "
-      "format y '%g'\n";
+  out += "set xtics autofreq\n" + std::string(gp::zero_line) +
+         "set format x '%g'\nset format y '%g'\n";
   out += layout.panel(top + 2, top + 11.5);
   out += layout.title(top, d.findings[k].title);
   out += layout.above(top + 1.1, fmt::format("measured less predicted ({})", series.unit));

@@ -188,13 +188,6 @@ std::vector<std::string> drag_warnings(const DragFit& fit) {
   return out;
 }
 
-ordered_json spec_drag_block(const DragFit& fit) {
-  const AirframeDrag drag = fit.drag();
-  return {{"front_area_m2", drag.front_area},
-          {"top_area_m2", drag.top_area},
-          {"linear_m_s", drag.linear_speed}};
-}
-
 ordered_json drag_json(const DragIdentification& result) {
   const DragFit& fit = result.fit;
   const FitQuality& quality = fit.quality;
@@ -220,7 +213,10 @@ ordered_json drag_json(const DragIdentification& result) {
   out["range"] = automatic(result) ? "automatic" : "given";
   out["flights"] = parts_json(result);
   out["table"] = table_json(fit);
-  out["drone"]["drag"] = spec_drag_block(fit);
+  const AirframeDrag drag = fit.drag();
+  out["drone"]["drag"] = {{"front_area_m2", drag.front_area},
+                          {"top_area_m2", drag.top_area},
+                          {"linear_m_s", drag.linear_speed}};
   return out;
 }
 

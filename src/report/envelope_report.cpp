@@ -19,46 +19,17 @@ struct ReachWords {
 };
 
 ReachWords words_of(Reach reach) {
-  switch (reach) {
-    case Reach::height:
-      return {"height_m", "height", "m", 1, 1};
-    case Reach::payload:
-      return {"payload_g", "payload", "g", unit::gram, 0};
-    case Reach::headwind:
-      return {"headwind_m_s", "headwind", "m/s", 1, 2};
-    case Reach::airspeed:
-      break;
-  }
-  return {"airspeed_m_s", "airspeed", "m/s", 1, 2};
-}
-
-std::string headroom_ends(const Design& design, Condition condition) {
-  const double demanded = demanded_headroom(design.requirements, condition);
-  if (demanded == 1) {
-    return "the motors no longer get what " + condition_words(condition) + " takes";
-  }
-  return fmt::format("the thrust headroom in {} falls below {}", condition_words(condition),
-                     fixed(demanded, 2));
+  constexpr ReachWords all[] = {{"height_m", "height", "m", 1, 1},
+                                {"payload_g", "payload", "g", unit::gram, 0},
+                                {"headwind_m_s", "headwind", "m/s", 1, 2},
+                                {"airspeed_m_s", "airspeed", "m/s", 1, 2}};  // as in Reach
+  return all[static_cast<std::size_t>(reach)];
 }
 
 /// What a limit means to somebody who pushes one of these further.
-std::string beyond_words(const Design& design, const ReachEnd& end) {
-  if (!end.bounded) return "nothing ends it within the search";
-  const std::string where = " in " + condition_words(end.condition);
-  switch (end.limit) {
-    case Limit::max_pitch:
-      return "the tilt passes its limit" + where;
-    case Limit::conductor_temperature:
-      return "the conductor gets hotter than its insulation is rated for" + where;
-    case Limit::tether_strength:
-      return "the tether no longer holds its tension with the factor asked for" + where;
-    case Limit::converter_rating:
-      return "the converter's rating is passed" + where;
-    case Limit::input_voltage:
-      return "the supply is outside the converter's range";
-    default:
-      return headroom_ends(design, end.condition);
-  }
+std::string beyond_end(const Design& design, const ReachEnd& end) {
+  return end.bounded ? beyond_words(design, end.limit, end.condition)
+                     : "nothing ends it within the search";
 }
 
 std::string sentence_of(const Design& design, const ReachResult& result) {
@@ -66,7 +37,7 @@ std::string sentence_of(const Design& design, const ReachResult& result) {
   if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
   return fmt::format("Greatest {}: {} {}; beyond it {}.", words.noun,
                      fixed(result.end->value / words.si_factor, words.decimals), words.unit,
-                     beyond_words(design, *result.end));
+                     beyond_end(design, *result.end));
 }
 
 /// What ends a reach; null where nothing does.
@@ -74,7 +45,7 @@ ordered_json limit_json(const std::optional<ReachEnd>& end) {
   return end && end->bounded ? ordered_json(limit_name(end->limit)) : ordered_json(nullptr);
 }
 
-double value_of(const std::optional<ReachEnd>& end) { return end ? end->value : nan; }
+double end_value(const std::optional<ReachEnd>& end) { return end ? end->value : nan; }
 
 ordered_json end_json(const std::optional<ReachEnd>& end, double si_factor) {
   if (!end) return nullptr;
@@ -101,8 +72,8 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
                      fmt::format("{} {}", of.noun, of.unit), word_column("beyond it")});
     for (const EnvelopePoint& point : curve.points) {
       table.add({fixed(point.against / against.si_factor, against.decimals),
-                 fixed(value_of(point.end) / of.si_factor, of.decimals),
-                 point.end ? beyond_words(file.design, *point.end)
+                 fixed(end_value(point.end) / of.si_factor, of.decimals),
+                 point.end ? beyond_end(file.design, *point.end)
                            : std::string("the demands are not met")});
     }
     out += table.text(style);
@@ -126,7 +97,7 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
     const ReachWords against = words_of(curve.against);
     const ordered_json points = json_list(curve.points, [&](const EnvelopePoint& point) {
       return ordered_json{{against.key, point.against / against.si_factor},
-                          {of.key, number_or_null(value_of(point.end) / of.si_factor)},
+                          {of.key, number_or_null(end_value(point.end) / of.si_factor)},
                           {"limited_by", limit_json(point.end)}};
     });
     return ordered_json{{"of", of.key}, {"against", against.key}, {"points", points}};
@@ -146,7 +117,7 @@ std::string envelope_csv(const EnvelopeStudy& study) {
     for (const EnvelopePoint& point : curve.points) {
       out += fmt::format(
           "{},{},{},{},{}\n", against.key, csv_number(point.against / against.si_factor), of.key,
-          csv_number(value_of(point.end) / of.si_factor), csv_cell(limit_json(point.end)));
+          csv_number(end_value(point.end) / of.si_factor), csv_cell(limit_json(point.end)));
     }
   }
   return out;

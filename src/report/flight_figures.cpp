@@ -1,4 +1,4 @@
-#include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,6 @@
 
 namespace tethercalc {
 namespace {
-
-namespace gp = gnuplot;
-namespace colour = gnuplot::colour;
 
 constexpr std::size_t most_samples = 700;
 
@@ -32,16 +29,17 @@ double root_mean_square(std::span<const double> values) {
   return std::sqrt(sum / double(values.size()));
 }
 
-/// Drag sample by sample, N, over airspeed, m/s, and tilt, deg.
-struct DragSamples {
-  std::vector<double> airspeed;
-  std::vector<double> tilt;
-  std::vector<double> measured;
-  std::vector<double> fitted;
+/// Drag at one sample, N.
+struct DragSample {
+  double airspeed = 0;  ///< m/s
+  double tilt = 0;      ///< deg
+  double measured = 0;
+  double fitted = 0;
+  double residual = 0;  ///< measured less fitted
 };
 
-DragSamples samples_of(const DragStudy& drag) {
-  DragSamples out;
+std::vector<DragSample> samples_of(const DragStudy& drag) {
+  std::vector<DragSample> out;
   const DragFitConditions& known = drag.identified.fit.conditions;
   const AirframeDrag parameters = drag.identified.fit.drag();
   for (std::size_t f = 0; f < drag.flights.size(); ++f) {
@@ -49,51 +47,47 @@ DragSamples samples_of(const DragStudy& drag) {
     const double wind = drag.identified.fit.wind()[f].estimate.value;
     for (std::size_t i = 0; i < flight.size(); ++i) {
       const double airspeed = flight.forward_speed[i] - wind;
-      out.airspeed.push_back(airspeed);
-      out.tilt.push_back(flight.tilt[i] / unit::degree);
-      out.measured.push_back(known.mass *
-                             (flight.expected_acceleration[i] - flight.forward_acceleration[i]));
-      out.fitted.push_back(
-          airframe_drag_force(parameters, known.air_density, airspeed, std::tan(flight.tilt[i])));
+      const double measured =
+          known.mass * (flight.expected_acceleration[i] - flight.forward_acceleration[i]);
+      const double fitted =
+          airframe_drag_force(parameters, known.air_density, airspeed, std::tan(flight.tilt[i]));
+      out.push_back({airspeed, flight.tilt[i] / unit::degree, measured, fitted, measured - fitted});
     }
   }
   return out;
 }
 
-DragSamples thinned(const DragSamples& all, std::size_t step) {
-  DragSamples out;
-  for (std::size_t i = 0; i < all.airspeed.size(); i += step) {
-    out.airspeed.push_back(all.airspeed[i]);
-    out.tilt.push_back(all.tilt[i]);
-    out.measured.push_back(all.measured[i]);
-    out.fitted.push_back(all.fitted[i]);
-  }
+std::vector<DragSample> thinned(const std::vector<DragSample>& all, std::size_t step) {
+  std::vector<DragSample> out;
+  for (std::size_t i = 0; i < all.size(); i += step) out.push_back(all[i]);
   return out;
 }
 
-/// Steady flight in both directions, from `range.lo` to `range.hi` m/s.
-struct SteadyLine {
-  std::vector<double> airspeed;
-  std::vector<double> tilt;  ///< deg
-  std::vector<double> force;
-  std::vector<double> lower;
-  std::vector<double> upper;
+/// Steady flight at one airspeed, negative backwards.
+struct SteadyPoint {
+  double airspeed = 0;  ///< m/s
+  double tilt = 0;      ///< deg
+  double force = 0;     ///< N
+  double lower = 0;     ///< N, of its 95 % interval
+  double upper = 0;     ///< N
 };
 
-SteadyLine steady_line(const DragFit& fit, gp::Range range) {
-  SteadyLine out;
+/// Steady flight in both directions, over `range` in m/s.
+std::vector<SteadyPoint> steady_line(const DragFit& fit, gp::Range range) {
+  std::vector<SteadyPoint> out;
   constexpr int steps = 60;
   for (int i = 0; i <= steps; ++i) {
     const double airspeed = range.lo + (range.hi - range.lo) * i / steps;
     const auto steady = steady_drag(fit, std::abs(airspeed));
     if (!steady) continue;
     // The law is odd in the airspeed.
-    const double sign = airspeed < 0 ? -1 : 1;
-    out.airspeed.push_back(airspeed);
-    out.tilt.push_back(sign * steady->tilt.value / unit::degree);
-    out.force.push_back(sign * steady->force.value);
-    out.lower.push_back(sign * (airspeed < 0 ? steady->force.upper : steady->force.lower));
-    out.upper.push_back(sign * (airspeed < 0 ? steady->force.lower : steady->force.upper));
+    const Estimate& force = steady->force;
+    const double tilt = steady->tilt.value / unit::degree;
+    if (airspeed < 0) {
+      out.push_back({airspeed, -tilt, -force.value, -force.upper, -force.lower});
+    } else {
+      out.push_back({airspeed, tilt, force.value, force.lower, force.upper});
+    }
   }
   return out;
 }
@@ -144,8 +138,8 @@ Figure log_figure(const std::string& name, const Observations& flight) {
                   outline_block("observed", flight.time, flight.forward_acceleration) +
                   outline_block("drag", flight.time, drag) +
                   outline_block("speed", flight.time, flight.forward_speed);
-  figure.script += gp::set_range("x", {flight.time.front(), flight.time.back()}) +
-                   "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset multiplot\n";
+  figure.script += gp::set_range("x", {flight.time.front(), flight.time.back()}) + gp::zero_line +
+                   "set multiplot\n";
 
   const auto extent_of = [](std::span<const double> values) {
     const auto [lo, hi] = gp::extent(values);
@@ -180,13 +174,13 @@ Figure log_figure(const std::string& name, const Observations& flight) {
 }
 
 Figure drag_figure(const DragStudy& drag) {
-  const DragSamples all = samples_of(drag);
-  const std::size_t step = gp::thinning(all.airspeed.size(), most_samples);
-  const DragSamples shown = thinned(all, step);
-  const std::vector<double> residual = difference(shown.measured, shown.fitted);
-  const auto [slowest, fastest] = gp::extent(all.airspeed);
+  const std::vector<DragSample> all = samples_of(drag);
+  const std::size_t step = gp::thinning(all.size(), most_samples);
+  const std::vector<DragSample> shown = thinned(all, step);
+  const std::vector<double> measured = gp::column(all, &DragSample::measured);
+  const auto [slowest, fastest] = gp::extent(gp::column(all, &DragSample::airspeed));
   const gp::Range speeds = gp::with_margin(slowest, fastest, 0.03);
-  const SteadyLine steady = steady_line(drag.identified.fit, {slowest, fastest});
+  const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, {slowest, fastest});
 
   Figure figure;
   figure.id = "drag";
@@ -194,14 +188,17 @@ Figure drag_figure(const DragStudy& drag) {
   figure.description = fmt::format(
       "Drag in newtons over airspeed from {} to {} m/s, measured at {} samples{} and fitted: {}. "
       "The line is steady flight. Below, measured less fitted: {} m/s² root mean square.",
-      fixed(slowest, 1), fixed(fastest, 1), all.airspeed.size(), samples_words(step),
+      fixed(slowest, 1), fixed(fastest, 1), all.size(), samples_words(step),
       parameter_words(drag.identified.fit), fixed(drag.identified.fit.quality.rmse, 3));
   figure.lines = 40;
   const gp::Layout layout(figure.lines, 0.105);
-  figure.script =
-      gp::prelude() +
-      gp::data_block("samples", {shown.airspeed, shown.measured, shown.fitted, residual}) +
-      gp::data_block("steady", {steady.airspeed, steady.force, steady.lower, steady.upper});
+  figure.script = gp::prelude() +
+                  gp::data_block("samples", shown,
+                                 {&DragSample::airspeed, &DragSample::measured, &DragSample::fitted,
+                                  &DragSample::residual}) +
+                  gp::data_block("steady", steady,
+                                 {&SteadyPoint::airspeed, &SteadyPoint::force, &SteadyPoint::lower,
+                                  &SteadyPoint::upper});
 
   gp::Plot plot;
   const double dot = 0.004 * (speeds.hi - speeds.lo);
@@ -210,38 +207,36 @@ Figure drag_figure(const DragStudy& drag) {
   plot.dots("$samples", 1, 3, dot, colour::vermilion, "fitted" + samples_words(step));
   plot.curve("$steady using 1:2", gp::line(colour::black, 1, 1.4), "steady flight");
   if (drag.without_linear) {
-    const SteadyLine bare = steady_line(*drag.without_linear, {slowest, fastest});
-    figure.script += gp::data_block("bare", {bare.airspeed, bare.force});
+    figure.script += gp::data_block("bare", steady_line(*drag.without_linear, {slowest, fastest}),
+                                    {&SteadyPoint::airspeed, &SteadyPoint::force});
     plot.curve("$bare using 1:2", gp::line(colour::orange, 2, 1.6), "without a linear term");
   }
   plot.entry({gp::LegendEntry::Sample::area, gp::area(colour::black, 0.25), "its 95 % interval"});
   gp::Plot rest;
   rest.dots("$samples", 1, 4, dot, colour::green);
 
-  figure.script +=
-      gp::set_range("x", speeds) + "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\nset multiplot\n";
-  const gp::Range forces = gp::bulk(all.measured);
+  figure.script += gp::set_range("x", speeds) + gp::zero_line + "set multiplot\n";
+  const gp::Range forces = gp::bulk(measured);
   figure.script += layout.panel(3.5, 20) + layout.heading(drag.name) +
-                   layout.above(2.6, "drag (N)", outside_words(all.measured, forces)) +
+                   layout.above(2.6, "drag (N)", outside_words(measured, forces)) +
                    layout.legend(21.2, 2, plot.legend()) + gp::set_range("y", forces) +
                    "set format x ''\n" + plot.text();
   figure.script += layout.panel(27, 36) + layout.above(26, "measured less fitted (N)") +
                    layout.legend(0, 1, {}) + layout.below(38.6, "airspeed, forward (m/s)") +
-                   gp::set_range("y", gp::bulk(residual)) + "set format x '%g'\n" + rest.text() +
-                   "unset multiplot\n";
+                   gp::set_range("y", gp::bulk(gp::column(shown, &DragSample::residual))) +
+                   "set format x '%g'\n" + rest.text() + "unset multiplot\n";
   return figure;
 }
 
 Figure drag_surface_figure(const DragStudy& drag) {
-  const DragSamples all = samples_of(drag);
+  const std::vector<DragSample> all = samples_of(drag);
   constexpr std::size_t most_dots = 500;
-  const std::size_t step = gp::thinning(all.airspeed.size(), most_dots);
-  const DragSamples shown = thinned(all, step);
-  const auto [slowest, fastest] = gp::extent(all.airspeed);
-  const auto [least_tilt, most_tilt] = gp::extent(all.tilt);
-
-  const gp::Range forces = gp::bulk(all.measured);
-  const std::string outside = outside_words(all.measured, forces);
+  const std::size_t step = gp::thinning(all.size(), most_dots);
+  const std::vector<double> measured = gp::column(all, &DragSample::measured);
+  const auto [slowest, fastest] = gp::extent(gp::column(all, &DragSample::airspeed));
+  const auto [least_tilt, most_tilt] = gp::extent(gp::column(all, &DragSample::tilt));
+  const gp::Range forces = gp::bulk(measured);
+  const std::string outside = outside_words(measured, forces);
 
   Figure figure;
   figure.id = "dragsurface";
@@ -269,10 +264,13 @@ Figure drag_surface_figure(const DragStudy& drag) {
     figure.script += "\n";
   }
   figure.script += "EOD\n";
-  const SteadyLine steady = steady_line(drag.identified.fit, {slowest, fastest});
+  const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, {slowest, fastest});
   figure.script +=
-      gp::data_block("samples", {shown.airspeed, shown.tilt, shown.measured, shown.fitted}) +
-      gp::data_block("steady", {steady.airspeed, steady.tilt, steady.force});
+      gp::data_block(
+          "samples", thinned(all, step),
+          {&DragSample::airspeed, &DragSample::tilt, &DragSample::measured, &DragSample::fitted}) +
+      gp::data_block("steady", steady,
+                     {&SteadyPoint::airspeed, &SteadyPoint::tilt, &SteadyPoint::force});
 
   gp::Plot plot;
   const double dot = 0.004 * (fastest - slowest);

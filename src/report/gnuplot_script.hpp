@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,26 @@ using Columns = std::vector<std::span<const double>>;
 
 /// A named block of inline data, `$name << EOD`, one row an element of the columns.
 [[nodiscard]] std::string data_block(std::string_view name, const Columns& columns);
+
+/// One number of each of `rows`.
+template <typename Row>
+[[nodiscard]] std::vector<double> column(const std::vector<Row>& rows, double Row::*member) {
+  std::vector<double> out;
+  for (const Row& row : rows) out.push_back(row.*member);
+  return out;
+}
+
+/// A block with these numbers of each of `rows`.
+template <typename Row>
+[[nodiscard]] std::string data_block(std::string_view name, const std::vector<Row>& rows,
+                                     std::initializer_list<double Row::*> members) {
+  std::vector<std::vector<double>> columns;
+  for (double Row::*const member : members) columns.push_back(column(rows, member));
+  return data_block(name, Columns(columns.begin(), columns.end()));
+}
+
+/// Draws the line at zero, thinly.
+inline constexpr const char* zero_line = "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\n";
 
 /// Style of a line: colour, dash type 1 (solid) to 5, and width in points.
 [[nodiscard]] std::string line(std::string_view colour, int dash, double width = 1.2);
@@ -172,3 +193,8 @@ struct Series {
 [[nodiscard]] std::string set_range(std::string_view axis, Range range);
 
 }  // namespace tethercalc::gnuplot
+
+namespace tethercalc {
+namespace gp = gnuplot;
+namespace colour = gnuplot::colour;
+}  // namespace tethercalc

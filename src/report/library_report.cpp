@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/model/units.hpp"
+#include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc {
 namespace {
@@ -54,22 +54,14 @@ ordered_json size_json(const WireSize& size) {
 }
 
 /// What a table calls a key: its words, and on a second line its unit.
-std::string title_of(const std::string& key) {
-  static const std::map<std::string, const char*> titles{
-      {"max_thrust_g", "max thrust\ng"},
-      {"max_power_W", "max power\nW"},
-      {"voltage_V", "voltage\nV"},
-      {"propeller_in", "propeller\nin"},
-      {"resistivity_ohm_mm2_m", "resistivity\nΩ·mm²/m"},
-      {"temperature_coefficient_1_K", "temperature coefficient\n1/K"},
-      {"density_g_cm3", "density\ng/cm³"},
-      {"tensile_strength_MPa", "tensile strength\nMPa"},
-      {"rated_temperature_C", "rated temperature\n°C"},
-      {"thermal_conductivity_W_mK", "thermal conductivity\nW/(m·K)"},
-      {"breakdown_kV_mm", "breakdown\nkV/mm"},
-      {"cross_section_mm2", "cross-section\nmm²"}};
-  const auto found = titles.find(key);
-  return found == titles.end() ? key : found->second;
+std::string column_title(const std::string& key) {
+  if (key == "cross_section_mm2") return "cross-section\nmm²";
+  std::string title = axis_label(key);
+  if (const std::size_t unit = title.find(" ("); unit != std::string::npos) {
+    title.pop_back();
+    title.replace(unit, 2, "\n");
+  }
+  return title;
 }
 
 std::string cell_text(const ordered_json& value) {
@@ -112,7 +104,7 @@ std::string library_text(const ordered_json& entries, const TextStyle& style) {
   std::vector<TextTable::Column> columns;
   for (const auto& [key, value] : entries.front().items()) {
     if (key == "source") continue;
-    columns.push_back(value.is_string() ? word_column(title_of(key)) : title_of(key));
+    columns.push_back(value.is_string() ? word_column(column_title(key)) : column_title(key));
   }
   TextTable table(columns);
   for (const ordered_json& entry : entries) {

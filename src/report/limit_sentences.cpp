@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "tethercalc/model/conductor_heat.hpp"
 #include "tethercalc/report/text_table.hpp"
 
@@ -13,6 +16,79 @@ std::string headroom_words(double headroom) {
                       : std::string("level flight");
 }
 
+/// What is said of a limit. In place of the names in braces stands what `filled_in` puts there.
+struct LimitWords {
+  Limit limit;
+  const char* of_optimum;   ///< why the optimum is where it is
+  const char* of_refusal;   ///< why there is none, where neither power nor weight says it
+  const char* of_demand;    ///< what binds
+  const char* beyond = "";  ///< what happens further on, where it is not the headroom that ends
+  std::string_view in_short = "";  ///< why there is no optimum, where it is not the headroom
+};
+
+constexpr LimitWords all_limits[] = {
+    {Limit::available_power,
+     "Limited by the power that reaches the drone: any thinner, and it does not suffice for "
+     "{demand}.",
+     "", "The thrust headroom of {headroom} in {where}"},
+    {Limit::takeoff_mass,
+     "Limited by weight: any thicker, and the tether is too heavy for {demand}.", "",
+     "The take-off mass"},
+    {Limit::motor_thrust, "Limited by the motors: they make no more thrust for {demand}.", "",
+     "The motors' greatest thrust"},
+    {Limit::max_pitch, "Limited by the tilt: {tilt} degrees in {where} is the most allowed.", "",
+     "The largest tilt of {tilt}°", "the tilt passes its limit in {where}"},
+    {Limit::conductor_temperature,
+     "Limited by heat: any thinner, and the conductor is hotter in {where} than the {rated_C} °C "
+     "for which its insulation is rated.",
+     "No cross-section that meets the other demands stays below the insulation's rated {rated_C} "
+     "°C in {where}, or none has a steady temperature at all.",
+     "The insulation's rated {rated_C} °C",
+     "the conductor gets hotter than its insulation is rated for in {where}", "conductor too hot"},
+    {Limit::tether_strength,
+     "Limited by strength: the tether would not hold {factor} times its tension in {where}.",
+     "No cross-section that meets the other demands holds {factor} times the tension in {where}; a "
+     "strength member would.",
+     "The tether's strength of {factor} times its tension",
+     "the tether no longer holds its tension with the factor asked for in {where}",
+     "tether too weak"},
+    {Limit::converter_rating,
+     "Limited by the converter: any thicker, and lifting the tether in {where} takes more than its "
+     "rated {rated_W} W.",
+     "No cross-section that meets the other demands leaves the converter within its rated "
+     "{rated_W} W in {where}.",
+     "The converter's rated {rated_W} W", "the converter's rating is passed in {where}",
+     "converter too small"},
+    {Limit::input_voltage, "",  // the same at every cross-section: nothing that an optimum lies on
+     "No cross-section works: a supply of {voltage} V is outside the converter's range.",
+     "The converter's highest input of {highest_input} V",
+     "the supply is outside the converter's range", "supply outside the converter's range"}};
+
+const LimitWords& limit_words(Limit limit) {
+  return *std::find_if(std::begin(all_limits), std::end(all_limits) - 1,
+                       [limit](const LimitWords& words) { return words.limit == limit; });
+}
+
+/// `words` with the design's numbers in place of their names.
+std::string filled_in(const char* words, const Design& design, Condition condition) {
+  const Requirements& need = design.requirements;
+  const Converter& converter = design.supply.converter;
+  const double demanded = demanded_headroom(need, condition);
+  const std::string where = condition_words(condition);
+  return fmt::format(
+      fmt::runtime(words), fmt::arg("where", where),
+      fmt::arg("demand", headroom_words(demanded) + " in " + where),
+      fmt::arg("headroom", fixed(demanded, 2)),
+      fmt::arg("tilt", significant(need.max_pitch / unit::degree, 3)),
+      fmt::arg("rated_C", significant(design.tether.insulation.rated_temperature_C.value_or(
+                                          highest_conductor_temperature_C),
+                                      3)),
+      fmt::arg("factor", significant(need.strength_safety_factor, 3)),
+      fmt::arg("rated_W", significant(converter.rated_output_power.value_or(0), 4)),
+      fmt::arg("voltage", significant(design.supply.voltage, 4)),
+      fmt::arg("highest_input", significant(converter.max_input_voltage.value_or(0), 4)));
+}
+
 }  // namespace
 
 std::string condition_words(Condition condition) {
@@ -20,53 +96,12 @@ std::string condition_words(Condition condition) {
 }
 
 std::string limit_sentence(const Design& design, const Optimization& result) {
-  const std::string where = condition_words(result.limiting_condition);
-  const std::string demand =
-      headroom_words(demanded_headroom(design.requirements, result.limiting_condition)) + " in " +
-      where;
-  std::string sentence;
-  switch (result.limited_by) {
-    case Limit::minimum_power:
-      return fmt::format("Nothing limits it: this cross-section draws the least power in {}.",
-                         where);
-    case Limit::available_power:
-      sentence = fmt::format(
-          "Limited by the power that reaches the drone: any thinner, and it does not suffice for "
-          "{}.",
-          demand);
-      break;
-    case Limit::takeoff_mass:
-      sentence = fmt::format("Limited by weight: any thicker, and the tether is too heavy for {}.",
-                             demand);
-      break;
-    case Limit::max_pitch:
-      sentence = fmt::format("Limited by the tilt: {} degrees in {} is the most allowed.",
-                             significant(design.requirements.max_pitch / unit::degree, 3), where);
-      break;
-    case Limit::motor_thrust:
-      sentence = fmt::format("Limited by the motors: they make no more thrust for {}.", demand);
-      break;
-    case Limit::conductor_temperature:
-      sentence = fmt::format(
-          "Limited by heat: any thinner, and the conductor is hotter in {} than the {} °C for "
-          "which "
-          "its insulation is rated.",
-          where, significant(*design.tether.insulation.rated_temperature_C, 3));
-      break;
-    case Limit::tether_strength:
-      sentence =
-          fmt::format("Limited by strength: the tether would not hold {} times its tension in {}.",
-                      significant(design.requirements.strength_safety_factor, 3), where);
-      break;
-    case Limit::input_voltage:
-      break;  // the same at every cross-section: nothing that an optimum lies on
-    case Limit::converter_rating:
-      sentence = fmt::format(
-          "Limited by the converter: any thicker, and lifting the tether in {} takes more than its "
-          "rated {} W.",
-          where, significant(*design.supply.converter.rated_output_power, 4));
-      break;
+  const Condition where = result.limiting_condition;
+  if (result.limited_by == Limit::minimum_power) {
+    return fmt::format("Nothing limits it: this cross-section draws the least power in {}.",
+                       condition_words(where));
   }
+  std::string sentence = filled_in(limit_words(result.limited_by).of_optimum, design, where);
   const MinimumPower& least = result.minimum_power;
   if (least.power > 0) {
     sentence += fmt::format(" Power alone would ask for {} mm² ({} W in {}).",
@@ -76,35 +111,17 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
   return sentence;
 }
 
-/// Why no area keeps a limit of the cable or the converter; empty for the other limits.
-std::string broken_limit_sentence(const Design& design, const Refusal& refusal) {
-  const std::string where = condition_words(refusal.condition);
-  switch (refusal.limit) {
-    case Limit::conductor_temperature:
-      return fmt::format(
-          "No cross-section that meets the other demands stays below the insulation's rated {} °C "
-          "in {}, or none has a steady temperature at all.",
-          significant(design.tether.insulation.rated_temperature_C.value_or(
-                          highest_conductor_temperature_C),
-                      3),
-          where);
-    case Limit::tether_strength:
-      return fmt::format(
-          "No cross-section that meets the other demands holds {} times the tension in {}; a "
-          "strength member would.",
-          significant(design.requirements.strength_safety_factor, 3), where);
-    case Limit::converter_rating:
-      return fmt::format(
-          "No cross-section that meets the other demands leaves the converter within its rated {} "
-          "W in {}.",
-          significant(design.supply.converter.rated_output_power.value_or(0), 4), where);
-    case Limit::input_voltage:
-      return fmt::format(
-          "No cross-section works: a supply of {} V is outside the converter's range.",
-          significant(design.supply.voltage, 4));
-    default:
-      return "";
-  }
+std::string demand_words(const Design& design, Demand demand) {
+  return filled_in(limit_words(limit_of(demand)).of_demand, design,
+                   design.requirements.headroom_at);
+}
+
+std::string beyond_words(const Design& design, Limit limit, Condition where) {
+  const char* const words = limit_words(limit).beyond;
+  if (*words != '\0') return filled_in(words, design, where);
+  return demanded_headroom(design.requirements, where) == 1
+             ? "the motors no longer get what " + condition_words(where) + " takes"
+             : filled_in("the thrust headroom in {where} falls below {headroom}", design, where);
 }
 
 std::string shortcoming(const Design& design, const AreaPoints& points) {
@@ -147,14 +164,6 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
   const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
   switch (refusal.limit) {
-    case Limit::conductor_temperature:
-      return "conductor too hot";
-    case Limit::tether_strength:
-      return "tether too weak";
-    case Limit::converter_rating:
-      return "converter too small";
-    case Limit::input_voltage:
-      return "supply outside the converter's range";
     case Limit::max_pitch:
       return fmt::format("tilt above {}° in {}",
                          significant(design.requirements.max_pitch / unit::degree, 3),
@@ -163,6 +172,9 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
       return fmt::format("motors too weak: headroom {} of {} in {}", fixed(best.value, 2),
                          fixed(demanded, 2), condition_words(where));
     default:
+      if (const auto words = limit_words(refusal.limit).in_short; !words.empty()) {
+        return std::string(words);
+      }
       return best.value >= demanded
                  ? std::string("no area meets all demands at once")
                  : fmt::format("too little power: headroom {} of {} in {}", fixed(best.value, 2),
@@ -171,10 +183,10 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
 }
 
 std::string refusal_sentence(const Design& design, const Refusal& refusal) {
-  if (const std::string broken = broken_limit_sentence(design, refusal); !broken.empty()) {
-    return broken;
-  }
   const Condition where = refusal.condition;
+  if (const char* words = limit_words(refusal.limit).of_refusal; *words != '\0') {
+    return filled_in(words, design, where);
+  }
   const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
   const std::string demand = headroom_words(demanded) + " in " + condition_words(where);

@@ -3,13 +3,11 @@
 #include <cmath>
 
 #include "report/gnuplot_script.hpp"
-#include "tethercalc/report/design_figures.hpp"
+#include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 namespace tethercalc {
 namespace {
-
-namespace gp = gnuplot;
-namespace colour = gnuplot::colour;
 
 /// Colour and dashes together tell 35 motors apart; beyond, numbers alone do.
 std::string style_of(std::size_t index, double width = 1.3) {
@@ -27,14 +25,17 @@ constexpr const char* circle = " pt 6 ps 0.8*dot_scale lw 1.4";
 constexpr const char* dot = " pt 7 ps 0.6*dot_scale";
 constexpr const char* plus = " pt 1 ps 0.9*dot_scale lw 1.4";
 
-/// Efficiency over thrust, as far as it was measured: thrust in g, efficiency in g/W.
-struct EfficiencyCurve {
-  std::vector<double> thrust;
-  std::vector<double> efficiency;
+/// A point of efficiency over thrust.
+struct CurvePoint {
+  double thrust = 0;      ///< g
+  double efficiency = 0;  ///< g/W
 };
 
-double efficiency_at(const MotorCurve& curve, double thrust) {
-  return thrust / unit::gram_force / curve.power(thrust);
+/// As far as it was measured.
+using EfficiencyCurve = std::vector<CurvePoint>;
+
+CurvePoint curve_point(const MotorCurve& curve, double thrust) {
+  return {thrust / unit::gram_force, thrust / unit::gram_force / curve.power(thrust)};
 }
 
 EfficiencyCurve efficiency_of(const MotorCurve& curve) {
@@ -45,24 +46,19 @@ EfficiencyCurve efficiency_of(const MotorCurve& curve) {
   for (std::size_t i = 1; i < vertices.size(); ++i) {
     const double from = i == 1 ? vertices[1].thrust : vertices[i - 1].thrust;
     for (int k = i == 1 ? steps : 1; k <= steps; ++k) {
-      const double thrust = from + (vertices[i].thrust - from) * k / steps;
-      out.thrust.push_back(thrust / unit::gram_force);
-      out.efficiency.push_back(efficiency_at(curve, thrust));
+      out.push_back(curve_point(curve, from + (vertices[i].thrust - from) * k / steps));
     }
   }
   return out;
 }
 
 /// A mark on a curve.
-struct Mark {
-  double thrust = 0;      ///< g
-  double efficiency = 0;  ///< g/W
+struct Mark : CurvePoint {
   std::string style;
 };
 
 Mark mark_on(const MotorCurve& curve, double thrust, const std::string& style) {
-  const double shown = std::min(thrust, curve.max_thrust());
-  return {shown / unit::gram_force, efficiency_at(curve, shown), style};
+  return {curve_point(curve, std::min(thrust, curve.max_thrust())), style};
 }
 
 /// Circle, dot and plus of the paper's figure on motors.
@@ -70,15 +66,13 @@ std::vector<Mark> marks_of(const MotorOptimum& motor, std::size_t index) {
   if (!motor.result.feasible) return {};
   const Requirements& need = motor.design.requirements;
   const MotorCurve& curve = motor.design.drone.motor;
-  const auto at = [&](Condition condition) -> const OperatingPoint& {
-    return condition == Condition::hover ? motor.result.hover : motor.result.forward;
-  };
+  const AreaPoints points = motor.points();
   const std::string colour = dot_colour(index);
-  const double necessary = at(need.headroom_at).necessary_thrust;
+  const double necessary = points.in(need.headroom_at).necessary_thrust;
   std::vector<Mark> marks{mark_on(curve, necessary, colour + circle),
                           mark_on(curve, need.thrust_headroom * necessary, colour + dot)};
   if (motor.result.limited_by == Limit::minimum_power) {
-    marks.push_back(mark_on(curve, at(need.power_at).necessary_thrust, colour + plus));
+    marks.push_back(mark_on(curve, points.in(need.power_at).necessary_thrust, colour + plus));
   }
   return marks;
 }
@@ -87,12 +81,12 @@ std::vector<Mark> marks_of(const MotorOptimum& motor, std::size_t index) {
 /// from where the drone hovers.
 void draw_assumed(gp::Plot& plot, const EfficiencyCurve& curve, std::span<const Mark> marks,
                   std::size_t index) {
-  double least = curve.thrust.front();
+  const CurvePoint first = curve.front();
+  double least = first.thrust;
   for (const Mark& mark : marks) least = std::min(least, mark.thrust);
-  if (!(least < curve.thrust.front())) return;
-  const std::string y = gp::number(curve.efficiency.front());
+  if (!(least < first.thrust)) return;
   plot.curve(fmt::format("'+' using ($0 < 1 ? {} : {}):({}) every ::0::1", gp::number(least),
-                         gp::number(curve.thrust.front()), y),
+                         gp::number(first.thrust), gp::number(first.efficiency)),
              style_of(index, 0.5));
 }
 
@@ -109,8 +103,7 @@ struct Labels {
 
 Labels labels_of(const MotorOptimum& motor) {
   if (!motor.result.feasible) return {"", "infeasible"};
-  const bool by_hover = motor.design.requirements.power_at == Condition::hover;
-  const OperatingPoint& judged = by_hover ? motor.result.hover : motor.result.forward;
+  const OperatingPoint judged = motor.points().in(motor.design.requirements.power_at);
   return {significant(motor.result.area / unit::square_millimetre, 3),
           fixed(judged.total_power, 0)};
 }
@@ -133,18 +126,12 @@ class EndNumbers {
  public:
   EndNumbers(gp::Range x, gp::Range y) : x_(x), y_(y) {}
 
-  void keep_free(double x, double y) { taken_.push_back(share(x, y)); }
-
-  void keep_free(const EfficiencyCurve& curve) {
-    for (std::size_t i = 0; i < curve.thrust.size(); ++i) {
-      keep_free(curve.thrust[i], curve.efficiency[i]);
-    }
-  }
+  void keep_free(const CurvePoint& point) { taken_.push_back(share(point)); }
 
   /// The label of `curve`, at that end of it where there is more room.
   std::string label(std::size_t tag, const EfficiencyCurve& curve) {
-    const Found right = nearest_free(share(curve.thrust.back(), curve.efficiency.back()));
-    const Found left = nearest_free(share(curve.thrust.front(), curve.efficiency.front()));
+    const Found right = nearest_free(share(curve.back()));
+    const Found left = nearest_free(share(curve.front()));
     const Place place = left.distance < right.distance ? left.place : right.place;
     for (const double dx : {-0.5, 0.0, 0.5}) {
       for (const double dy : {-0.5, 0.0, 0.5}) {
@@ -160,8 +147,8 @@ class EndNumbers {
   static constexpr double width = 0.045;
   static constexpr double height = 0.05;
 
-  [[nodiscard]] Place share(double x, double y) const {
-    return {(x - x_.lo) / (x_.hi - x_.lo), (y - y_.lo) / (y_.hi - y_.lo)};
+  [[nodiscard]] Place share(const CurvePoint& point) const {
+    return {(point.thrust - x_.lo) / (x_.hi - x_.lo), (point.efficiency - y_.lo) / (y_.hi - y_.lo)};
   }
 
   [[nodiscard]] bool is_free(Place place) const {
@@ -201,8 +188,7 @@ void explain_marks(gp::Plot& plot, const Requirements& need) {
   const auto explain = [&plot](const char* mark, const std::string& words) {
     plot.points("NaN", fmt::format("lc rgb '{}'{}", colour::black, mark), words);
   };
-  const char* where = need.headroom_at == Condition::hover ? "hover" : "forward flight";
-  explain(circle, fmt::format("necessary in {}", where));
+  explain(circle, "necessary in " + condition_words(need.headroom_at));
   explain(dot, fmt::format("required: {} times that", significant(need.thrust_headroom, 2)));
   explain(plus, "where least power, not headroom, decides");
 }
@@ -250,11 +236,11 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     curves.push_back(efficiency_of(ranking[i].design.drone.motor));
     const EfficiencyCurve& curve = curves.back();
-    figure.script +=
-        gp::data_block(fmt::format("motor{}", i + 1), {curve.thrust, curve.efficiency});
+    figure.script += gp::data_block(fmt::format("motor{}", i + 1), curve,
+                                    {&CurvePoint::thrust, &CurvePoint::efficiency});
     plot.curve(fmt::format("$motor{} using 1:2", i + 1), style_of(i), words_of(ranking[i], i));
-    thrusts.push_back(curve.thrust.back());
-    efficiencies.insert(efficiencies.end(), curve.efficiency.begin(), curve.efficiency.end());
+    thrusts.push_back(curve.back().thrust);
+    for (const CurvePoint& point : curve) efficiencies.push_back(point.efficiency);
   }
   std::vector<std::vector<Mark>> marks;
   for (std::size_t i = 0; i < ranking.size(); ++i) {
@@ -271,9 +257,11 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
   const auto [least, most] = gp::extent(efficiencies);
   const gp::Range efficiency = gp::with_margin(least, most, 0.1);
   EndNumbers numbers(thrust, efficiency);
-  for (const EfficiencyCurve& curve : curves) numbers.keep_free(curve);
+  for (const EfficiencyCurve& curve : curves) {
+    for (const CurvePoint& point : curve) numbers.keep_free(point);
+  }
   for (const auto& own : marks) {
-    for (const Mark& mark : own) numbers.keep_free(mark.thrust, mark.efficiency);
+    for (const Mark& mark : own) numbers.keep_free(mark);
   }
 
   const gp::Layout layout(figure.lines, 0.09, 0.045);

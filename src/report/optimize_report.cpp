@@ -21,15 +21,9 @@ std::string lost_share(const OperatingPoint& point) {
   return significant(100 * point.tether_loss / point.total_power, 3);
 }
 
-void add_condition_row(TextTable& table, const char* name, const OperatingPoint& point) {
-  table.add({name, fixed(point.total_power, 1), fixed(point.drone_power, 1),
-             fixed(point.tether_loss, 1), lost_share(point), fixed(point.current, 2),
-             fixed(point.received_voltage, 1), fixed(point.headroom, 2),
-             fixed(point.pitch / unit::degree, 1)});
-}
-
-Answer feasible_answer(const DesignFile& file, const Optimization& result) {
+Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
   const Design& design = file.design;
+  const Optimization& result = study.result;
   const OperatingPoint& hover = result.hover;
   Answer out;
   out.headline = fmt::format("Fly {} of {}.", area_words(result.area), file.conductor.id);
@@ -38,7 +32,7 @@ Answer feasible_answer(const DesignFile& file, const Optimization& result) {
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",
       significant(design.tether.length, 3), fixed(hover.tether_mass / unit::gram, 1),
       significant(hover.tether_resistance, 4), fixed(hover.takeoff_mass / unit::gram, 0)));
-  for (std::string& sentence : cable_sentences(design, hover, result.forward)) {
+  for (std::string& sentence : cable_sentences(design, study.points())) {
     out.sentences.push_back(std::move(sentence));
   }
   const double speed = airspeed(design, Condition::forward);
@@ -142,17 +136,42 @@ std::string notes_text(std::span<const std::string> warnings, const TextStyle& s
   return out;
 }
 
+/// Everything about steady flight in one condition, a row an area.
+TitledTable operating_table(const Design& design, Condition condition,
+                            std::span<const AreaPoints> areas) {
+  TextTable table({"mm²", "ohm", "tether g", "tilt deg", "avail. g", "needed g", "headroom",
+                   "supply W", "lost W", "A", "V"});
+  for (const AreaPoints& row : areas) {
+    const OperatingPoint& p = row.in(condition);
+    table.add({significant(p.cross_section / unit::square_millimetre, 4),
+               significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
+               fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
+               fixed(p.necessary_thrust / unit::gram_force, 0), fixed(p.headroom, 2),
+               fixed(p.total_power, 1), fixed(p.tether_loss, 1), fixed(p.current, 2),
+               fixed(p.received_voltage, 1)});
+  }
+  return {fmt::format("{} at {} m/s airspeed, thrust per motor",
+                      condition == Condition::hover ? "Hover" : "Forward flight",
+                      fixed(airspeed(design, condition), 2)),
+          std::move(table)};
+}
+
 }  // namespace
 
 Answer answer(const DesignFile& file, const OptimumStudy& study) {
-  return study.result.feasible ? feasible_answer(file, study.result) : refused_answer(study);
+  return study.result.feasible ? feasible_answer(file, study) : refused_answer(study);
 }
 
 TitledTable condition_table(const Optimization& result) {
   TextTable table({word_column(""), "supply W", "drone W", "lost W", "lost %", "current A",
                    "at drone V", "headroom", "tilt deg"});
-  add_condition_row(table, "hover", result.hover);
-  add_condition_row(table, "forward", result.forward);
+  for (const auto& [name, point] :
+       {std::pair{"hover", &result.hover}, std::pair{"forward", &result.forward}}) {
+    table.add({name, fixed(point->total_power, 1), fixed(point->drone_power, 1),
+               fixed(point->tether_loss, 1), lost_share(*point), fixed(point->current, 2),
+               fixed(point->received_voltage, 1), fixed(point->headroom, 2),
+               fixed(point->pitch / unit::degree, 1)});
+  }
   return {"The optimum in flight", std::move(table)};
 }
 
@@ -188,25 +207,6 @@ TitledTable power_table(const OptimumStudy& study) {
   }
   return {fmt::format("Power against cross-section (thrust per motor, headroom and loss in {})",
                       condition_words(headroom_at)),
-          std::move(table)};
-}
-
-TitledTable operating_table(const Design& design, Condition condition,
-                            std::span<const AreaPoints> areas) {
-  TextTable table({"mm²", "ohm", "tether g", "tilt deg", "avail. g", "needed g", "headroom",
-                   "supply W", "lost W", "A", "V"});
-  for (const AreaPoints& row : areas) {
-    const OperatingPoint& p = row.in(condition);
-    table.add({significant(p.cross_section / unit::square_millimetre, 4),
-               significant(p.tether_resistance, 4), fixed(p.tether_mass / unit::gram, 1),
-               fixed(p.pitch / unit::degree, 2), fixed(p.available_thrust / unit::gram_force, 0),
-               fixed(p.necessary_thrust / unit::gram_force, 0), fixed(p.headroom, 2),
-               fixed(p.total_power, 1), fixed(p.tether_loss, 1), fixed(p.current, 2),
-               fixed(p.received_voltage, 1)});
-  }
-  return {fmt::format("{} at {} m/s airspeed, thrust per motor",
-                      condition == Condition::hover ? "Hover" : "Forward flight",
-                      fixed(airspeed(design, condition), 2)),
           std::move(table)};
 }
 
@@ -257,8 +257,8 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
       {"table", table_json(study.table)}};
   out["voltage_class"] = voltage_class_json(design.supply.voltage);
   if (result.feasible) {
-    out["thermal"] = thermal_json(design, result.hover, result.forward);
-    out["cable"] = cable_json(design, result.hover, result.forward);
+    out["thermal"] = thermal_json(design, study.points());
+    out["cable"] = cable_json(design, study.points());
   } else {
     out["reason"] = refusal_sentence(design, *study.refusal);
     out["remedies"] = remedies_json(study);
@@ -280,7 +280,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
   if (file.design.tether.ambient_temperature_C) {
     for (const AreaPoints& row : table) {
       out += "\n" + style.bold(area_words(row.area)) + "\n";
-      for (const std::string& sentence : cable_sentences(file.design, row.hover, row.forward)) {
+      for (const std::string& sentence : cable_sentences(file.design, row)) {
         out += wrapped(sentence);
       }
     }
@@ -297,9 +297,8 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
 }
 
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
-  const ordered_json thermal = json_list(table, [&](const AreaPoints& row) {
-    return thermal_json(file.design, row.hover, row.forward);
-  });
+  const ordered_json thermal =
+      json_list(table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
   return {{"name", file.name},
           {"table", table_json(table)},
           {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
@@ -325,13 +324,13 @@ std::string evaluate_csv(std::span<const AreaPoints> table) {
 TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking) {
   TextTable table({word_column("motor"), "mm²", "tether g", "hover W", "forward W", "headroom",
                    word_column("limited by")});
-  const bool by_hover = design.requirements.headroom_at == Condition::hover;
   for (const MotorOptimum& entry : ranking) {
     const Optimization& r = entry.result;
     if (!r.feasible) continue;
     table.add({entry.motor.id, significant(r.area / unit::square_millimetre, 4),
                fixed(r.hover.tether_mass / unit::gram, 0), fixed(r.hover.total_power, 1),
-               fixed(r.forward.total_power, 1), fixed((by_hover ? r.hover : r.forward).headroom, 2),
+               fixed(r.forward.total_power, 1),
+               fixed(entry.points().in(design.requirements.headroom_at).headroom, 2),
                std::string(limit_name(r.limited_by))});
   }
   return {fmt::format("Motors by power in {}, each with its own best tether",

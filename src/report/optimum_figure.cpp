@@ -2,14 +2,12 @@
 #include <cmath>
 
 #include "report/gnuplot_script.hpp"
-#include "tethercalc/report/design_figures.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/result_figures.hpp"
+#include "tethercalc/study/result_keys.hpp"
 
 namespace tethercalc {
 namespace {
-
-namespace gp = gnuplot;
-namespace colour = gnuplot::colour;
 
 std::string feasible_style() { return gp::area(colour::green); }
 
@@ -46,10 +44,6 @@ Curves curves_of(const Requirements& need, std::span<const AreaPoints> points) {
   return curves;
 }
 
-double least_of(std::span<const double> a, std::span<const double> b) {
-  return std::min(gp::extent(a).lo, gp::extent(b).lo);
-}
-
 /// From zero to above what is asked for; what is far above that is cut off.
 gp::Range thrust_range(const Curves& curves) {
   const double asked = std::max(
@@ -65,7 +59,7 @@ bool any_power(const Curves& curves) {
 /// Around the least power; thin conductors need any amount.
 gp::Range power_range(const OptimumStudy& study, const Curves& curves) {
   if (!any_power(curves)) return {0, 1};
-  const double least = least_of(curves.hover_W, curves.forward_W);
+  const double least = std::min(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
   double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
   if (study.result.feasible) {
     reference =
@@ -155,17 +149,16 @@ std::string rounded_area(double area) {
 
 gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> points) {
   const Requirements& need = study.design.requirements;
-  const bool by_hover = need.headroom_at == Condition::hover;
   const std::string factor = significant(need.thrust_headroom, 2);
   gp::Plot plot;
   plot.curve("$curves using 1:2", gp::line(colour::black, 1, 1.6), "available");
   plot.curve("$curves using 1:3", gp::line(colour::blue, 2), "necessary in hover");
   plot.curve("$curves using 1:5", gp::line(colour::vermilion, 4, 1.4),
-             fmt::format("required, {}× {}", factor, by_hover ? "hover" : "forward"));
+             fmt::format("required, {}× {}", factor, condition_name(need.headroom_at)));
   plot.curve("$curves using 1:4", gp::line(colour::orange, 5), "necessary forward");
   const Optimization& result = study.result;
   if (result.feasible) {
-    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    const OperatingPoint judged = study.points().in(need.headroom_at);
     plot.mark(result.area / unit::square_millimetre, judged.available_thrust / unit::gram_force,
               gp::point(colour::black, 13, 0.9), "");
   } else if (study.best_headroom.value > 0) {
@@ -185,8 +178,7 @@ gp::Plot power_plot(const OptimumStudy& study) {
   gp::Plot plot;
   plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
-    const bool by_hover = study.design.requirements.power_at == Condition::hover;
-    const OperatingPoint& judged = by_hover ? result.hover : result.forward;
+    const OperatingPoint judged = study.points().in(study.design.requirements.power_at);
     plot.mark(result.area / unit::square_millimetre, judged.total_power,
               gp::point(colour::black, 13, 0.9), "optimum, " + rounded_area(result.area));
   }

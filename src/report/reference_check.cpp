@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <utility>
 
@@ -20,21 +19,21 @@ namespace {
 constexpr double default_relative_tolerance = 1e-6;
 
 /// What a new record holds, as far as it exists.
-constexpr std::array main_results{"status",
-                                  "limited_by",
-                                  "limiting_condition",
-                                  "cross_section_mm2",
-                                  "hover.tether_mass_g",
-                                  "hover.headroom",
-                                  "hover.total_power_W",
-                                  "hover.received_voltage_V",
-                                  "forward.pitch_deg",
-                                  "forward.headroom",
-                                  "forward.total_power_W",
-                                  "forward.received_voltage_V",
-                                  "headroom.best",
-                                  "minimum_power.cross_section_mm2",
-                                  "minimum_power.total_power_W"};
+constexpr const char* main_results[] = {"status",
+                                        "limited_by",
+                                        "limiting_condition",
+                                        "cross_section_mm2",
+                                        "hover.tether_mass_g",
+                                        "hover.headroom",
+                                        "hover.total_power_W",
+                                        "hover.received_voltage_V",
+                                        "forward.pitch_deg",
+                                        "forward.headroom",
+                                        "forward.total_power_W",
+                                        "forward.received_voltage_V",
+                                        "headroom.best",
+                                        "minimum_power.cross_section_mm2",
+                                        "minimum_power.total_power_W"};
 
 ordered_json json_of(const ResultValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <string_view>
 #include <utility>
 
 #include "io/embedded_files.hpp"
@@ -11,8 +10,6 @@
 #include "report/html.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/design_figures.hpp"
-#include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 

@@ -14,9 +14,6 @@
 namespace tethercalc {
 namespace {
 
-namespace gp = gnuplot;
-namespace colour = gnuplot::colour;
-
 constexpr std::size_t most_curves = 7;
 constexpr std::size_t most_cells = 40000;
 
@@ -106,12 +103,6 @@ std::vector<Cell> cells_of(const SweepTable& table, const Axes& axes) {
   return out;
 }
 
-std::vector<double> column_of(const std::vector<Cell>& cells, double Cell::*member) {
-  std::vector<double> out;
-  for (const Cell& cell : cells) out.push_back(cell.*member);
-  return out;
-}
-
 const Cell* least_of(const std::vector<Cell>& cells) {
   const Cell* least = nullptr;
   for (const Cell& cell : cells) {
@@ -162,17 +153,12 @@ std::string tics(std::string_view axis, const SweepColumn& column) {
   return fmt::format("set {}tics ({})\n", axis, list);
 }
 
-/// What the numbers along axes of names stand for.
-std::vector<gp::LegendEntry> names_of(const Axes& axes) {
-  std::vector<gp::LegendEntry> out;
-  for (const SweepColumn* column : {axes.x, axes.y}) {
-    if (column == nullptr || column->names.empty()) continue;
-    for (std::size_t i = 0; i < column->names.size(); ++i) {
-      out.push_back({gp::LegendEntry::Sample::none, "",
-                     fmt::format("{} {}: {}", axis_label(column->path), i + 1, column->names[i])});
-    }
+/// Explains in the legend what the numbers along an axis of names stand for.
+void explain_names(gp::Plot& plot, const SweepColumn& column) {
+  for (std::size_t i = 0; i < column.names.size(); ++i) {
+    plot.entry({gp::LegendEntry::Sample::none, "",
+                fmt::format("{} {}: {}", axis_label(column.path), i + 1, column.names[i])});
   }
-  return out;
 }
 
 std::string subtitle(const SweepTable& table, const Axes& axes) {
@@ -209,9 +195,7 @@ Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vecto
       if (axes.y == nullptr || cell.y == double(k)) own.push_back(cell);
     }
     const std::string name = fmt::format("curve{}", k + 1);
-    const std::vector<double> x = column_of(own, &Cell::x);
-    const std::vector<double> value = column_of(own, &Cell::value);
-    figure.script += gp::data_block(name, {x, value});
+    figure.script += gp::data_block(name, own, {&Cell::x, &Cell::value});
     const std::string data = fmt::format("${} using 1:2", name);
     const std::string words = axes.y == nullptr ? "" : axes.y->names[k];
     const std::string dots = gp::point(colours[k % colours.size()], 7, 0.4);
@@ -227,19 +211,16 @@ Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vecto
     plot.mark(least->x, least->value, gp::point(colour::black, 12, 1),
               "least: " + least_words(axes, *least));
   }
-  std::vector<gp::LegendEntry> legend(plot.legend().begin(), plot.legend().end());
-  if (!axes.x->names.empty()) {
-    const auto names = names_of({axes.x, nullptr});
-    legend.insert(legend.end(), names.begin(), names.end());
-  }
-  figure.lines = 29 + int(legend.size());
+  explain_names(plot, *axes.x);
+  figure.lines = 29 + int(plot.legend().size());
   const gp::Layout layout(figure.lines, 0.125, 0.045);
-  const auto [lo, hi] = gp::extent(column_of(cells, &Cell::value));
-  const auto [x_lo, x_hi] = gp::extent(column_of(cells, &Cell::x));
+  const auto [lo, hi] = gp::extent(gp::column(cells, &Cell::value));
+  const auto [x_lo, x_hi] = gp::extent(gp::column(cells, &Cell::x));
   figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
                    layout.above(2.7, subtitle(table, axes)) +
-                   layout.below(25, axis_label(axes.x->path)) + layout.legend(27, 1, legend) +
-                   tics("x", *axes.x) + gp::set_range("x", gp::with_margin(x_lo, x_hi, 0.03)) +
+                   layout.below(25, axis_label(axes.x->path)) +
+                   layout.legend(27, 1, plot.legend()) + tics("x", *axes.x) +
+                   gp::set_range("x", gp::with_margin(x_lo, x_hi, 0.03)) +
                    gp::set_range("y", gp::with_margin(lo, hi, 0.06)) + plot.text();
   return figure;
 }
@@ -291,17 +272,16 @@ Figure map_figure(const SweepTable& table, const Axes& axes, const std::vector<C
   if (table.infeasible > 0 && grid) {
     plot.entry({gp::LegendEntry::Sample::area, blank, "infeasible"});
   }
-  std::vector<gp::LegendEntry> legend(plot.legend().begin(), plot.legend().end());
-  const auto names = names_of(axes);
-  legend.insert(legend.end(), names.begin(), names.end());
+  explain_names(plot, *axes.x);
+  explain_names(plot, *axes.y);
 
-  figure.lines = 34 + int(legend.size());
+  figure.lines = 34 + int(plot.legend().size());
   const gp::Layout layout(figure.lines, 0.125, 0.045);
-  const gp::Range values = gp::extent(column_of(cells, &Cell::value));
+  const gp::Range values = gp::extent(gp::column(cells, &Cell::value));
   figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
                    layout.above(2.7, axis_label(axes.y->path)) +
                    layout.below(25, axis_label(axes.x->path)) +
-                   layout.title(27, subtitle(table, axes)) + layout.legend(32, 1, legend) +
+                   layout.title(27, subtitle(table, axes)) + layout.legend(32, 1, plot.legend()) +
                    layout.colour_box(28, 29) +
                    layout.note_for_characters(
                        28.2, fmt::format("0 begins at {}, 9 ends at {}", significant(values.lo, 4),

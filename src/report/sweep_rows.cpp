@@ -13,8 +13,6 @@
 namespace tethercalc {
 namespace {
 
-// --- Cells -----------------------------------------------------------------------------------
-
 /// The shortest text that reads back as the same number, as `csv_number` makes it.
 void append_number(std::string& text, double value) {
   std::array<char, 32> digits{};

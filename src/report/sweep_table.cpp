@@ -123,24 +123,13 @@ class Reader {
   std::size_t untold_ = 0;
 };
 
-}  // namespace
-
-std::vector<double> SweepColumn::distinct() const {
-  std::vector<double> out = values;
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
-SweepTable parse_sweep_csv(std::string_view text, const std::string& file,
-                           const std::string& value) {
-  return Reader(text, file, value).read();
-}
-
-std::string axis_label(std::string_view name) {
+/// The ending of a name that says its unit, and the unit; empty where it has none.
+std::pair<std::string_view, const char*> unit_ending(std::string_view name) {
   // The longest ending first: "_m_s" before "_s".
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 26> units{
+  constexpr std::array<std::pair<std::string_view, const char*>, 28> units{
       {{"_ohm_mm2_per_m", "Ω mm²/m"},
+       {"_ohm_mm2_m", "Ω·mm²/m"},
+       {"_1_K", "1/K"},
        {"_per_K", "1/K"},
        {"_kg_m3", "kg/m³"},
        {"_g_cm3", "g/cm³"},
@@ -166,24 +155,38 @@ std::string axis_label(std::string_view name) {
        {"_C", "°C"},
        {"_m", "m"},
        {"_g", "g"}}};
-  std::string unit;
-  std::size_t unit_length = 0;
-  for (const auto& [ending, words] : units) {
-    if (!name.ends_with(ending)) continue;
-    unit = words;
-    unit_length = ending.size();
-    break;
+  for (const auto& unit : units) {
+    if (name.ends_with(unit.first)) return unit;
   }
-  // The spec knows better: a discharge_C is no temperature.
-  if (const SpecField* field = find_field(name)) unit = field->unit;
-  if (!unit.empty()) {
-    name.remove_suffix(unit_length);
-    unit = fmt::format(" ({})", unit);
-  }
+  return {"", ""};
+}
+
+}  // namespace
+
+std::vector<double> SweepColumn::distinct() const {
+  std::vector<double> out = values;
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+SweepTable parse_sweep_csv(std::string_view text, const std::string& file,
+                           const std::string& value) {
+  return Reader(text, file, value).read();
+}
+
+std::string unit_of(std::string_view name) {
+  if (const SpecField* field = find_field(name)) return std::string(field->unit);
+  return unit_ending(name).second;
+}
+
+std::string axis_label(std::string_view name) {
+  const std::string unit = unit_of(name);
+  if (!unit.empty()) name.remove_suffix(unit_ending(name).first.size());
   std::string out(name);
   std::replace_if(
       out.begin(), out.end(), [](char c) { return c == '.' || c == '_'; }, ' ');
-  return out + unit;
+  return unit.empty() ? out : fmt::format("{} ({})", out, unit);
 }
 
 }  // namespace tethercalc

@@ -35,8 +35,12 @@ void TextTable::add(std::vector<std::string> cells, bool emphasis) {
 
 std::string TextTable::text(const TextStyle& style) const {
   std::vector<std::size_t> widths;
+  std::vector<std::string> upper_titles;
+  std::vector<std::string> lower_titles;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const auto [upper, lower] = title_lines(columns_[c].title);
+    upper_titles.push_back(upper);
+    lower_titles.push_back(lower);
     std::size_t width = std::max(display_width(upper), display_width(lower));
     for (const Row& row : rows_) width = std::max(width, display_width(row.cells[c]));
     widths.push_back(width);
@@ -51,13 +55,6 @@ std::string TextTable::text(const TextStyle& style) const {
     out.erase(out.find_last_not_of(' ') + 1);
     return out;
   };
-  std::vector<std::string> upper_titles;
-  std::vector<std::string> lower_titles;
-  for (const Column& column : columns_) {
-    const auto [upper, lower] = title_lines(column.title);
-    upper_titles.push_back(upper);
-    lower_titles.push_back(lower);
-  }
   std::string out = style.subdued(line(upper_titles)) + "\n";
   if (!line(lower_titles).empty()) out += style.subdued(line(lower_titles)) + "\n";
   for (const Row& row : rows_) {

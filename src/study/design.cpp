@@ -122,7 +122,7 @@ class Prices {
     const double value = quantity_of(answer_.best, limit.quantity);
     if (std::abs(value - limit.bound) > binding * scale) return;
     DesignProblem changed = problem_;
-    ShadowPrice price{Priced::limit, i, limit.sign > 0};
+    ShadowPrice price{Priced::limit};
     price.name = limit.name;
     price.step = limit.sign * 0.01 * scale;
     changed.limits[i].bound += price.step;
@@ -139,7 +139,7 @@ class Prices {
     const bool at_hi = range->hi - x <= binding * width;
     if (!at_lo && !at_hi) return;
     DesignProblem changed = problem_;
-    ShadowPrice price{Priced::range_end, i, !at_lo};
+    ShadowPrice price{Priced::range_end, !at_lo};
     price.name = axis.name;
     price.step = (at_lo ? -0.01 : 0.01) * std::abs(x);
     auto& moved = std::get<Uniform>(changed.free[i].values);
@@ -167,7 +167,7 @@ class Prices {
       const Movable* way = relaxation(best.design, margin);
       if (way == nullptr || std::find(told.begin(), told.end(), way) != told.end()) continue;
       told.push_back(way);
-      add_moved({Priced::demand, 0, false, margin.demand}, *way, best.design);
+      add_moved({Priced::demand, false, margin.demand}, *way, best.design);
     }
   }
 

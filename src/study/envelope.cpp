@@ -1,7 +1,6 @@
 #include "tethercalc/study/envelope.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace tethercalc {
@@ -22,33 +21,16 @@ DemandMargin worst_margin(const Design& design) {
 }  // namespace
 
 double search_end(const Design& design, Reach reach) {
-  switch (reach) {
-    case Reach::height:
-      return 1e4;
-    case Reach::payload:
-      return design.drone.motor.max_thrust() * design.drone.motor_count / design.flight.gravity;
-    case Reach::headwind:
-    case Reach::airspeed:
-      break;
-  }
-  return 100;
+  if (reach == Reach::height) return 1e4;
+  if (reach != Reach::payload) return 100;
+  return design.drone.motor.max_thrust() * design.drone.motor_count / design.flight.gravity;
 }
 
 Design at_reach(Design design, Reach reach, double value) {
-  switch (reach) {
-    case Reach::height:
-      design.tether.length = value;
-      break;
-    case Reach::payload:
-      design.drone.mass += value;
-      break;
-    case Reach::headwind:
-      design.flight.headwind = value;
-      break;
-    case Reach::airspeed:
-      design.flight.airspeed = value;
-      break;
-  }
+  double* const pushed[] = {&design.tether.length, &design.drone.mass, &design.flight.headwind,
+                            &design.flight.airspeed};  // in the order of Reach
+  double& field = *pushed[static_cast<std::size_t>(reach)];
+  field = reach == Reach::payload ? field + value : value;
   return design;
 }
 

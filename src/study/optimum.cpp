@@ -164,9 +164,8 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
     with_motor.drone.motor = motor.curve;
     ranking.push_back({optimum_of(with_motor), std::move(motor)});
   }
-  const bool by_hover = design.requirements.power_at == Condition::hover;
-  const auto power = [by_hover](const MotorOptimum& entry) {
-    return by_hover ? entry.result.hover.total_power : entry.result.forward.total_power;
+  const auto power = [&](const MotorOptimum& entry) {
+    return entry.points().in(design.requirements.power_at).total_power;
   };
   std::stable_sort(ranking.begin(), ranking.end(),
                    [&](const MotorOptimum& a, const MotorOptimum& b) {

@@ -39,27 +39,10 @@ std::string_view condition_name(Condition condition) {
 }
 
 std::string_view limit_name(Limit limit) {
-  switch (limit) {
-    case Limit::minimum_power:
-      return "minimum_power";
-    case Limit::available_power:
-      return "available_power";
-    case Limit::takeoff_mass:
-      return "takeoff_mass";
-    case Limit::motor_thrust:
-      return "motor_thrust";
-    case Limit::max_pitch:
-      return "max_pitch";
-    case Limit::conductor_temperature:
-      return "conductor_temperature";
-    case Limit::tether_strength:
-      return "tether_strength";
-    case Limit::converter_rating:
-      return "converter_rating";
-    case Limit::input_voltage:
-      return "input_voltage";
-  }
-  return "";
+  constexpr std::array<std::string_view, 9> names{
+      "minimum_power",         "available_power", "takeoff_mass",     "motor_thrust", "max_pitch",
+      "conductor_temperature", "tether_strength", "converter_rating", "input_voltage"};
+  return names.at(static_cast<std::size_t>(limit));
 }
 
 std::string_view status_name(bool feasible) { return feasible ? "optimal" : "infeasible"; }

@@ -1,6 +1,7 @@
 #include "tethercalc/study/sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/constants.hpp"
@@ -21,25 +22,26 @@ SweepOutcome given_cable(const Design& design) {
   return outcome;
 }
 
-/// Outputs of some consecutive points.
-struct MixedChunk {
-  SensitivitySample area;
-  SensitivitySample power;
-  SensitivitySample feasible;
-};
+/// Outputs of some consecutive points: cross-section, power, and whether there are any.
+enum Output { area_output, power_output, feasible_output };
+using MixedChunk = std::array<SensitivitySample, 3>;
 
-SensitivitySample empty_sample(std::size_t inputs) {
-  return {{}, {}, std::vector<std::vector<double>>(inputs)};
+MixedChunk empty_chunk(std::size_t inputs) {
+  MixedChunk chunk;
+  for (SensitivitySample& output : chunk) output.mixed.resize(inputs);
+  return chunk;
 }
 
 void append(std::vector<double>& to, const std::vector<double>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-void append(SensitivitySample& to, const SensitivitySample& from) {
-  append(to.a, from.a);
-  append(to.b, from.b);
-  for (std::size_t i = 0; i < to.mixed.size(); ++i) append(to.mixed[i], from.mixed[i]);
+void append(MixedChunk& to, const MixedChunk& from) {
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    append(to[k].a, from[k].a);
+    append(to[k].b, from[k].b);
+    for (std::size_t i = 0; i < to[k].mixed.size(); ++i) append(to[k].mixed[i], from[k].mixed[i]);
+  }
 }
 
 /// Computes the outputs at points of two samples and their mixtures.
@@ -53,7 +55,7 @@ class MixedPoints {
         unit_(2 * axes_.size()) {}
 
   void compute(std::uint64_t begin, std::uint64_t end, MixedChunk& chunk) {
-    chunk = {empty_sample(axes_.size()), empty_sample(axes_.size()), empty_sample(axes_.size())};
+    chunk = empty_chunk(axes_.size());
     for (std::uint64_t j = begin; j < end; ++j) {
       points_.at(j, unit_);
       std::vector<double> a;
@@ -62,24 +64,26 @@ class MixedPoints {
         a.push_back(quantile(axes_[i], unit_[i]));
         b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
       }
-      add(a, chunk.area.a, chunk.power.a, chunk.feasible.a);
-      add(b, chunk.area.b, chunk.power.b, chunk.feasible.b);
+      add(a, chunk, [](SensitivitySample& output) { return &output.a; });
+      add(b, chunk, [](SensitivitySample& output) { return &output.b; });
       for (std::size_t i = 0; i < axes_.size(); ++i) {
         std::vector<double> mixed = a;
         mixed[i] = b[i];
-        add(mixed, chunk.area.mixed[i], chunk.power.mixed[i], chunk.feasible.mixed[i]);
+        add(mixed, chunk, [i](SensitivitySample& output) { return &output.mixed[i]; });
       }
     }
   }
 
  private:
-  void add(const std::vector<double>& values, std::vector<double>& area, std::vector<double>& power,
-           std::vector<double>& feasible) {
+  /// The outputs of `values`, each to where `place` finds it.
+  template <typename Place>
+  void add(const std::vector<double>& values, MixedChunk& chunk, const Place& place) {
     cursor_.set_values(values);
     const SweepOutcome outcome = sweep_outcome(cursor_.design(), given_area_);
-    area.push_back(outcome.feasible ? outcome.area() : nan);
-    power.push_back(outcome.feasible ? judged_power(outcome, cursor_.design()) : nan);
-    feasible.push_back(outcome.feasible ? 1 : 0);
+    const double power = judged_power(outcome, cursor_.design());
+    place(chunk[area_output])->push_back(outcome.feasible ? outcome.area() : nan);
+    place(chunk[power_output])->push_back(outcome.feasible ? power : nan);
+    place(chunk[feasible_output])->push_back(outcome.feasible ? 1 : 0);
   }
 
   std::span<const SweepAxis> axes_;
@@ -186,7 +190,7 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   SweepSensitivity result;
   result.points = std::min(space.rows(), most_sensitivity_points);
   result.evaluations = result.points * (axes + 2);
-  MixedChunk all{empty_sample(axes), empty_sample(axes), empty_sample(axes)};
+  MixedChunk all = empty_chunk(axes);
   const auto make_worker = [&] {
     return [&result, points = MixedPoints(space, base, result.points)](std::uint64_t index,
                                                                        MixedChunk& chunk) mutable {
@@ -196,17 +200,15 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   };
   const std::uint64_t chunks = (result.points + points_per_chunk - 1) / points_per_chunk;
   compute_in_order<MixedChunk>(0, chunks, runner, make_worker, [&](const MixedChunk& chunk) {
-    append(all.area, chunk.area);
-    append(all.power, chunk.power);
-    append(all.feasible, chunk.feasible);
+    append(all, chunk);
     return true;
   });
   const std::uint64_t seed = space.sample()->seed;
-  result.incomplete = incomplete_points(all.feasible);
-  result.area = sobol_indices(all.area, seed);
-  result.power = sobol_indices(all.power, seed);
+  result.incomplete = incomplete_points(all[feasible_output]);
+  result.area = sobol_indices(all[area_output], seed);
+  result.power = sobol_indices(all[power_output], seed);
   if (result.incomplete > 0) {
-    result.feasible = sobol_indices(all.feasible, seed);
+    result.feasible = sobol_indices(all[feasible_output], seed);
     if (std::isnan(result.feasible.front().total.value)) result.feasible.clear();
   }
   return result;

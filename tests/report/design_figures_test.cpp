@@ -1,6 +1,6 @@
-#include "tethercalc/report/design_figures.hpp"
 #include "tethercalc/files/gnuplot.hpp"
 #include "tethercalc/files/read_files.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
-#include "tethercalc/report/diagnosis_figure.hpp"
 #include "tethercalc/files/gnuplot.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

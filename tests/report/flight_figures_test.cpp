@@ -1,5 +1,5 @@
-#include "tethercalc/report/flight_figures.hpp"
 #include "tethercalc/files/gnuplot.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

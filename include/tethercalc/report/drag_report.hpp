@@ -18,10 +18,6 @@ namespace tethercalc {
 /// convergence. Empty for a sound fit.
 [[nodiscard]] std::vector<std::string> drag_warnings(const DragFit& fit);
 
-/// The block of a design spec that these parameters make: `front_area_m2`, `top_area_m2`,
-/// `linear_m_s`. Wind is the flight's, not the drone's, and stays out of it.
-[[nodiscard]] nlohmann::ordered_json spec_drag_block(const DragFit& fit);
-
 /// All results. `front_area_m2`, `top_area_m2`, `linear_m_s` and the list `wind_m_s` hold {`value`,
 /// `standard_error_independent`, `standard_error`, `ci95`}, null where the parameter is held at its
 /// bound, which `at_bound` then names; `warnings` those of `drag_warnings`; `drone.drag` is the

@@ -32,10 +32,6 @@ struct Answer {
 /// `study.table`, the optimum emphasised.
 [[nodiscard]] TitledTable power_table(const OptimumStudy& study);
 
-/// Everything about steady flight in one condition, a row an area.
-[[nodiscard]] TitledTable operating_table(const Design& design, Condition condition,
-                                          std::span<const AreaPoints> areas);
-
 /// Opens with the answer in sentences, then standard sizes and the power table; 100 columns at
 /// most.
 [[nodiscard]] std::string optimize_text(const DesignFile& file, const OptimumStudy& study,

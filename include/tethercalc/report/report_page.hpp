@@ -5,10 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tethercalc/diagnose/diagnosis.hpp"
-#include "tethercalc/report/figure.hpp"
-#include "tethercalc/report/flight_figures.hpp"
-#include "tethercalc/report/optimize_report.hpp"
+#include "tethercalc/report/result_figures.hpp"
 
 namespace tethercalc {
 

@@ -56,6 +56,9 @@ struct SweepView {
 /// a heat map would have more than 40 000 cells.
 [[nodiscard]] Figure sweep_figure(const SweepTable& table, const SweepView& view = {});
 
+/// "V" of "supply.voltage_V": the unit of a field or result; empty where it has none.
+[[nodiscard]] std::string unit_of(std::string_view name);
+
 /// "supply voltage (V)" of "supply.voltage_V": the words of a field or result, its unit apart.
 [[nodiscard]] std::string axis_label(std::string_view name);
 

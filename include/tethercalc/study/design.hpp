@@ -21,7 +21,6 @@ enum class Priced {
 /// What one more of something costs at the optimum, everything that is free adapting to it.
 struct ShadowPrice {
   Priced of = Priced::field;                ///< what kind
-  std::size_t index = 0;                    ///< of the limit, or of the free field
   bool high_end = false;                    ///< of a range
   Demand demand = Demand::thrust_headroom;  ///< which binds
   std::string name{};  ///< that of the limit, or the dot path of the field that is moved

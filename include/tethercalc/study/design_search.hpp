@@ -1,7 +1,6 @@
 // The best whole design among those that free fields allow.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>

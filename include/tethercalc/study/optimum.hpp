@@ -37,6 +37,11 @@ struct DesignOptimum {
   Optimization result;             ///< the optimum
   std::optional<Refusal> refusal;  ///< why there is none
   BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
+
+  /// The optimum, where there is one, in both conditions.
+  [[nodiscard]] AreaPoints points() const {
+    return {result.area, result.hover, result.forward, {}};
+  }
 };
 
 /// Optimises the design.

@@ -16,9 +16,8 @@
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/report/design_figures.hpp"
-#include "tethercalc/report/diagnosis_figure.hpp"
-#include "tethercalc/report/flight_figures.hpp"
+#include "tethercalc/report/report_page.hpp"
+#include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc::cli {
@@ -63,10 +62,9 @@ Figure drag(const PlotOptions& options) {
   const std::vector<std::string> views{"speed", "surface"};
   const bool surface = options.view == "surface";
   if (!surface && !options.view.empty() && options.view != "speed") {
-    throw InputError("--view", "\"" + options.view +
-                                   "\" is no view of drag; allowed are speed and "
-                                   "surface" +
-                                   did_you_mean(options.view, views));
+    throw InputError("--view",
+                     fmt::format("\"{}\" is no view of drag; allowed are speed and surface{}",
+                                 options.view, did_you_mean(options.view, views)));
   }
   const std::string name = options.files.size() == 1
                                ? base_name(options.files.front())
@@ -120,45 +118,32 @@ constexpr std::array kinds{
 
 const Kind& find_kind(const std::string& name) {
   std::vector<std::string> names;
-  std::string list;
   for (const Kind& kind : kinds) {
     if (kind.name == name) return kind;
     names.emplace_back(kind.name);
-    list += (list.empty() ? "" : ", ") + std::string(kind.name);
   }
-  throw InputError("plot", "there is no kind of figure \"" + name + "\"; allowed are " + list +
-                               did_you_mean(name, names));
+  throw InputError("plot", fmt::format("there is no kind of figure \"{}\"; allowed are {}{}", name,
+                                       fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
 /// An option that belongs to other kinds of figures was meant for something.
 void check_options(const PlotOptions& options) {
-  constexpr std::string_view designs = "optimum, motors, diagnosis";
-  constexpr std::string_view flights = "log, drag, diagnosis";
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 17> takers{
-      {{"--set", designs},
-       {"--motors", "motors"},
-       {"--view", "drag"},
-       {"--flight", "diagnosis"},
-       {"--power", "diagnosis"},
-       {"--base", "diagnosis"},
-       {"--x", "sweep"},
-       {"--y", "sweep"},
-       {"--value", "sweep"},
-       {"--mass-g", flights},
-       {"--from", flights},
-       {"--to", flights},
-       {"--pitch-offset-deg", flights},
-       {"--trim-log", flights},
-       {"--air-density", flights},
-       {"--pressure-hPa", flights},
-       {"--temperature-C", flights}}};
+  static const std::vector<std::pair<std::string, std::vector<std::string>>> takers{
+      {"optimum, motors, diagnosis", {"--set"}},
+      {"motors", {"--motors"}},
+      {"drag", {"--view"}},
+      {"diagnosis", {"--flight", "--power", "--base"}},
+      {"sweep", {"--x", "--y", "--value"}},
+      {"log, drag, diagnosis",
+       {"--mass-g", "--from", "--to", "--pitch-offset-deg", "--trim-log", "--air-density",
+        "--pressure-hPa", "--temperature-C"}}};
   std::vector<InputProblem> problems;
-  for (const auto& [name, takes] : takers) {
-    const bool given = std::count(options.given.begin(), options.given.end(), name) > 0;
-    if (given && takes.find(options.kind) == std::string_view::npos) {
+  for (const auto& [figures, names] : takers) {
+    if (figures.find(options.kind) != std::string::npos) continue;
+    for (const std::string& name : names) {
+      if (std::count(options.given.begin(), options.given.end(), name) == 0) continue;
       problems.push_back(
-          {std::string(name),
-           fmt::format("is an option of the figures {}, not of {}", takes, options.kind)});
+          {name, fmt::format("is an option of the figures {}, not of {}", figures, options.kind)});
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
@@ -179,13 +164,31 @@ int text_columns() {
   return 100;
 }
 
+/// The drag that the flight shows, mass and air as the spec has them where the options do not say.
+DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
+  FlightOptions flight = options.flight;
+  if (!flight.mass_g) flight.mass_g = design.drone.mass / unit::gram;
+  if (!air_density(flight)) flight.air_density_kg_m3 = design.flight.air_density;
+  return studied_drag(base_name(options.flight_log), {options.flight_log}, flight);
+}
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,%+@-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 }  // namespace
 
 std::string plot_kinds_help() {
   std::string out;
   for (const Kind& kind : kinds) {
-    out += (out.empty() ? "" : "; ") + std::string(kind.name) + " " + std::string(kind.input) +
-           ": " + std::string(kind.help);
+    out += fmt::format("{}{} {}: {}", out.empty() ? "" : "; ", kind.name, kind.input, kind.help);
   }
   return out;
 }
@@ -196,8 +199,8 @@ int run_plot(const PlotOptions& options) {
   const FigureFormat format =
       options.output.empty() ? FigureFormat::text : figure_format(options.output, "--output");
   if (options.files.size() != 1 && !kind.many_files) {
-    throw InputError("plot " + options.kind, "is drawn from one file: plot " + options.kind + " " +
-                                                 std::string(kind.input));
+    throw InputError("plot " + options.kind,
+                     fmt::format("is drawn from one file: plot {} {}", options.kind, kind.input));
   }
   check_options(options);
   if (!(options.width_mm >= 85 && options.width_mm <= 400)) {
@@ -212,6 +215,31 @@ int run_plot(const PlotOptions& options) {
   size.colour = style_for(output).colour;
   emit(output, render(kind.draw(options), format, run_gnuplot, size));
   return done;
+}
+
+int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {
+  const DesignFile file = read_spec(options.spec);
+  PageContent content;
+  content.file = file;
+  content.command = command;
+  content.gnuplot = run_gnuplot;
+  if (!options.flight_log.empty()) content.drag = learn_drag(options, file.design);
+  if (!options.flight_log.empty() || !options.power_log.empty()) {
+    const ToldDiagnosis told = diagnose_logs(options, file);
+    if (told.flight) content.diagnoses.push_back({base_name(options.flight_log), *told.flight});
+    if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
+  }
+  content.motors = compare_motors(file.design, library_motors());
+  content.optimum = study_optimum(file.design, wire_sizes());
+  content.curve = area_curve(content.optimum);
+  emit(output, report_page(content));
+  return content.optimum.result.feasible ? done : answer_is_no;
+}
+
+std::string shell_command(std::span<const char* const> arguments) {
+  std::string out = "tethercalc";
+  for (const char* word : arguments.subspan(1)) out += " " + shell_word(word);
+  return out;
 }
 
 }  // namespace tethercalc::cli
