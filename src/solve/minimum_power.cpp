@@ -151,16 +151,18 @@ class LeastPowerSearch {
       }
     }
     const MotorCurve& motor = flight_.design().drone.motor;
-    const double battery = motor.is_convex() ? nan : battery_kink(flight_, a.radius, b.radius);
+    const bool any_kink = !is_proportional(flight_.design().supply.converter);
+    const double battery =
+        motor.is_convex() && !any_kink ? nan : battery_kink(flight_, a.radius, b.radius, any_kink);
     if (!std::isnan(battery)) return thrust_at(flight_, battery, a.tan_guess(battery));
     const double output = converter_kink(flight_.design().supply.converter,
                                          flight_.output_power(motor.power(a.thrust.value)),
                                          flight_.output_power(motor.power(b.thrust.value)));
     const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
     const std::size_t middle = pieces.first + (pieces.last - pieces.first + 1) / 2;
-    const double thrust = !std::isnan(output)
-                              ? motor.thrust(output / flight_.output_power(1))
-                              : motor.vertices()[motor.is_convex() ? 0 : middle].thrust;
+    const double thrust =
+        !std::isnan(output) ? motor.thrust(output / flight_.output_power(1))
+                            : motor.vertices()[motor.is_convex() && !any_kink ? 0 : middle].thrust;
     if (a.thrust.value < thrust && thrust < b.thrust.value) {
       const ThrustAt kink = at_thrust(flight_, thrust, a.radius, b.radius, a);
       if (a.radius < kink.radius && kink.radius < b.radius) return kink;
@@ -203,14 +205,17 @@ class LeastPowerSearch {
                                    one_piece))) {
       return false;
     }
-    if (b.radius < narrow * a.radius) return true;
+    // A slope that an efficiency bends down may vanish again beyond a kink that bends it up.
+    const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
+    const bool kinked =
+        pieces.first != pieces.last || !std::isnan(battery_kink(flight_, a.radius, b.radius, true));
+    if (b.radius < narrow * a.radius && !kinked) return true;
     // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
     // efficiency gains twice over where it rises with the load.
     const double low = efficiency_at(converter, flight_.output_power(lo));
     const double high = efficiency_at(converter, flight_.output_power(hi));
     const double gain = std::max(0.0, (high - low) / (hi - lo));
-    const double more_power =
-        motor.slope(pieces_between(motor, a.thrust.value, b.thrust.value).last) * b.thrust.slope;
+    const double more_power = motor.slope(pieces.last) * b.thrust.slope;
     return !(3 * low < 2 * gain * more_power * b.radius);
   }
 

@@ -75,11 +75,11 @@ double converter_kink(const Converter& converter, double lo, double hi, bool of_
   return nan;
 }
 
-double battery_kink(const SteadyFlight& flight, double lo, double hi) {
+double battery_kink(const SteadyFlight& flight, double lo, double hi, bool of_any_kind) {
   const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
   const Drone& drone = flight.design().drone;
   for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
-    if (drone.motor.slope(i) >= drone.motor.slope(i - 1)) continue;
+    if (!of_any_kind && drone.motor.slope(i) >= drone.motor.slope(i - 1)) continue;
     const double landed = drone.motor.vertices()[i].thrust * drone.motor_count;
     double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
     // Rounding may take it to where the battery has leapt already.

@@ -52,8 +52,10 @@ struct Pieces {
                                     bool of_any_kind = true);
 
 /// A radius strictly between two where the slope of the reserve battery's mass falls, or where it
-/// does on either side; NaN where it only rises.
-[[nodiscard]] double battery_kink(const SteadyFlight& flight, double lo, double hi);
+/// does on either side; NaN where it only rises. Those at which it rises, too, where they are asked
+/// for.
+[[nodiscard]] double battery_kink(const SteadyFlight& flight, double lo, double hi,
+                                  bool of_any_kind = false);
 
 /// The heat of the tether of one flight, asked for at one place after another nearby.
 class WarmTether {
