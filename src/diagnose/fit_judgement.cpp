@@ -1,10 +1,11 @@
 #include "diagnose/fit_judgement.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
+
+#include "diagnose/least_squares.hpp"
 
 namespace tethercalc {
 namespace {
@@ -69,7 +70,7 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   const VectorXd size = slopes.col(0);
   if (!columns.empty()) {
     const MatrixXd others = fit.jacobian(Eigen::all, columns);
-    slopes -= others * others.colPivHouseholderQr().solve(slopes);
+    slopes -= others * least_squares(others, slopes);
   }
   const MatrixXd gram = slopes.transpose() * slopes;
   const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(gram).eigenvalues().minCoeff();

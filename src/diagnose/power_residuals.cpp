@@ -1,6 +1,6 @@
 #include "diagnose/power_residuals.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "diagnose/least_squares.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
@@ -116,7 +117,7 @@ std::vector<double> without_shapes(const Eigen::MatrixXd& shapes, const std::vec
   // Heights or airspeeds that never change make columns equal: the decomposition must bear that.
   const Eigen::MatrixXd normal = used.transpose() * used;
   const Eigen::VectorXd rest =
-      target - used * normal.completeOrthogonalDecomposition().solve(used.transpose() * target);
+      target - used * (symmetric_pseudo_inverse(normal) * (used.transpose() * target));
   return {rest.begin(), rest.end()};
 }
 

@@ -1,16 +1,14 @@
 #include "diagnose/selection.hpp"
 
-#include <Eigen/QR>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
 
 #include "diagnose/fit_judgement.hpp"
+#include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
+#include "identify/distributions.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -29,18 +27,6 @@ constexpr double gain_beside_unnamed = 2.5;
 /// Unnamed structure enters the estimates of the parameters only where it is at least this part of
 /// the squared error. A small one disturbs them less without it than its chosen shape does with it.
 constexpr double structure_that_disturbs = 0.25;
-
-double students_t_p_value(double t, double degrees) {
-  if (!std::isfinite(t)) return t > 0 ? 0 : 1;
-  const boost::math::students_t distribution(degrees);
-  return boost::math::cdf(boost::math::complement(distribution, t));
-}
-
-double fisher_p_value(double f, double numerator, double denominator) {
-  if (!std::isfinite(f)) return 0;
-  const boost::math::fisher_f distribution(numerator, denominator);
-  return boost::math::cdf(boost::math::complement(distribution, std::max(f, 0.0)));
-}
 
 /// Sum of the differences of block errors and its standard error over blocks.
 struct BlockDifference {
@@ -61,10 +47,9 @@ VectorXd systematic_variance(const Record& record, const BlockFit& fit) {
   VectorXd variance = VectorXd::Zero(fit.jacobian.cols());
   if (fit.jacobian.cols() == 0) return variance;
   const MatrixXd weighted = fit.weight.cwiseSqrt().asDiagonal() * fit.jacobian;
-  const auto factor = weighted.colPivHouseholderQr();
   for (const std::vector<double>& column : record.problem().systematic) {
     const VectorXd change = fit.weight.cwiseSqrt().cwiseProduct(record.scaled_column(column));
-    variance += factor.solve(change).cwiseAbs2();
+    variance += least_squares(weighted, change).cwiseAbs2();
   }
   return variance;
 }
@@ -86,7 +71,7 @@ class Search {
          const SelectionProgress& progress)
       : record_(problem), options_(options), progress_(progress) {
     degrees_ = static_cast<double>(record_.blocks() - 1);
-    student_factor_ = boost::math::quantile(boost::math::students_t(degrees_), 0.975);
+    student_factor_ = student_quantile(degrees_, 0.975);
   }
 
   Selection run() {
@@ -196,17 +181,17 @@ class Search {
     }
     if (distance.empty()) {
       const BlockDifference gain = difference(without.block_error, with.block_error);
-      return gain.sum > 0 ? 2 * students_t_p_value(gain.sum / gain.se, degrees_) : 1;
+      return gain.sum > 0 ? 2 * student_tail(gain.sum / gain.se, degrees_) : 1;
     }
     const auto count = static_cast<Index>(distance.size());
     MatrixXd spread(count, static_cast<Index>(record_.blocks()));
     for (Index k = 0; k < count; ++k) spread.row(k) = without_block[static_cast<std::size_t>(k)];
     const VectorXd offset = VectorXd::Map(distance.data(), count);
     const MatrixXd covariance = jackknife_covariance(std::move(spread));
-    const double t2 = offset.dot(covariance.completeOrthogonalDecomposition().solve(offset));
+    const double t2 = offset.dot(symmetric_pseudo_inverse(covariance) * offset);
     const auto numerator = static_cast<double>(count);
     const double denominator = degrees_ + 1 - numerator;
-    return fisher_p_value(t2 / numerator * denominator / degrees_, numerator, denominator);
+    return fisher_tail(t2 / numerator * denominator / degrees_, numerator, denominator);
   }
 
   /// Whether the group lowers the held-out error of the named part alone, too. A name that helps

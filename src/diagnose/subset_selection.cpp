@@ -1,15 +1,15 @@
 #include "diagnose/subset_selection.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "diagnose/fit_judgement.hpp"
+#include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
+#include "identify/distributions.hpp"
 
 namespace tethercalc {
 namespace {
@@ -264,8 +264,7 @@ std::map<std::size_t, double> likelihood_errors(const Record& record, const Bloc
 
   std::map<std::size_t, double> errors;
   if (named == 0) return errors;
-  const MatrixXd covariance =
-      (jacobian.transpose() * jacobian).completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
   for (Index k = 0; k < named; ++k) {
     const std::size_t index = parameters[static_cast<std::size_t>(k)];
     errors[index] = record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
@@ -338,9 +337,8 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
       f.entry.indistinguishable = search.rivals(g);
       f.before = before->block_error;
       f.after = fit.block_error;
-      const boost::math::chi_squared chi(static_cast<double>(problem.groups[g].parameters.size()));
-      f.entry.p_value = boost::math::cdf(boost::math::complement(
-          chi, std::max(0.0, search.length_without(g) - best.fit.squared_error())));
+      f.entry.p_value = chi_squared_tail(search.length_without(g) - best.fit.squared_error(),
+                                         static_cast<double>(problem.groups[g].parameters.size()));
       found.push_back(std::move(f));
       before = &fit;
     }
@@ -372,8 +370,7 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
   result.base.holdout_rmse = std::sqrt(base_error / rows);
   result.extended.holdout_rmse = std::sqrt(named_error / rows);
   result.complete.holdout_rmse = std::sqrt(complete_error / rows);
-  result.student_factor =
-      boost::math::quantile(boost::math::students_t(static_cast<double>(result.blocks) - 1), 0.975);
+  result.student_factor = student_quantile(static_cast<double>(result.blocks) - 1, 0.975);
   name_channels(problem, result.unnamed);
   if (!result.unnamed.regressors.empty()) {
     result.unnamed.share_percent = 100 * std::max(0.0, 1 - complete_error / named_error);

@@ -1,10 +1,11 @@
 #include "diagnose/unnamed_structure.hpp"
 
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cmath>
+
+#include "identify/distributions.hpp"
 
 namespace tethercalc {
 namespace {
@@ -111,8 +112,8 @@ std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& f
   }
 
   const auto degrees = static_cast<double>(blocks - 1);
-  const double threshold = boost::math::quantile(boost::math::complement(
-      boost::math::students_t(degrees), false_alarm_probability / 2 / static_cast<double>(count)));
+  const double threshold =
+      -student_quantile(degrees, false_alarm_probability / 2 / static_cast<double>(count));
   std::optional<Index> best;
   for (Index k = 0; k < count; ++k) {
     const bool passed_over =

@@ -7,13 +7,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "identify/distributions.hpp"
 #include "identify/series.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
@@ -580,8 +580,7 @@ Estimate propagate(const DragFit& fit, double value, std::span<const double> gra
   out.degrees_of_freedom = honest.degrees_of_freedom;
   double half_width = 0;  // without variance the value is exact
   if (honest.degrees_of_freedom > 0) {
-    const boost::math::students_t distribution(honest.degrees_of_freedom);
-    half_width = boost::math::quantile(distribution, 0.975) * out.standard_error;
+    half_width = student_quantile(honest.degrees_of_freedom, 0.975) * out.standard_error;
   }
   out.lower = value - half_width;
   out.upper = value + half_width;

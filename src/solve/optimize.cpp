@@ -215,8 +215,14 @@ void search_feasible_areas(Optimization& result, const Flights& flights) {
 Optimization optimum_of(const Flights& flights) {
   Optimization result;
   result.minimum_power = minimum_power(flights.in(flights.hover.design().requirements.power_at));
-  // The cheapest of all areas is the optimum if it is feasible, as it often is.
-  if (result.minimum_power.area > 0) take(result, flights, result.minimum_power.area);
+  // The cheapest of all areas is the optimum if it is feasible, which saves a search that takes
+  // long with some demands.
+  const Design& design = flights.hover.design();
+  const bool is_set_dear = is_heated(design.tether) || !is_proportional(design.supply.converter) ||
+                           design.drone.reserve_battery.specific_energy > 0;
+  if (is_set_dear && result.minimum_power.area > 0) {
+    take(result, flights, result.minimum_power.area);
+  }
   if (!result.feasible) search_feasible_areas(result, flights);
   if (result.feasible) {
     name_limit(result, flights);

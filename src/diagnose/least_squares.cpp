@@ -1,0 +1,25 @@
+#include "diagnose/least_squares.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <limits>
+
+namespace tethercalc {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
+  return a.colPivHouseholderQr().solve(b);
+}
+
+MatrixXd symmetric_pseudo_inverse(const MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
+  const VectorXd& values = eigen.eigenvalues();
+  const double least = values.cwiseAbs().maxCoeff() * static_cast<double>(matrix.rows()) *
+                       std::numeric_limits<double>::epsilon();
+  const VectorXd inverse = (values.array() > least).select(values.array().inverse(), 0);
+  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace tethercalc
