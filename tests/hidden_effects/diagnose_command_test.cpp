@@ -435,3 +435,30 @@ TEST_CASE("the practice logs are answered correctly at the command line") {
     CHECK(d["findings"][0]["effect"] == effect);
   }
 }
+
+TEST_CASE("the linear drag of a flight in the autopilot's own simulator is found") {
+  const auto log = reference_file("data/real/sitl_delorean_00000002.bin");
+  if (!log) return;
+  const Ran told = run_tethercalc({"diagnose", spec_file, "--set", "drone.mass_g=3000", "--flight",
+                                   log->string(), "--format", "json"});
+  const auto d = ordered_json::parse(told.out);
+  REQUIRE(d["findings"].size() == 1);
+  const auto& finding = d["findings"][0];
+  CHECK(finding["effect"] == "linear_drag");
+  CHECK(finding["gain_percent"] > 80);
+  CHECK(finding["parameters"][0]["ci95"][0] > 0);
+}
+
+TEST_CASE("what is no flight of a multirotor is refused by its reason") {
+  for (const auto& [name, reason] :
+       {std::pair{"erle_pxf_plane_5-12-2014_05_12_2014_E.BIN", "ArduPlane V3.1.2beta1"},
+        std::pair{"erle_pxf_copter_09-10-2014_25.BIN", "the estimator has diverged"}}) {
+    const auto log = reference_file(std::string("data/real/") + name);
+    if (!log) return;
+    for (const Ran& refused : {run_tethercalc({"diagnose", spec_file, "--flight", log->string()}),
+                               run_tethercalc({"drag", log->string(), "--mass-g", "1500"})}) {
+      CHECK(refused.exit_code == 2);
+      CHECK_THAT(refused.err, Catch::Contains(reason));
+    }
+  }
+}
