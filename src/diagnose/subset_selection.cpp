@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <list>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "diagnose/fit_judgement.hpp"
 #include "diagnose/least_squares.hpp"
@@ -68,6 +71,11 @@ class PartSearch {
     if (!best_.named.empty()) find_aliased(best_, true);
   }
 
+  /// Leaves a name of the best model out.
+  void take_back(std::size_t g) {
+    best_ = model(without(best_.named, g), best_.shapes, &best_.fit);
+  }
+
   [[nodiscard]] const Record& record() const { return record_; }
   [[nodiscard]] const Model& base() const { return base_; }
   [[nodiscard]] const Model& best() const { return best_; }
@@ -89,6 +97,11 @@ class PartSearch {
       order.push_back(std::move(*next));
     }
     return order;
+  }
+
+  /// Its names without its shapes.
+  [[nodiscard]] BlockFit named_alone() const {
+    return best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit).fit;
   }
 
   [[nodiscard]] Groups rivals(std::size_t g) const {
@@ -280,6 +293,80 @@ void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>
   add_fit(record, fit, block_ids, {}, all);
 }
 
+/// The rows of one part with what concerns them, and the search among them.
+struct Part {
+  SelectionProblem problem;
+  std::vector<std::size_t> shape_index;  ///< of its unnamed regressors among those of the whole
+  std::vector<int> block_ids;            ///< of the whole, in rising order
+  std::optional<PartSearch> search;
+
+  Part(const SelectionProblem& whole, const std::vector<char>& rows) : problem(whole) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!rows[i]) problem.block[i] = -1;
+    }
+    const std::set<int> distinct(problem.block.begin(), problem.block.end());
+    block_ids.assign(distinct.begin(), distinct.end());
+    std::erase(block_ids, -1);
+    problem.unnamed.clear();
+    for (std::size_t u = 0; u < whole.unnamed.size(); ++u) {
+      const std::vector<double>& column = whole.unnamed[u].column;
+      bool concerns = true;
+      for (std::size_t i = 0; i < column.size(); ++i) concerns &= column[i] == 0 || rows[i];
+      if (!concerns) continue;
+      shape_index.push_back(u);
+      problem.unnamed.push_back(whole.unnamed[u]);
+    }
+  }
+};
+
+/// A named effect of a part's best model and what it adds to the names before it there.
+struct Named {
+  Part* part = nullptr;
+  SelectedGroup entry;
+  VectorXd before, after;  ///< squared errors of the part's blocks
+
+  [[nodiscard]] double gain() const { return before.sum() - after.sum(); }
+};
+
+/// The names of all parts, those that gain most first, with their gains in all of the record.
+std::vector<Named> named_in(std::list<Part>& parts, double base_error, double rows) {
+  std::vector<Named> named;
+  for (Part& part : parts) {
+    VectorXd before = part.search->base().fit.block_error;
+    for (const auto& [g, fit] : part.search->in_order()) {
+      Named n{&part, {}, std::move(before), fit.block_error};
+      n.entry.group = g;
+      before = fit.block_error;
+      named.push_back(std::move(n));
+    }
+  }
+  std::stable_sort(named.begin(), named.end(),
+                   [](const Named& a, const Named& b) { return a.gain() > b.gain(); });
+  double error = base_error;
+  for (Named& n : named) {
+    const double after = error - n.gain();
+    n.entry.rmse_before = std::sqrt(error / rows);
+    n.entry.rmse_after = std::sqrt(after / rows);
+    n.entry.gain_percent = gain_percent(error, after);
+    n.entry.gain_se_percent = gain_se_percent(n.before, n.after, error - n.before.sum());
+    error = after;
+  }
+  return named;
+}
+
+/// The same, without those that gain too little to be worth a name beside all others.
+std::vector<Named> worth_a_name(std::list<Part>& parts, double base_error, double rows,
+                                double least_gain_percent) {
+  while (true) {
+    std::vector<Named> named = named_in(parts, base_error, rows);
+    const auto weakest = std::min_element(
+        named.begin(), named.end(),
+        [](const Named& a, const Named& b) { return a.entry.gain_percent < b.entry.gain_percent; });
+    if (weakest == named.end() || weakest->entry.gain_percent >= least_gain_percent) return named;
+    weakest->part->search->take_back(weakest->entry.group);
+  }
+}
+
 }  // namespace
 
 Selection select_subset(const SelectionProblem& problem, const std::vector<SelectionPart>& parts,
@@ -289,83 +376,42 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
   result.base = result.extended = result.complete =
       neutral_fit(problem, static_cast<std::size_t>(std::max(blocks, 0)));
 
-  struct Found {
-    SelectedGroup entry;
-    VectorXd before, after;  ///< squared errors of the blocks of its part
-
-    [[nodiscard]] double gain() const { return before.sum() - after.sum(); }
-  };
-  std::vector<Found> found;
+  std::list<Part> searched;  // searches refer to their problems, which must stay where they are
   double base_error = 0;
-  double named_error = 0;
-  double complete_error = 0;
   for (const SelectionPart& part : parts) {
-    SelectionProblem own = problem;
-    for (std::size_t i = 0; i < own.block.size(); ++i) {
-      if (!part.rows[i]) own.block[i] = -1;
-    }
-    const auto concerns = [&part](const UnnamedRegressor& u) {
-      for (std::size_t i = 0; i < u.column.size(); ++i) {
-        if (u.column[i] != 0 && !part.rows[i]) return false;
-      }
-      return true;
-    };
-    std::vector<std::size_t> shape_index;
-    std::vector<UnnamedRegressor> shapes;
-    for (std::size_t u = 0; u < own.unnamed.size(); ++u) {
-      if (!concerns(own.unnamed[u])) continue;
-      shape_index.push_back(u);
-      shapes.push_back(own.unnamed[u]);
-    }
-    own.unnamed = std::move(shapes);
-    const std::set<int> distinct(own.block.begin(), own.block.end());
-    std::vector<int> block_ids(distinct.begin(), distinct.end());
-    std::erase(block_ids, -1);
-
-    PartSearch search(own, part.groups, options, progress);
+    Part& own = searched.emplace_back(problem, part.rows);
+    PartSearch& search = own.search.emplace(own.problem, part.groups, options, progress);
     search.run();
-    const Model& best = search.best();
     result.rows += static_cast<std::size_t>(search.record().rows());
     result.blocks = std::max(result.blocks, search.record().blocks());
     for (const Selection::Aliased& aliased : search.aliased()) result.aliased.push_back(aliased);
-
-    const BlockFit* before = &search.base().fit;
-    const auto order = search.in_order();
-    for (const auto& [g, fit] : order) {
-      Found f;
-      f.entry.group = g;
-      f.entry.indistinguishable = search.rivals(g);
-      f.before = before->block_error;
-      f.after = fit.block_error;
-      f.entry.p_value = chi_squared_tail(search.length_without(g) - best.fit.squared_error(),
-                                         static_cast<double>(problem.groups[g].parameters.size()));
-      found.push_back(std::move(f));
-      before = &fit;
-    }
     base_error += search.base().fit.squared_error();
-    named_error += before->squared_error();
-    complete_error += best.fit.squared_error();
-    merge_fit(search.record(), search.base().fit, block_ids, result.base);
-    merge_fit(search.record(), *before, block_ids, result.extended);
-    merge_fit(search.record(), best.fit, block_ids, result.complete);
-    for (std::size_t k = 0; k < best.shapes.size(); ++k) {
-      result.unnamed.regressors.push_back(shape_index[best.shapes[k]]);
-      result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
-    }
+  }
+  const auto rows = static_cast<double>(result.rows);
+  for (Named& n : worth_a_name(searched, base_error, rows, options.least_gain_percent)) {
+    const PartSearch& search = *n.part->search;
+    n.entry.indistinguishable = search.rivals(n.entry.group);
+    n.entry.p_value =
+        chi_squared_tail(search.length_without(n.entry.group) - search.best().fit.squared_error(),
+                         static_cast<double>(problem.groups[n.entry.group].parameters.size()));
+    result.selected.push_back(std::move(n.entry));
   }
 
-  const auto rows = static_cast<double>(result.rows);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.gain() > b.gain(); });
-  double error = base_error;
-  for (Found& f : found) {
-    const double after = error - f.gain();
-    f.entry.rmse_before = std::sqrt(error / rows);
-    f.entry.rmse_after = std::sqrt(after / rows);
-    f.entry.gain_percent = gain_percent(error, after);
-    f.entry.gain_se_percent = gain_se_percent(f.before, f.after, error - f.before.sum());
-    error = after;
-    result.selected.push_back(f.entry);
+  double named_error = 0;
+  double complete_error = 0;
+  for (const Part& part : searched) {
+    const PartSearch& search = *part.search;
+    const Model& best = search.best();
+    const BlockFit named = search.named_alone();
+    named_error += named.squared_error();
+    complete_error += best.fit.squared_error();
+    merge_fit(search.record(), search.base().fit, part.block_ids, result.base);
+    merge_fit(search.record(), named, part.block_ids, result.extended);
+    merge_fit(search.record(), best.fit, part.block_ids, result.complete);
+    for (std::size_t k = 0; k < best.shapes.size(); ++k) {
+      result.unnamed.regressors.push_back(part.shape_index[best.shapes[k]]);
+      result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
+    }
   }
   result.base.holdout_rmse = std::sqrt(base_error / rows);
   result.extended.holdout_rmse = std::sqrt(named_error / rows);

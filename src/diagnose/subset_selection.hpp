@@ -25,8 +25,9 @@ struct SelectionPart {
 /// with probability below p). Shapes without a name cost more than names, so a name wins where both
 /// explain equally well, and a shape wins where it takes two wrong names to mimic it.
 ///
-/// `SelectionOptions::false_alarm_probability` is α, for named and for unnamed ones each. The gains
-/// in percent decide nothing here. Throws as `select_effects` does.
+/// `SelectionOptions::false_alarm_probability` is α, for named and for unnamed ones each. Names
+/// that gain less than `least_gain_percent` of the record's held-out error beside all others go
+/// last. Throws as `select_effects` does.
 [[nodiscard]] Selection select_subset(const SelectionProblem& problem,
                                       const std::vector<SelectionPart>& parts,
                                       const SelectionOptions& options,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "diagnose/subset_selection.hpp"
+
 using namespace tethercalc;
 
 namespace {
@@ -240,4 +242,24 @@ TEST_CASE("a record that makes no sense is refused") {
   bad = good.problem;
   for (int& block : bad.block) block %= static_cast<int>(fewest_blocks) - 1;
   CHECK_THROWS_AS(select_effects(bad), std::invalid_argument);
+}
+
+TEST_CASE("of whole subsets, names that gain less than asked for go, the others stay") {
+  Random random(7);
+  const LinearRecord record(random, {1, 2, 0.2, 0}, 0);
+  const std::vector<SelectionPart> all{{std::vector<char>(rows, 1), {0, 1, 2, 3}}};
+  const auto names = [&](double least_gain_percent) {
+    SelectionOptions options;
+    options.least_gain_percent = least_gain_percent;
+    return select_subset(record.problem, all, options, {}).selected;
+  };
+  const std::vector<SelectedGroup> any = names(0);
+  REQUIRE(any.size() == 2);
+  CHECK(any[0].group == 1);
+  CHECK(any[1].group == 2);
+  CHECK(names(0.99 * any[1].gain_percent).size() == 2);
+  const std::vector<SelectedGroup> worth = names(1.01 * any[1].gain_percent);
+  REQUIRE(worth.size() == 1);
+  CHECK(worth[0].group == 1);
+  CHECK(worth[0].rmse_after == Approx(any[0].rmse_after));
 }
