@@ -334,10 +334,12 @@ std::vector<Named> named_in(std::list<Part>& parts, double base_error, double ro
   for (Part& part : parts) {
     VectorXd before = part.search->base().fit.block_error;
     for (const auto& [g, fit] : part.search->in_order()) {
-      Named n{&part, {}, std::move(before), fit.block_error};
+      Named& n = named.emplace_back();
+      n.part = &part;
       n.entry.group = g;
-      before = fit.block_error;
-      named.push_back(std::move(n));
+      n.before = std::move(before);
+      n.after = fit.block_error;
+      before = n.after;
     }
   }
   std::stable_sort(named.begin(), named.end(),
@@ -356,13 +358,13 @@ std::vector<Named> named_in(std::list<Part>& parts, double base_error, double ro
 
 /// The same, without those that gain too little to be worth a name beside all others.
 std::vector<Named> worth_a_name(std::list<Part>& parts, double base_error, double rows,
-                                double least_gain_percent) {
+                                double least_gain) {
   while (true) {
     std::vector<Named> named = named_in(parts, base_error, rows);
     const auto weakest = std::min_element(
         named.begin(), named.end(),
         [](const Named& a, const Named& b) { return a.entry.gain_percent < b.entry.gain_percent; });
-    if (weakest == named.end() || weakest->entry.gain_percent >= least_gain_percent) return named;
+    if (weakest == named.end() || weakest->entry.gain_percent >= least_gain) return named;
     weakest->part->search->take_back(weakest->entry.group);
   }
 }
