@@ -315,6 +315,12 @@ std::string field_text(const std::byte* message, const DataFlashField& field) {
   }
 }
 
+std::string message_words(const DataFlashFormat& format, const std::byte* message) {
+  if (format.name != "MSG") return {};
+  const DataFlashField* const words = format.find("Message");
+  return words != nullptr && !words->is_number() ? field_text(message, *words) : std::string();
+}
+
 std::optional<DataFlashTime> time_of(const DataFlashFormat& format) {
   if (!format.fields.empty() && format.fields.front().is_number()) {
     if (format.fields.front().name == "TimeUS") return DataFlashTime{format.fields.front(), 1e6};

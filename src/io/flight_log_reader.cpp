@@ -176,10 +176,8 @@ std::string other_vehicle(std::span<const std::byte> content) {
   std::string found;
   for_each_message(content.first(std::min(content.size(), introduction)),
                    [&](const DataFlashFormat& format, const std::byte* message) {
-                     if (!found.empty() || format.name != "MSG") return;
-                     const DataFlashField* const field = format.find("Message");
-                     if (field == nullptr || field->is_number()) return;
-                     const std::string text = field_text(message, *field);
+                     if (!found.empty()) return;
+                     const std::string text = message_words(format, message);
                      for (const auto& [name, kind] : firmwares) {
                        if (text.starts_with(name)) found = fmt::format("{}, {}", text, kind);
                      }

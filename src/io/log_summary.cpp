@@ -217,10 +217,7 @@ LogSummary summarize_log(std::span<const std::byte> log) {
     if (fields.event && clock.started()) {
       events.take(field_value(message, *fields.event), clock.now(), *clock.first);
     }
-    if (summary.firmware.empty() && format.name == "MSG") {
-      const DataFlashField* const text = format.find("Message");
-      if (text != nullptr && !text->is_number()) summary.firmware = field_text(message, *text);
-    }
+    if (summary.firmware.empty()) summary.firmware = message_words(format, message);
   });
   clock.finish();
 

@@ -427,29 +427,16 @@ class BestHeadroomSearch {
       const double most = flight_.most_thrust();
       const double end = b.available < most ? nan : radius_of_available(most, a, b);
       if (inside(end)) return end;
-      const double kink = radius_of_available(kink_of_thrust(a.available, b.available), a, b);
+      const double kink = radius_of_available(thrust_kink(flight_, a.available, b.available), a, b);
       if (inside(kink)) return kink;
     }
     if (heated_) {
-      const double thrust = kink_of_thrust(a.at.thrust.value, b.at.thrust.value);
+      const double thrust = thrust_kink(flight_, a.at.thrust.value, b.at.thrust.value);
       const double kink =
           std::isnan(thrust) ? nan : at_thrust(flight_, thrust, lo, hi, a.at).radius;
       if (inside(kink)) return kink;
     }
     return battery_kink(flight_, lo, hi);
-  }
-
-  /// A thrust strictly between two where the power for it has a kink; NaN where there is none.
-  [[nodiscard]] double kink_of_thrust(double lo, double hi) const {
-    const MotorCurve& motor = flight_.design().drone.motor;
-    const Pieces pieces = pieces_between(motor, lo, hi);
-    if (pieces.first != pieces.last) {
-      return motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
-    }
-    return motor.thrust(converter_kink(flight_.design().supply.converter,
-                                       flight_.output_power(motor.power(lo)),
-                                       flight_.output_power(motor.power(hi))) /
-                        flight_.output_power(1));
   }
 
   /// The radius between a and b at which a thrust is just available: a hair more, or rounding

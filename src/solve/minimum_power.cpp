@@ -155,14 +155,8 @@ class LeastPowerSearch {
     const double battery =
         motor.is_convex() && !any_kink ? nan : battery_kink(flight_, a.radius, b.radius, any_kink);
     if (!std::isnan(battery)) return thrust_at(flight_, battery, a.tan_guess(battery));
-    const double output = converter_kink(flight_.design().supply.converter,
-                                         flight_.output_power(motor.power(a.thrust.value)),
-                                         flight_.output_power(motor.power(b.thrust.value)));
-    const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
-    const std::size_t middle = pieces.first + (pieces.last - pieces.first + 1) / 2;
     const double thrust =
-        !std::isnan(output) ? motor.thrust(output / flight_.output_power(1))
-                            : motor.vertices()[motor.is_convex() && !any_kink ? 0 : middle].thrust;
+        motor.is_convex() && !any_kink ? nan : thrust_kink(flight_, a.thrust.value, b.thrust.value);
     if (a.thrust.value < thrust && thrust < b.thrust.value) {
       const ThrustAt kink = at_thrust(flight_, thrust, a.radius, b.radius, a);
       if (a.radius < kink.radius && kink.radius < b.radius) return kink;
@@ -254,12 +248,6 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
   return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
 
-/// Whether the power over the convex hull of the motor curve is one valley, all along the radius.
-bool hull_is_one_valley(const Design& design) {
-  return is_proportional(design.supply.converter) && !is_heated(design.tether) &&
-         design.drone.reserve_battery.specific_energy == 0;
-}
-
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
@@ -325,6 +313,11 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
 }
 
 }  // namespace
+
+bool hull_is_one_valley(const Design& design) {
+  return is_proportional(design.supply.converter) && !is_heated(design.tether) &&
+         design.drone.reserve_battery.specific_energy == 0;
+}
 
 MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {
   return a.power <= b.power || std::isnan(b.power) ? a : b;

@@ -22,6 +22,10 @@ struct Flights {
   }
 };
 
+Condition other_than(Condition condition) {
+  return condition == Condition::hover ? Condition::forward : Condition::hover;
+}
+
 /// The area of least power within any of `areas`, given the least power without them; NaN where
 /// there is none.
 double cheapest_area(const SteadyFlight& flight, const IntervalSet& areas,
@@ -46,8 +50,7 @@ void take(Optimization& result, const Flights& flights, double area) {
     point = evaluate(flights.in(condition), area);
     return demand_margins(design, point, condition).met();
   };
-  result.feasible =
-      meets(asked) && meets(asked == Condition::hover ? Condition::forward : Condition::hover);
+  result.feasible = meets(asked) && meets(other_than(asked));
 }
 
 /// The same at `area`, or a hair's breadth inside where it is an edge beyond which a warm cable
@@ -196,7 +199,6 @@ void search_feasible_areas(Optimization& result, const Flights& flights) {
   const Requirements& need = flights.hover.design().requirements;
   const SteadyFlight& priced = flights.in(need.power_at);
   const Condition asked = need.headroom_at;
-  const Condition other = asked == Condition::hover ? Condition::forward : Condition::hover;
   const auto meeting = [&](Condition condition) {
     return areas_meeting_demands(flights.in(condition), demanded_headroom(need, condition));
   };
@@ -207,7 +209,7 @@ void search_feasible_areas(Optimization& result, const Flights& flights) {
   const double area = cheapest_area(priced, result.feasible_areas, result.minimum_power);
   if (area > 0) take(result, flights, area);
   if (result.feasible || result.feasible_areas.empty()) return;
-  result.feasible_areas = intersection(result.feasible_areas, meeting(other));
+  result.feasible_areas = intersection(result.feasible_areas, meeting(other_than(asked)));
   const double met = cheapest_area(priced, result.feasible_areas, result.minimum_power);
   if (met > 0) take_within(result, flights, result.feasible_areas, met);
 }
@@ -216,11 +218,8 @@ Optimization optimum_of(const Flights& flights) {
   Optimization result;
   result.minimum_power = minimum_power(flights.in(flights.hover.design().requirements.power_at));
   // The cheapest of all areas is the optimum if it is feasible, which saves a search that takes
-  // long with some demands.
-  const Design& design = flights.hover.design();
-  const bool is_set_dear = is_heated(design.tether) || !is_proportional(design.supply.converter) ||
-                           design.drone.reserve_battery.specific_energy > 0;
-  if (is_set_dear && result.minimum_power.area > 0) {
+  // long where the power has no simple shape.
+  if (!hull_is_one_valley(flights.hover.design()) && result.minimum_power.area > 0) {
     take(result, flights, result.minimum_power.area);
   }
   if (!result.feasible) search_feasible_areas(result, flights);

@@ -75,6 +75,18 @@ double converter_kink(const Converter& converter, double lo, double hi, bool of_
   return nan;
 }
 
+double thrust_kink(const SteadyFlight& flight, double lo, double hi) {
+  const MotorCurve& motor = flight.design().drone.motor;
+  const Pieces pieces = pieces_between(motor, lo, hi);
+  if (pieces.first != pieces.last) {
+    return motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
+  }
+  return motor.thrust(converter_kink(flight.design().supply.converter,
+                                     flight.output_power(motor.power(lo)),
+                                     flight.output_power(motor.power(hi))) /
+                      flight.output_power(1));
+}
+
 double battery_kink(const SteadyFlight& flight, double lo, double hi, bool of_any_kind) {
   const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
   const Drone& drone = flight.design().drone;

@@ -51,6 +51,10 @@ struct Pieces {
 [[nodiscard]] double converter_kink(const Converter& converter, double lo, double hi,
                                     bool of_any_kind = true);
 
+/// A thrust strictly between two where the power for it has a kink, by the motors or the converter;
+/// NaN where there is none.
+[[nodiscard]] double thrust_kink(const SteadyFlight& flight, double lo, double hi);
+
 /// A radius strictly between two where the slope of the reserve battery's mass falls, or where it
 /// does on either side; NaN where it only rises. Those at which it rises, too, where they are asked
 /// for.

@@ -65,6 +65,9 @@ struct DataFlashFormat {
 /// text up to its first zero byte, the numbers of `a` separated by blanks.
 [[nodiscard]] std::string field_text(const std::byte* message, const DataFlashField& field);
 
+/// The words of a MSG message, in which the firmware says what it is and does; empty for others.
+[[nodiscard]] std::string message_words(const DataFlashFormat& format, const std::byte* message);
+
 /// The time of a message, read from its first field: microseconds in `TimeUS`, milliseconds in
 /// `TimeMS`, both since the controller started. GPS messages of the older kind count `TimeMS` in
 /// the satellites' week and have the controller's in `T`. Nothing where a message has no time.

@@ -35,6 +35,10 @@ struct MinimumPower {
                                          Interval within = {
                                              0, std::numeric_limits<double>::infinity()});
 
+/// Whether the power over the convex hull of the motor curve is one valley, all along the radius:
+/// the efficiency is constant, and neither heat nor a reserve battery bends the curve.
+[[nodiscard]] bool hull_is_one_valley(const Design& design);
+
 /// Whether `area` (m²) is certain to draw the least power of all areas on its side of the one that
 /// draws the least of all: no area is beyond the tilt limit, the efficiency is constant, and the
 /// motor curve is at its convex hull there, with which the power would be one valley and is nowhere
