@@ -107,14 +107,15 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     const SteadyFlight steady(model.design, state_at(model.design, log, i));
-    tan_pitch = steady.tan_pitch(radius, tan_limit, tan_pitch);
+    const double weight = steady.weight(radius);
+    tan_pitch = steady.tan_pitch(radius, weight, tan_limit, tan_pitch);
     if (!std::isfinite(tan_pitch)) {
       power[i] = nan;
       tan_pitch = 0;
       continue;
     }
     power[i] = steady.output_power(
-        motor_curve_power(drone.motor, steady.necessary_thrust(radius, tan_pitch)));
+        motor_curve_power(drone.motor, steady.necessary_thrust(weight, tan_pitch)));
   }
   return power;
 }

@@ -153,6 +153,13 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
   thermal_resistance_slope_ = -wall / (radius * (radius + wall)) / around_metal;
 }
 
+ConductorHeat ConductorHeat::in(const Surroundings& around) const {
+  ConductorHeat other = *this;
+  other.around_ = around;
+  other.density_0C_ = around.air_density * (1 + expansion_of_air * around.temperature_C);
+  return other;
+}
+
 double ConductorHeat::resistance(double temperature_C) const {
   return resistivity(conductor_, temperature_C) / area_;
 }
@@ -242,15 +249,26 @@ ConductorHeat::Balance ConductorHeat::balance(double surface_C, double current) 
   return balance;
 }
 
+double ConductorHeat::first_surface(double current) const {
+  // With Nu = 1 + 0.5·√Re and 6 W/(m²·K) radiated, each within a third at the sizes of a tether.
+  const AirProperties air = air_properties(around_.temperature_C, density_0C_);
+  const double nusselt = 1 + 0.5 * std::sqrt(around_.wind * diameter_ / air.kinematic_viscosity);
+  const double cooled =
+      around_.cooling * pair_surface_share * (pi * air.conductivity * nusselt + 6 * pi * diameter_);
+  const double heat = current * current * resistance(around_.temperature_C) +
+                      absorptivity * around_.sun * diameter_;
+  return around_.temperature_C + std::min(heat / cooled, 100.0);
+}
+
 std::optional<ConductorHeat::Balance> ConductorHeat::steady_surface(double current) const {
   if (!(current > 0)) return search_surface(current);
-  double surface = first_surface();
+  double surface = first_surface(current);
   for (int step = 0; step < 15; ++step) {
     const Balance at = balance(surface, current);
     if (!at.returns) break;
     surface += at.surface_change;
     if (!(surface > around_.temperature_C - 1 && surface < highest_conductor_temperature_C)) break;
-    if (at.is_near(around_.temperature_C, 1e-6)) {
+    if (at.relative_change(around_.temperature_C) <= 1e-6) {
       if (!(at.steady_inside() <= highest_conductor_temperature_C)) return std::nullopt;
       return at;
     }

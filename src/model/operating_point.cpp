@@ -49,13 +49,14 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   point.tether_tension = load.greatest_tension();
   point.tether_resistance = flight.tether().resistance(radius);
   point.battery_mass = flight.battery_mass(radius);
-  point.takeoff_mass = or_nan(flight.takeoff_mass(radius));
+  point.takeoff_mass = or_nan(flight.takeoff_mass(radius, point.battery_mass));
+  const double weight = flight.lifted(point.takeoff_mass);
   const double tangent =
       std::isnan(point.takeoff_mass)
           ? nan
-          : or_nan(flight.tan_pitch(radius, flight.tan_pitch_limit() * (1 + rounding)));
+          : or_nan(flight.tan_pitch(radius, weight, flight.tan_pitch_limit() * (1 + rounding)));
   point.pitch = flight.pitch_sign() * std::atan(tangent);
-  point.necessary_thrust = flight.necessary_thrust(radius, tangent);
+  point.necessary_thrust = flight.necessary_thrust(weight, tangent);
   point.drone_power = or_nan(flight.drone_power(within_reach(point.necessary_thrust, design)));
   if (is_heated(design.tether)) warm_up(flight, radius, point);
   // A cable that runs away has no state in which anything is available.

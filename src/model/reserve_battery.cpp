@@ -19,10 +19,17 @@ double battery_mass_per_watt(const ReserveBattery& battery, double height) {
   return seconds / battery.specific_energy;
 }
 
+namespace {
+
+/// W of the battery, with the data-sheet power of one motor.
+double battery_power(const Drone& drone, double motor_power) {
+  return drone.motor_count * drone.motor_power_factor * motor_power + drone.auxiliary_power;
+}
+
+}  // namespace
+
 double landing_power(const Drone& drone, double mass, double gravity) {
-  return drone.motor_count * drone.motor_power_factor *
-             drone.motor.power(mass * gravity / drone.motor_count) +
-         drone.auxiliary_power;
+  return battery_power(drone, drone.motor.power(mass * gravity / drone.motor_count));
 }
 
 namespace {
@@ -30,11 +37,6 @@ namespace {
 /// W of the battery for one more kilogram, on one piece of the motor curve.
 double power_per_kilogram(const Drone& drone, std::size_t piece, double gravity) {
   return drone.motor_power_factor * drone.motor.slope(piece) * gravity;
-}
-
-/// Take-off mass less what its battery weighs.
-double carried_mass(const Drone& drone, double takeoff_mass, double per_watt, double gravity) {
-  return takeoff_mass - per_watt * landing_power(drone, takeoff_mass, gravity);
 }
 
 }  // namespace
@@ -47,9 +49,12 @@ double reserve_battery_mass(const Drone& drone, double mass, double height, doub
   // drone without a battery upwards, the first piece that reaches `mass` holds the least solution.
   double lower = mass;
   // What is missing at `lower` is the battery for the power there, less the mass gained so far.
-  double missing = per_watt * landing_power(drone, mass, gravity);
-  for (std::size_t i = drone.motor.piece(mass * gravity / drone.motor_count);
-       i + 1 < vertices.size(); ++i) {
+  const double thrust = mass * gravity / drone.motor_count;
+  std::size_t i = drone.motor.piece(thrust);
+  double missing =
+      per_watt * battery_power(drone, vertices[i].power +
+                                          drone.motor.slope(i) * (thrust - vertices[i].thrust));
+  for (; i + 1 < vertices.size(); ++i) {
     const double rate = 1 - per_watt * power_per_kilogram(drone, i, gravity);
     const double upper = vertices[i + 1].thrust * drone.motor_count / gravity;
     if (missing <= rate * (upper - lower)) return lower + missing / rate - mass;
@@ -75,11 +80,11 @@ double mass_without_battery(const Drone& drone, double takeoff_mass, double heig
   // Where a piece is so steep that a heavier drone carries less, the most is at a vertex below.
   const double reachable =
       std::min(takeoff_mass, drone.motor.max_thrust() * drone.motor_count / gravity);
-  double most = carried_mass(drone, reachable, per_watt, gravity);
+  double most = reachable - per_watt * landing_power(drone, reachable, gravity);
   for (const MotorPoint& vertex : drone.motor.vertices()) {
     const double at_vertex = vertex.thrust * drone.motor_count / gravity;
     if (at_vertex > reachable) break;
-    most = std::max(most, carried_mass(drone, at_vertex, per_watt, gravity));
+    most = std::max(most, at_vertex - per_watt * battery_power(drone, vertex.power));
   }
   return most;
 }

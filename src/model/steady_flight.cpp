@@ -60,12 +60,12 @@ std::size_t SteadyFlight::battery_piece(double radius) const {
 SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
   const double slope = tether_.mass_slope(radius) * gravity_;
   const double mass = fixed_mass_ + tether_.mass(radius);
-  if (!has_battery_) return {mass * gravity_ + tether_.winch_pull(), slope};
+  if (!has_battery_) return {lifted(mass), slope};
   const double length = design_->tether.length;
   const double bare = fixed_mass_ + tether_.mass_of(length, radius);
   const double battery = reserve_battery_mass(design_->drone, bare, length, gravity_);
   const double growth = reserve_battery_growth(design_->drone, bare + battery, length, gravity_);
-  return {(mass + battery) * gravity_ + tether_.winch_pull(), slope * (1 + growth)};
+  return {lifted(mass + battery), slope * (1 + growth)};
 }
 
 double SteadyFlight::radius_of_weight(double weight) const {
@@ -75,8 +75,7 @@ double SteadyFlight::radius_of_weight(double weight) const {
       fixed_mass_);
 }
 
-double SteadyFlight::balanced_tan_pitch(double radius, double weight, double tan_limit,
-                                        double guess) const {
+double SteadyFlight::tan_pitch(double radius, double weight, double tan_limit, double guess) const {
   if (area_force_factor_ == 0 && tether_.drag_slope() == 0) return 0;
   const AirframeDrag& drag = design_->drone.drag;
   return equilibrium_tan_pitch(

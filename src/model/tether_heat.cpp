@@ -40,7 +40,10 @@ TetherHeat::TetherHeat(const SteadyFlight& flight, double radius, double sunlit_
       wound_(flight.state().on_drum > 0 && drum_derating(flight.design().tether.drum).has_value()),
       in_air_(flight.design().tether, radius, flight.wall(),
               around_airborne(flight, (sunlit_radius + flight.wall()) / (radius + flight.wall()))),
-      on_drum_(flight.design().tether, radius, flight.wall(), around_wound(flight)) {}
+      on_drum_(wound_ ? in_air_.in(around_wound(flight)) : in_air_),
+      at_zero_(flight.tether().resistance(radius, 0, 0)),
+      per_kelvin_in_air_(flight.tether().resistance(radius, 1, 0) - at_zero_),
+      per_kelvin_on_drum_(flight.tether().resistance(radius, 0, 1) - at_zero_) {}
 
 std::optional<TetherTemperatures> TetherHeat::temperatures(double current) const {
   const auto warm = warmed(current);
@@ -61,19 +64,18 @@ ConductorHeat::Balance TetherHeat::measured(double current) const {
 
 TetherHeat::Loop TetherHeat::loop(const ConductorHeat::Balance& in_air,
                                   const ConductorHeat::Balance& on_drum) const {
-  const StraightTether& tether = flight_.tether();
   const ConductorHeat::Balance& wound = wound_ ? on_drum : in_air;
+  const auto of = [this](double air, double drum) {
+    return per_kelvin_in_air_ * air + per_kelvin_on_drum_ * drum;
+  };
   Loop loop;
   loop.temperatures.in_air = in_air.steady_inside();
   if (wound_) loop.temperatures.on_drum = on_drum.steady_inside();
-  loop.resistance = tether.resistance(radius_, in_air.steady_inside(), wound.steady_inside());
-  // The resistance is linear in both temperatures.
-  const double cold = tether.resistance(radius_, 0, 0);
-  loop.by_current = tether.resistance(radius_, in_air.inside_per_surface * in_air.by_current,
-                                      wound.inside_per_surface * wound.by_current) -
-                    cold;
-  loop.by_radius = tether.resistance(radius_, in_air.inside_by_radius, wound.inside_by_radius) -
-                   cold - 2 * (loop.resistance - tether.contact_resistance()) / radius_;
+  loop.resistance = at_zero_ + of(in_air.steady_inside(), wound.steady_inside());
+  loop.by_current = of(in_air.inside_per_surface * in_air.by_current,
+                       wound.inside_per_surface * wound.by_current);
+  loop.by_radius = of(in_air.inside_by_radius, wound.inside_by_radius) -
+                   2 * (loop.resistance - flight_.tether().contact_resistance()) / radius_;
   return loop;
 }
 
@@ -100,17 +102,36 @@ double TetherHeat::demanded_current(double load_power, double resistance) const 
 TetherHeatState TetherHeat::carrying(double load_power, const TetherHeatState& near,
                                      double last_step) const {
   if (near.steady) {
-    const TetherHeatState state = jointly(load_power, near, last_step);
+    const TetherHeatState state = jointly(load_power, moved_here(near, load_power), last_step);
     if (state.steady) return state;
   }
   TetherHeatState cold;
   cold.current =
       demanded_current(load_power, resistance({flight_.state().ambient_temperature_C, {}}));
   if (!(cold.current < infinity)) return {};
-  cold.surface_in_air_C = in_air_.first_surface();
-  cold.surface_on_drum_C = on_drum_.first_surface();
+  cold.surface_in_air_C = in_air_.first_surface(cold.current);
+  cold.surface_on_drum_C = on_drum_.first_surface(cold.current);
   const TetherHeatState state = jointly(load_power, cold, last_step);
   return state.steady ? state : step_by_step(load_power, cold.current);
+}
+
+TetherHeatState TetherHeat::moved_here(const TetherHeatState& near, double load_power) const {
+  const double thinner = near.radius / radius_;
+  const double thinner_cable = (near.radius + flight_.wall()) / (radius_ + flight_.wall());
+  const double contacts = flight_.tether().contact_resistance();
+  const double current =
+      demanded_current(load_power, contacts + (near.resistance - contacts) * thinner * thinner);
+  if (!(current < infinity)) return near;
+  // What a cable of diameter D gives off grows about with D^0.5 in wind, and with D^0.7 in still
+  // air.
+  const double share = current / near.current * thinner;
+  const double warming = share * share * std::sqrt(thinner_cable);
+  const double ambient = flight_.state().ambient_temperature_C;
+  TetherHeatState here = near;
+  here.current = current;
+  here.surface_in_air_C = ambient + warming * (near.surface_in_air_C - ambient);
+  here.surface_on_drum_C = ambient + warming * (near.surface_on_drum_C - ambient);
+  return here;
 }
 
 TetherHeatState TetherHeat::jointly(double load_power, const TetherHeatState& start,
@@ -118,6 +139,7 @@ TetherHeatState TetherHeat::jointly(double load_power, const TetherHeatState& st
   const double ambient = flight_.state().ambient_temperature_C;
   const double voltage = flight_.design().supply.voltage;
   TetherHeatState state = start;
+  double before = 0;  // the step before, relative
   for (int step = 0; step < 12; ++step) {
     const double current = state.current;
     ConductorHeat::Balance in_air =
@@ -139,13 +161,19 @@ TetherHeatState TetherHeat::jointly(double load_power, const TetherHeatState& st
     const double warmest = std::max(state.surface_in_air_C, state.surface_on_drum_C);
     if (!(state.current > 0 && coolest > ambient - 1 && warmest < highest_conductor_temperature_C))
       return {};
-    const bool settled =
-        measured_ || (in_air.is_near(ambient, last_step) && on_drum.is_near(ambient, last_step));
-    if (settled && std::abs(change) <= last_step * current) {
+    double now = std::abs(change) / current;
+    if (!measured_) {
+      now = std::max({now, in_air.relative_change(ambient), on_drum.relative_change(ambient)});
+    }
+    // Each step of Newton's method is about the square of the one before times the same factor.
+    const double next = now * (step == 0 ? now : now / before * (now / before));
+    before = now;
+    if (next <= last_step * last_step) {
       state.temperatures = {in_air.steady_inside(), {}};
       if (wound_) state.temperatures.on_drum = on_drum.steady_inside();
       state.resistance = at.resistance + at.by_current * change;
       state.resistance_slope = at.by_radius;
+      state.radius = radius_;
       state.steady = state.hottest() <= highest_conductor_temperature_C;
       return state;
     }
@@ -172,7 +200,7 @@ TetherHeatState TetherHeat::step_by_step(double load_power, double current) cons
       if (slope < 1) next = current + (demanded - current) / (1 - slope);
       if (std::abs(next - current) <= same_current * current) {
         const double ambient = flight_.state().ambient_temperature_C;
-        return {true,    demanded, warm->resistance, warm->temperatures, warm->by_radius,
+        return {true,    radius_, demanded, warm->resistance, warm->temperatures, warm->by_radius,
                 ambient, ambient};
       }
       if (next > current) lo = current;

@@ -329,7 +329,7 @@ class BestHeadroomSearch {
 
   void search(double lo, double hi) {
     // Below, not even a millionth of what is necessary is available.
-    const double necessary = flight_.necessary_thrust(lo, 0);
+    const double necessary = flight_.necessary_thrust(flight_.weight(lo), 0);
     lo = std::max(lo, flight_.radius_of_available_power(flight_.drone_power(1e-6 * necessary)));
     if (lo < hi) improve(look(thrust_at(flight_, lo, 0)), look(thrust_at(flight_, hi, 0)));
   }

@@ -16,11 +16,12 @@ namespace tethercalc {
 namespace {
 
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
-double total_power(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& at) {
+double total_power(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& at,
+                   double last_step = TetherHeat::finest_step) {
   const double voltage = flight.design().supply.voltage;
   const double power = flight.drone_power(at.thrust.value);
   if (is_heated(flight.design().tether)) {
-    const TetherHeatState state = tether.state(power, at.radius, at.radius);
+    const TetherHeatState state = tether.state(power, at.radius, at.radius, last_step);
     return state.steady ? state.current * voltage : infinity;
   }
   const double total = supplied_power(voltage, flight.tether().resistance(at.radius), power);
@@ -56,13 +57,17 @@ class LeastPowerSearch {
 
   Look consider(const ThrustAt& candidate) {
     if (heated_ && !(power_over(candidate, candidate.radius) < power_)) return {candidate};
-    const double power = total_power(flight_, tether_, candidate);
+    double power = total_power(flight_, tether_, candidate, roughly);
+    if (heated_ && power < power_ * (1 + roughly)) power = total_power(flight_, tether_, candidate);
     if (power < power_) {
       power_ = power;
       best_ = candidate;
     }
     return {candidate, power};
   }
+
+  /// Last step of a heat balance where the power is only compared: its error is about the square.
+  static constexpr double roughly = 1e-3;
 
   /// Nothing is proved of warm cables and of curved efficiencies, but between radii of this ratio
   /// their power bends no more sharply than its parts.
@@ -95,7 +100,7 @@ class LeastPowerSearch {
       return;
     }
     // Where a cable runs away, others nearby do mostly, too.
-    if (heated_ && (runs_away(a) || runs_away(b)) &&
+    if ((a.power == infinity || b.power == infinity) &&
         !(warm_power_over(a.at, b.at.radius) < power_)) {
       return;
     }
@@ -134,7 +139,7 @@ class LeastPowerSearch {
 
   [[nodiscard]] bool runs_away(const Look& look) const {
     const double power =
-        std::isnan(look.power) ? total_power(flight_, tether_, look.at) : look.power;
+        std::isnan(look.power) ? total_power(flight_, tether_, look.at, roughly) : look.power;
     return !(power < infinity);
   }
 
@@ -170,7 +175,7 @@ class LeastPowerSearch {
   [[nodiscard]] bool rises_from_bottom(const ThrustAt& a, const ThrustAt& b) const {
     if (best_.radius != bottom_ || !(a.radius == bottom_ || b.radius == bottom_)) return false;
     const Design& design = flight_.design();
-    if (!design.drone.motor.is_convex() && !std::isnan(battery_kink(flight_, a.radius, b.radius))) {
+    if (!design.drone.motor.is_convex() && battery_bends(flight_, a.radius, b.radius)) {
       return false;
     }
     return bends_up(a, b, design.drone.motor.convex_hull(), false);
@@ -202,7 +207,7 @@ class LeastPowerSearch {
     // A slope that an efficiency bends down may vanish again beyond a kink that bends it up.
     const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
     const bool kinked =
-        pieces.first != pieces.last || !std::isnan(battery_kink(flight_, a.radius, b.radius, true));
+        pieces.first != pieces.last || battery_bends(flight_, a.radius, b.radius, true);
     if (b.radius < narrow * a.radius && !kinked) return true;
     // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
     // efficiency gains twice over where it rises with the load.
@@ -258,15 +263,17 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   radii.hi =
       std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
   if (!(lightest <= radii.hi)) return none;
-  const double hover_power = flight.drone_power(flight.necessary_thrust(lightest, 0));
+  const double weight = flight.weight(lightest);
+  const double hover_power = flight.drone_power(flight.necessary_thrust(weight, 0));
   if (!(hover_power < infinity)) return none;
   const double voltage = design.supply.voltage;
   radii.lo = std::max(lightest,
                       flight.tether().radius_of_resistance(voltage * voltage / (4 * hover_power)));
   if (!(radii.lo <= radii.hi)) return none;
 
-  const double thrust = std::min(
-      motor.max_thrust(), flight.necessary_thrust(lightest, flight.level_drag_tan_pitch(lightest)));
+  const double thrust =
+      std::min(motor.max_thrust(),
+               flight.necessary_thrust(weight, flight.level_drag_tan_pitch(lightest, weight)));
   const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
   const double start = guess > radii.lo && guess < radii.hi ? guess : 0.5 * (radii.lo + radii.hi);
   const MotorCurve& convex = motor.convex_hull();
@@ -330,7 +337,8 @@ bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
   const MotorCurve& motor = flight.design().drone.motor;
   if (motor.is_convex()) return true;
   const double radius = conductor_radius(area);
-  const double thrust = flight.necessary_thrust(radius, flight.tan_pitch(radius, infinity));
+  const double weight = flight.weight(radius);
+  const double thrust = flight.necessary_thrust(weight, flight.tan_pitch(radius, weight, infinity));
   constexpr double rounding = 1e-14;
   return motor.power(thrust) <= motor.convex_hull().power(thrust) * (1 + rounding);
 }

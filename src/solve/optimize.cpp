@@ -117,8 +117,7 @@ Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double dema
   if (!(best.value > 0)) return tilts ? Limit::max_pitch : Limit::available_power;
   if (at_tilt_limit(evaluate(flight, best.area), flight.design())) return Limit::max_pitch;
   const double lightest = tilts && !(beyond.lo > 0) ? beyond.hi : 0;
-  const double least_thrust =
-      flight.necessary_thrust(lightest, flight.tan_pitch(lightest, infinity));
+  const double least_thrust = flight.balance(lightest, 0).thrust.value;
   return flight.design().drone.motor.max_thrust() < demanded * least_thrust
              ? Limit::motor_thrust
              : Limit::available_power;
@@ -179,10 +178,11 @@ void name_obstacle(Optimization& result, const Flights& flights) {
     }
   }
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    const OperatingPoint& tried = condition == Condition::hover ? result.hover : result.forward;
-    const bool flies = condition == asked ? result.best_headroom.value >= 1
-                                          : tried.headroom >= 1 ||
-                                                !headroom_areas(flights.in(condition), 1).empty();
+    const SteadyFlight& flight = flights.in(condition);
+    const bool flies = condition == asked
+                           ? result.best_headroom.value >= 1
+                           : evaluate(flight, result.best_headroom.area).headroom >= 1 ||
+                                 !headroom_areas(flight, 1).empty();
     if (!flies) {
       missed = {condition, 1};
       break;

@@ -51,6 +51,17 @@ void collect_within_tilt(const SteadyFlight& flight, double a, double b, Interva
   collect_within_tilt(flight, middle, b, radii);
 }
 
+/// The first piece of the motor curve, of those that the reserve battery passes to strictly between
+/// two radii, at whose start its mass bends; 0 where there is none.
+std::size_t bent_battery_piece(const SteadyFlight& flight, double lo, double hi, bool either_way) {
+  const MotorCurve& motor = flight.design().drone.motor;
+  const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
+  for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
+    if (either_way || motor.slope(i) < motor.slope(i - 1)) return i;
+  }
+  return 0;
+}
+
 }  // namespace
 
 Pieces pieces_between(const MotorCurve& motor, double lo, double hi) {
@@ -87,21 +98,22 @@ double thrust_kink(const SteadyFlight& flight, double lo, double hi) {
                       flight.output_power(1));
 }
 
-double battery_kink(const SteadyFlight& flight, double lo, double hi, bool of_any_kind) {
-  const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
+bool battery_bends(const SteadyFlight& flight, double lo, double hi, bool either_way) {
+  return bent_battery_piece(flight, lo, hi, either_way) > 0;
+}
+
+double battery_kink(const SteadyFlight& flight, double lo, double hi, bool either_way) {
+  const std::size_t piece = bent_battery_piece(flight, lo, hi, either_way);
+  if (piece == 0) return nan;
   const Drone& drone = flight.design().drone;
-  for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
-    if (!of_any_kind && drone.motor.slope(i) >= drone.motor.slope(i - 1)) continue;
-    const double landed = drone.motor.vertices()[i].thrust * drone.motor_count;
-    double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
-    // Rounding may take it to where the battery has leapt already.
-    for (double share = 1e-16; share < kink_rounding / 2 && flight.battery_piece(kink) >= i;
-         share *= 2) {
-      kink *= 1 - share;
-    }
-    return lo < kink && kink < hi ? kink : std::sqrt(lo * hi);
+  const double landed = drone.motor.vertices()[piece].thrust * drone.motor_count;
+  double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
+  // Rounding may take it to where the battery has leapt already.
+  for (double share = 1e-16; share < kink_rounding / 2 && flight.battery_piece(kink) >= piece;
+       share *= 2) {
+    kink *= 1 - share;
   }
-  return nan;
+  return lo < kink && kink < hi ? kink : std::sqrt(lo * hi);
 }
 
 bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
@@ -114,7 +126,29 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
          std::isnan(converter_kink(flight.design().supply.converter,
                                    flight.output_power(motor.power(lo)),
                                    flight.output_power(motor.power(hi)))) &&
-         std::isnan(battery_kink(flight, a.radius, b.radius));
+         !battery_bends(flight, a.radius, b.radius);
+}
+
+TetherHeatState WarmTether::state(double power, double radius, double sunlit_radius,
+                                  double last_step) const {
+  constexpr std::size_t most_known = 4;
+  TetherHeatState nearest;
+  double distance = infinity;
+  for (const Known& known : known_) {
+    if (known.power == power && known.radius == radius && known.sunlit_radius == sunlit_radius &&
+        known.last_step <= last_step) {
+      return known.state;
+    }
+    if (!known.state.steady) continue;
+    const double ratio = std::max(known.radius / radius, radius / known.radius);
+    if (ratio < distance) nearest = known.state;
+    distance = std::min(distance, ratio);
+  }
+  const TetherHeatState state =
+      TetherHeat(flight_, radius, sunlit_radius).carrying(power, nearest, last_step);
+  if (known_.size() < most_known) known_.emplace_back();
+  known_[asked_++ % most_known] = {power, radius, sunlit_radius, last_step, state};
+  return state;
 }
 
 double least_resistance(const WarmTether& tether, const SteadyFlight& flight, double thinner,
@@ -129,9 +163,9 @@ double least_resistance(const WarmTether& tether, const SteadyFlight& flight, do
 
 IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
   if (!(hi > 0)) return {};
+  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+  if (!(beyond.lo < beyond.hi)) return {{0, hi}};
   if (flight.design().drone.reserve_battery.specific_energy == 0) {
-    const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-    if (!(beyond.lo < beyond.hi)) return {{0, hi}};
     return intersection({{0, beyond.lo}, {beyond.hi, std::max(hi, beyond.hi)}}, {{0, hi}});
   }
   IntervalSet radii;

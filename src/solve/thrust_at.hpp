@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether_heat.hpp"
@@ -55,11 +56,13 @@ struct Pieces {
 /// NaN where there is none.
 [[nodiscard]] double thrust_kink(const SteadyFlight& flight, double lo, double hi);
 
-/// A radius strictly between two where the slope of the reserve battery's mass falls, or where it
-/// does on either side; NaN where it only rises. Those at which it rises, too, where they are asked
-/// for.
+/// Whether the reserve battery's mass bends down strictly between two radii, or bends either way.
+[[nodiscard]] bool battery_bends(const SteadyFlight& flight, double lo, double hi,
+                                 bool either_way = false);
+
+/// A radius strictly between two where it does; NaN where there is none.
 [[nodiscard]] double battery_kink(const SteadyFlight& flight, double lo, double hi,
-                                  bool of_any_kind = false);
+                                  bool either_way = false);
 
 /// The heat of the tether of one flight, asked for at one place after another nearby.
 class WarmTether {
@@ -69,16 +72,20 @@ class WarmTether {
   /// The state with `power` W at the drone and conductors of `radius`, in the sun as broad as those
   /// of `sunlit_radius`; see `TetherHeat::carrying` for `last_step`.
   [[nodiscard]] TetherHeatState state(double power, double radius, double sunlit_radius,
-                                      double last_step = TetherHeat::finest_step) const {
-    const TetherHeatState state =
-        TetherHeat(flight_, radius, sunlit_radius).carrying(power, last_, last_step);
-    if (state.steady) last_ = state;
-    return state;
-  }
+                                      double last_step = TetherHeat::finest_step) const;
 
  private:
+  struct Known {
+    double power = 0;
+    double radius = 0;
+    double sunlit_radius = 0;
+    double last_step = 0;
+    TetherHeatState state{};
+  };
+
   const SteadyFlight& flight_;
-  mutable TetherHeatState last_;
+  mutable std::vector<Known> known_;  ///< the last few that were asked for
+  mutable std::size_t asked_ = 0;
 };
 
 /// No more than the loop's resistance, Ω, at any radius between a `thinner` one, where `thrust` N

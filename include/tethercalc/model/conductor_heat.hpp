@@ -80,6 +80,9 @@ class ConductorHeat {
   /// `wall` in m, `radius` in m of the metal.
   ConductorHeat(const Tether& tether, double radius, double wall, const Surroundings& around);
 
+  /// The same conductor in another place.
+  [[nodiscard]] ConductorHeat in(const Surroundings& around) const;
+
   /// Conductor temperature in °C at `current` A (≥ 0); nothing where no state below
   /// `highest_conductor_temperature_C` is steady. Exact to 1e-9 K.
   [[nodiscard]] std::optional<double> temperature(double current) const;
@@ -98,18 +101,17 @@ class ConductorHeat {
     [[nodiscard]] double steady_inside() const {
       return inside_C + inside_per_surface * surface_change;
     }
-    /// Whether the tangents lead no further than `step` of the rise. Their error goes with the
-    /// square.
-    [[nodiscard]] bool is_near(double ambient_C, double step) const {
-      return std::abs(surface_change) <= step * std::abs(surface_C - ambient_C) + 1e-10;
+    /// How far the tangents lead, over the rise. Their error goes with the square.
+    [[nodiscard]] double relative_change(double ambient_C) const {
+      return std::abs(surface_change) / (std::abs(surface_C - ambient_C) + 1e-4);
     }
   };
 
   /// About a surface of `surface_C` with `current` A (> 0).
   [[nodiscard]] Balance balance(double surface_C, double current) const;
 
-  /// Where a search for the steady surface begins, °C.
-  [[nodiscard]] double first_surface() const { return around_.temperature_C + 20; }
+  /// About the steady surface at `current` A (≥ 0), °C: where a search for it begins.
+  [[nodiscard]] double first_surface(double current) const;
 
   /// The balance that leads to the steady state at `current` A (≥ 0); nothing where there is none,
   /// as above.

@@ -54,11 +54,17 @@ class SteadyFlight {
   }
   /// Mass of all that flies: drone, converter, battery, and the tether in the air.
   [[nodiscard]] double takeoff_mass(double radius) const {
-    return fixed_mass_ + tether_.mass(radius) + battery_mass(radius);
+    return takeoff_mass(radius, battery_mass(radius));
+  }
+  /// The same with that battery's mass known.
+  [[nodiscard]] double takeoff_mass(double radius, double battery_mass) const {
+    return fixed_mass_ + tether_.mass(radius) + battery_mass;
   }
   /// N that the motors lift: the weight of all that flies, and the pull of the winch.
-  [[nodiscard]] double weight(double radius) const {
-    return takeoff_mass(radius) * gravity_ + tether_.winch_pull();
+  [[nodiscard]] double weight(double radius) const { return lifted(takeoff_mass(radius)); }
+  /// The same for a take-off mass in kg.
+  [[nodiscard]] double lifted(double takeoff_mass) const {
+    return takeoff_mass * gravity_ + tether_.winch_pull();
   }
   /// The largest radius at which the motors lift no more than `weight` N; negative where even the
   /// thinnest tether is heavier. For a design in one of its conditions.
@@ -70,14 +76,13 @@ class SteadyFlight {
 
   // --- Balance of forces ---
 
-  /// Tangent of the tilt's magnitude, +infinity beyond `tan_limit`. `guess` saves iterations.
-  [[nodiscard]] double tan_pitch(double radius, double tan_limit, double guess = 0) const {
-    return balanced_tan_pitch(radius, weight(radius), tan_limit, guess);
-  }
+  /// Tangent of the tilt's magnitude with motors that lift `weight`, as `weight(radius)` has it;
+  /// +infinity beyond `tan_limit`. `guess` saves iterations.
+  [[nodiscard]] double tan_pitch(double radius, double weight, double tan_limit,
+                                 double guess = 0) const;
   /// First approximation of `tan_pitch`: with the drag of the level drone.
-  [[nodiscard]] double level_drag_tan_pitch(double radius) const {
-    return (area_force_factor_ * design_->drone.drag.front_area + tether_.drag(radius)) /
-           weight(radius);
+  [[nodiscard]] double level_drag_tan_pitch(double radius, double weight) const {
+    return (area_force_factor_ * design_->drone.drag.front_area + tether_.drag(radius)) / weight;
   }
   /// Sign of the tilt: −1 flying backward through the air, else +1.
   [[nodiscard]] double pitch_sign() const { return state_.airspeed < 0 ? -1 : 1; }
@@ -93,8 +98,8 @@ class SteadyFlight {
     double lo = 0;  ///< m
     double hi = 0;  ///< m
   };
-  /// The radii at which the tilt exceeds its limit, for a design without a reserve battery. (Weight
-  /// grows with r², tether drag with r: there is at most one such range.)
+  /// The radii at which the tilt exceeds its limit without a reserve battery, whose weight only
+  /// lessens it. (Weight grows with r², tether drag with r: there is at most one such range.)
   [[nodiscard]] Radii beyond_pitch_limit() const;
 
   /// A thrust of one motor and how it changes with the radius.
@@ -103,9 +108,9 @@ class SteadyFlight {
     double slope = 0;      ///< N/m
     double tan_slope = 0;  ///< derivative of the tangent of the tilt, 1/m
   };
-  /// Thrust that holds the weight at a tilt with tangent `tan_pitch`: weight/(n·cosθ).
-  [[nodiscard]] double necessary_thrust(double radius, double tan_pitch) const {
-    return weight(radius) * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
+  /// Thrust that holds `weight` at a tilt with tangent `tan_pitch`: weight/(n·cosθ).
+  [[nodiscard]] double necessary_thrust(double weight, double tan_pitch) const {
+    return weight * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
   }
   /// Tilt and thrust of the equilibrium, where no limit holds the tilt.
   struct Balance {
@@ -115,8 +120,8 @@ class SteadyFlight {
   /// The balance at `radius`; `tan_guess` saves iterations.
   [[nodiscard]] Balance balance(double radius, double tan_guess) const {
     const Weight weight = weighed(radius);
-    const double tangent = balanced_tan_pitch(radius, weight.value,
-                                              std::numeric_limits<double>::infinity(), tan_guess);
+    const double tangent =
+        tan_pitch(radius, weight.value, std::numeric_limits<double>::infinity(), tan_guess);
     return {tangent, inclined_thrust(weight, tangent)};
   }
 
@@ -166,8 +171,6 @@ class SteadyFlight {
   [[nodiscard]] Thrust inclined_thrust(Weight weight, double tan_pitch) const;
   [[nodiscard]] double sized_battery(double radius) const;
   [[nodiscard]] double landed_mass(double radius) const;
-  [[nodiscard]] double balanced_tan_pitch(double radius, double weight, double tan_limit,
-                                          double guess) const;
 
   const Design* design_;
   FlightState state_;

@@ -20,6 +20,7 @@ struct TetherTemperatures {
 /// The steady state of a tether under its own current, with a load of constant power at its end.
 struct TetherHeatState {
   bool steady = false;                ///< false: no steady state, or the power cannot be delivered
+  double radius = 0;                  ///< m, of the conductors
   double current = 0;                 ///< A
   double resistance = 0;              ///< Ω, loop
   TetherTemperatures temperatures{};  ///< of the conductors
@@ -86,6 +87,8 @@ class TetherHeat {
   [[nodiscard]] Loop loop(const ConductorHeat::Balance& in_air,
                           const ConductorHeat::Balance& on_drum) const;
   [[nodiscard]] std::optional<Loop> warmed(double current) const;
+  /// About what the state of a cable like this one, with a load like this one, is here.
+  [[nodiscard]] TetherHeatState moved_here(const TetherHeatState& near, double load_power) const;
   [[nodiscard]] TetherHeatState jointly(double load_power, const TetherHeatState& start,
                                         double last_step) const;
   [[nodiscard]] TetherHeatState step_by_step(double load_power, double current) const;
@@ -98,6 +101,9 @@ class TetherHeat {
   bool wound_;  ///< there is cable on a drum whose cooling is known
   ConductorHeat in_air_;
   ConductorHeat on_drum_;
+  double at_zero_;             ///< Ω of the loop, both parts at 0 °C
+  double per_kelvin_in_air_;   ///< Ω/K
+  double per_kelvin_on_drum_;  ///< Ω/K
 };
 
 }  // namespace tethercalc
