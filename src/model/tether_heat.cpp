@@ -167,7 +167,7 @@ TetherHeatState TetherHeat::jointly(double load_power, const TetherHeatState& st
     }
     // Each step of Newton's method is about the square of the one before times the same factor.
     const double next = now * (step == 0 ? now : now / before * (now / before));
-    before = now;
+    before = std::min(now, 0.1);  // a long step tells nothing of the next
     if (next <= last_step * last_step) {
       state.temperatures = {in_air.steady_inside(), {}};
       if (wound_) state.temperatures.on_drum = on_drum.steady_inside();

@@ -186,25 +186,28 @@ class RadiiSearch {
     if (++stretches_ > most_stretches || ratio < 1 + 1e-12) return collect_monotone(a, b);
     // Where the cable runs away there is no margin that could point to what lies between.
     const bool runs_away = !a.met() && !b.met() && std::min(a.margin.value, b.margin.value) == -1;
-    if (ratio < narrow && !runs_away &&
-        on_one_piece(demands_.flight(), a.at, b.at, demands_.headroom())) {
-      return collect_narrow(a, b);
-    }
+    if (ratio < narrow && !runs_away && smooth(a, b)) return collect_narrow(a, b);
     const End middle = between(a, std::sqrt(a.at.radius * b.at.radius));
     collect(a, middle);
     collect(middle, b);
   }
 
-  /// Whether the margin only rises or only falls from a to b. A cable that gets cooler from a to b,
-  /// and not much thicker, is taken to do so all the way, where not even the load at b makes that
-  /// at a run away.
+  /// Whether neither the power asked for nor the one that heats the cable has a kink from a to b.
+  [[nodiscard]] bool smooth(const End& a, const End& b) const {
+    return on_one_piece(demands_.flight(), a.at, b.at, demands_.headroom()) &&
+           (!demands_.heated() || on_one_piece(demands_.flight(), a.at, b.at));
+  }
+
+  /// Whether the margin only rises or only falls from a to b, or passes 0 once. A cable that gets
+  /// cooler from a to b, and not much thicker, is taken to do so all the way, where not even the
+  /// load at b makes that at a run away.
   [[nodiscard]] bool monotone(const End& a, const End& b) const {
     constexpr double not_much = 1.5;
     const int trend = demands_.trend(a.at, b.at);
     if (a.margin.warming == 1 && b.margin.warming == 1) return trend != 0 && !demands_.heated();
     return trend == 1 && b.at.radius < not_much * a.at.radius && a.margin.warming < infinity &&
            b.margin.warming <= a.margin.warming && b.margin.hottest_C <= a.margin.hottest_C &&
-           demands_.margin(b.at, a.at).warming < infinity;
+           (a.met() != b.met() || smooth(a, b)) && demands_.margin(b.at, a.at).warming < infinity;
   }
 
   /// From a to b the margin only rises or only falls.

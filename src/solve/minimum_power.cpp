@@ -93,7 +93,11 @@ class LeastPowerSearch {
       const ThrustAt lo = heated_ && runs_away(a) ? brink(b, a) : a.at;
       const ThrustAt hi = heated_ && runs_away(b) ? brink(a, b) : b.at;
       const Pieces pieces = pieces_between(motor, lo.thrust.value, hi.thrust.value);
-      const ThrustAt& start = best_.radius == hi.radius ? hi : lo;
+      // At a kink of the battery's mass the slope is that of the lighter side.
+      constexpr double beyond_kink = 1 + 4e-12;
+      const ThrustAt start = best_.radius == hi.radius
+                                 ? hi
+                                 : thrust_at(flight_, lo.radius * beyond_kink, lo.tan_pitch);
       (void)consider(lo);
       (void)consider(hi);
       (void)consider(valley_bottom(flight_, tether_, motor, pieces, {lo.radius, hi.radius}, start));

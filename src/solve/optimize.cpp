@@ -59,9 +59,11 @@ void take_within(Optimization& result, const Flights& flights, const IntervalSet
                  double area) {
   take(result, flights, area);
   for (const Interval& range : areas) {
-    if (area != range.lo && area != range.hi) continue;
+    constexpr double rounding = 1e-14;
+    const bool thinnest = area <= range.lo * (1 + rounding);
+    if (!thinnest && area < range.hi * (1 - rounding)) continue;
     for (double share = 1e-15; share < 1e-5 && !result.feasible; share *= 10) {
-      const double inside = area * (area == range.lo ? 1 + share : 1 - share);
+      const double inside = area * (thinnest ? 1 + share : 1 - share);
       if (range.contains(inside)) take(result, flights, inside);
     }
   }

@@ -58,8 +58,8 @@ class ValleySearch {
   ThrustAt descend(ThrustAt at) {
     // Relative to the radius. The end of such a step is a hundred times closer to the bottom, where
     // the power is flat to the square of that; and the thrust is straight to the square of the
-    // step. That of a warm cable is known to 1e-8 only.
-    const double last_step = heated_ ? 1e-6 : 1e-7;
+    // step.
+    constexpr double last_step = 1e-7;
     stay_within_motors(at);
     std::size_t piece = piece_at(at);
     for (int step = 1; step < 200; ++step) {
