@@ -32,33 +32,23 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
     const PowerModel& model, const PowerLog& log) {
   const Design& design = model.design;
-  const Tether& tether = design.tether;
-  const double radius = conductor_radius(*tether.cross_section);
-  const SteadyFlight anywhere(design, flight_state_at(design, 0, 0));
-  const std::optional<double> derating = drum_derating(tether.drum);
-  std::vector<double> inputs{model.supply_current_gain,
-                             tether.conductor.resistivity_20C,
-                             tether.conductor.temperature_coefficient,
-                             radius,
-                             anywhere.wall(),
-                             tether.insulation.thermal_conductivity,
-                             anywhere.state().ambient_temperature_C,
-                             tether.sun,
-                             derating.value_or(0),
-                             derating ? tether.length : 0,
-                             derating ? tether.spooled_length : 0,
-                             design.flight.air_density,
-                             design.flight.gravity,
-                             design.flight.headwind};
-  const auto found = std::find_if(known_.begin(), known_.end(),
-                                  [&](const Known& known) { return known.inputs == inputs; });
+  const double radius = conductor_radius(*design.tether.cross_section);
+  // What a search moves most often and no heat depends on, at the measured current, is left out.
+  Tether tether = design.tether;
+  tether.contact_resistance = tether.drag_coefficient = tether.winch_pull = 0;
+  const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
+    return known.tether == tether && known.flight == design.flight &&
+           known.supply_voltage == design.supply.voltage &&
+           known.supply_current_gain == model.supply_current_gain;
+  });
   if (found != known_.end()) {
     std::rotate(known_.begin(), found, found + 1);
     return known_.front().temperatures;
   }
   constexpr std::size_t kept = 8;  // more than a slope by every parameter looks back
   if (known_.size() == kept) known_.pop_back();
-  Known& latest = known_.emplace_front(Known{std::move(inputs), {}});
+  Known& latest = known_.emplace_front(Known{
+      std::move(tether), design.flight, design.supply.voltage, model.supply_current_gain, {}});
   for (std::size_t i = 0; i < log.time.size(); ++i) {
     const SteadyFlight flight(design, state_at(design, log, i));
     const double current = log.supply_current[i] / model.supply_current_gain;

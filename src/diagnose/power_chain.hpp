@@ -29,7 +29,11 @@ class CableHeat {
 
  private:
   struct Known {
-    std::vector<double> inputs;  ///< all that the temperatures depend on beside the log
+    // All that the temperatures may depend on beside the log.
+    Tether tether;
+    Flight flight;
+    double supply_voltage = 0;  ///< decides the wall
+    double supply_current_gain = 1;
     std::vector<std::optional<TetherTemperatures>> temperatures;
   };
   std::deque<Known> known_;  ///< the latest first

@@ -41,6 +41,8 @@ struct Flight {
   double headwind = 0;                ///< m/s, added to the airspeed in both conditions
   double air_density = 1.293;         ///< kg/m³
   double gravity = standard_gravity;  ///< m/s²
+
+  bool operator==(const Flight&) const = default;
 };
 
 /// What a cross-section must satisfy, and what is minimised among those that do.

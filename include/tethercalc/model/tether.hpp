@@ -11,6 +11,8 @@ struct Conductor {
   double temperature_coefficient = 0;  ///< 1/K, relative to 20 °C
   double density = 0;                  ///< kg/m³
   double tensile_strength = 0;         ///< Pa; 0: unknown, and nothing is hung on it
+
+  bool operator==(const Conductor&) const = default;
 };
 
 /// Sheath of each conductor, with the same wall all round.
@@ -25,6 +27,8 @@ struct Insulation {
   /// How many times the supply voltage a wall must stand by its breakdown strength; 0: the wall is
   /// as thick as `thickness` says, whatever the voltage.
   double dielectric_safety_factor = 0;
+
+  bool operator==(const Insulation&) const = default;
 };
 
 /// Wall in m that stands `voltage` (V, ≥ 0): max(thickness, factor·voltage/breakdown strength).
@@ -38,6 +42,8 @@ struct Insulation {
 struct Drum {
   int layers = 0;                    ///< 1 to 4; 0: not stated
   std::optional<double> derating{};  ///< in (0, 1], current wound up over current laid out
+
+  bool operator==(const Drum&) const = default;
 };
 
 /// Current that a cable may carry wound on a drum, over what it may laid out, at the same conductor
@@ -53,6 +59,8 @@ enum class StrengthMaterial { none, aramid, uhmwpe };
 struct StrengthMember {
   StrengthMaterial material = StrengthMaterial::none;  ///< none: no member, whatever its size
   double cross_section = 0;                            ///< m² of fibre
+
+  bool operator==(const StrengthMember&) const = default;
 };
 
 /// Mass per length, thickness and strength of a strength member.
@@ -77,6 +85,8 @@ struct MeasuredHeating {
   double rise_per_loss = 0;
   double time_constant = 200;  ///< s, > 0; steady flight does not depend on it
   double wind_cooling = 0;     ///< (s/m)^½, ≥ 0
+
+  bool operator==(const MeasuredHeating&) const = default;
 };
 
 /// The cable as bought and laid, but for its cross-section where that is still to be found.
@@ -100,6 +110,8 @@ struct Tether {
   Drum drum;                         ///< of the length on it
   StrengthMember strength_member{};  ///< beside the conductors
   double winch_pull = 0;             ///< N, with which the ground end is pulled down
+
+  bool operator==(const Tether&) const = default;
 };
 
 /// Whether the current warms the tether: an ambient temperature or a measured heating is set.
