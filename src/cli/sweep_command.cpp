@@ -110,27 +110,20 @@ SampleMethod sample_method(const std::string& method) {
                    fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
 }
 
-/// 0 where the text is no whole number.
-std::uint64_t positive_number(std::string_view text) {
-  std::uint64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stopped == end ? value : 0;
-}
-
 /// The part of the sweep to compute, counted from 1, and the number of parts.
 struct Shard {
-  std::uint64_t part = 1;
-  std::uint64_t parts = 1;
+  std::uint64_t part = 0;
+  std::uint64_t parts = 0;
 };
 
 Shard parsed_shard(const std::string& text) {
-  if (text.empty()) return {};
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const std::string_view before = std::string_view(text).substr(0, slash);
-  const std::string_view after = std::string_view(text).substr(slash);
-  const Shard shard{positive_number(before), positive_number(after.substr(after.empty() ? 0 : 1))};
-  if (shard.part < 1 || shard.part > shard.parts) {
+  if (text.empty()) return {1, 1};
+  Shard shard;  // what is no number leaves 0
+  const char* const end = text.data() + text.size();
+  const char* const slash = std::from_chars(text.data(), end, shard.part).ptr;
+  const bool whole =
+      slash != end && *slash == '/' && std::from_chars(slash + 1, end, shard.parts).ptr == end;
+  if (!whole || shard.part < 1 || shard.part > shard.parts) {
     throw InputError("--shard",
                      fmt::format("\"{}\" is not i/n with i from 1 to n, such as 2/8", text));
   }
