@@ -1,7 +1,6 @@
 #include "tethercalc/study/sweep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "model/constants.hpp"
@@ -22,29 +21,11 @@ SweepOutcome given_cable(const Design& design) {
   return outcome;
 }
 
-/// Outputs of some consecutive points: cross-section, power, and whether there are any.
-enum Output { area_output, power_output, feasible_output };
-using MixedChunk = std::array<SensitivitySample, 3>;
-
-MixedChunk empty_chunk(std::size_t inputs) {
-  MixedChunk chunk;
-  for (SensitivitySample& output : chunk) output.mixed.resize(inputs);
-  return chunk;
+JudgedRow judged(const SweepOutcome& outcome, const Design& design) {
+  return {outcome.area(), judged_power(outcome, design), outcome.feasible};
 }
 
-void append(std::vector<double>& to, const std::vector<double>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-void append(MixedChunk& to, const MixedChunk& from) {
-  for (std::size_t k = 0; k < to.size(); ++k) {
-    append(to[k].a, from[k].a);
-    append(to[k].b, from[k].b);
-    for (std::size_t i = 0; i < to[k].mixed.size(); ++i) append(to[k].mixed[i], from[k].mixed[i]);
-  }
-}
-
-/// Computes the outputs at points of two samples and their mixtures.
+/// Computes designs at points of two samples and of their mixtures.
 class MixedPoints {
  public:
   MixedPoints(const SweepSpace& space, const Design& base, std::uint64_t points)
@@ -54,36 +35,28 @@ class MixedPoints {
         points_({points, space.sample()->method, space.sample()->seed}, 2 * axes_.size()),
         unit_(2 * axes_.size()) {}
 
-  void compute(std::uint64_t begin, std::uint64_t end, MixedChunk& chunk) {
-    chunk = empty_chunk(axes_.size());
-    for (std::uint64_t j = begin; j < end; ++j) {
-      points_.at(j, unit_);
-      std::vector<double> a;
-      std::vector<double> b;
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        a.push_back(quantile(axes_[i], unit_[i]));
-        b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
-      }
-      add(a, chunk, [](SensitivitySample& output) { return &output.a; });
-      add(b, chunk, [](SensitivitySample& output) { return &output.b; });
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        std::vector<double> mixed = a;
-        mixed[i] = b[i];
-        add(mixed, chunk, [i](SensitivitySample& output) { return &output.mixed[i]; });
-      }
+  /// Appends what point `j` comes to in the first sample, in the second, and in every mixture.
+  void compute(std::uint64_t j, std::vector<JudgedRow>& rows) {
+    points_.at(j, unit_);
+    std::vector<double> a;
+    std::vector<double> b;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      a.push_back(quantile(axes_[i], unit_[i]));
+      b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
+    }
+    rows.push_back(row(a));
+    rows.push_back(row(b));
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      std::vector<double> mixed = a;
+      mixed[i] = b[i];
+      rows.push_back(row(mixed));
     }
   }
 
  private:
-  /// The outputs of `values`, each to where `place` finds it.
-  template <typename Place>
-  void add(const std::vector<double>& values, MixedChunk& chunk, const Place& place) {
+  JudgedRow row(const std::vector<double>& values) {
     cursor_.set_values(values);
-    const SweepOutcome outcome = sweep_outcome(cursor_.design(), given_area_);
-    const double power = judged_power(outcome, cursor_.design());
-    place(chunk[area_output])->push_back(outcome.feasible ? outcome.area() : nan);
-    place(chunk[power_output])->push_back(outcome.feasible ? power : nan);
-    place(chunk[feasible_output])->push_back(outcome.feasible ? 1 : 0);
+    return judged(sweep_outcome(cursor_.design(), given_area_), cursor_.design());
   }
 
   std::span<const SweepAxis> axes_;
@@ -93,12 +66,27 @@ class MixedPoints {
   std::vector<double> unit_;
 };
 
-std::uint64_t incomplete_points(const SensitivitySample& feasible) {
+/// One output of what `MixedPoints` computed for some points, one after the other.
+template <typename Output>
+SensitivitySample sample_of(const std::vector<JudgedRow>& rows, std::size_t axes,
+                            const Output& output) {
+  SensitivitySample sample;
+  sample.mixed.resize(axes);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t which = k % (axes + 2);
+    auto& values = which == 0 ? sample.a : which == 1 ? sample.b : sample.mixed[which - 2];
+    values.push_back(output(rows[k]));
+  }
+  return sample;
+}
+
+/// Of how many points some design is infeasible.
+std::uint64_t incomplete_points(const std::vector<JudgedRow>& rows, std::size_t axes) {
   std::uint64_t count = 0;
-  for (std::size_t j = 0; j < feasible.a.size(); ++j) {
-    bool complete = feasible.a[j] == 1 && feasible.b[j] == 1;
-    for (const auto& mixed : feasible.mixed) complete = complete && mixed[j] == 1;
-    if (!complete) ++count;
+  for (auto point = rows.begin(); point != rows.end();) {
+    const auto next = point + static_cast<std::ptrdiff_t>(axes + 2);
+    if (!std::all_of(point, next, [](const JudgedRow& row) { return row.feasible; })) ++count;
+    point = next;
   }
   return count;
 }
@@ -151,8 +139,7 @@ void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChun
       for (std::uint64_t row = chunk.range.begin; row < chunk.range.end; ++row) {
         cursor.move_to(row);
         const SweepOutcome outcome = sweep_outcome(cursor.design(), given_area);
-        chunk.judged.push_back(
-            {outcome.area(), judged_power(outcome, cursor.design()), outcome.feasible});
+        chunk.judged.push_back(judged(outcome, cursor.design()));
         if (row >= job.write_from)
           job.write(chunk.text, {cursor.values(), cursor.design(), outcome});
       }
@@ -190,25 +177,30 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   SweepSensitivity result;
   result.points = std::min(space.rows(), most_sensitivity_points);
   result.evaluations = result.points * (axes + 2);
-  MixedChunk all = empty_chunk(axes);
+  using Rows = std::vector<JudgedRow>;
   const auto make_worker = [&] {
     return [&result, points = MixedPoints(space, base, result.points)](std::uint64_t index,
-                                                                       MixedChunk& chunk) mutable {
+                                                                       Rows& rows) mutable {
+      rows.clear();
       const std::uint64_t begin = index * points_per_chunk;
-      points.compute(begin, std::min(begin + points_per_chunk, result.points), chunk);
+      const std::uint64_t end = std::min(begin + points_per_chunk, result.points);
+      for (std::uint64_t j = begin; j < end; ++j) points.compute(j, rows);
     };
   };
+  Rows all;
   const std::uint64_t chunks = (result.points + points_per_chunk - 1) / points_per_chunk;
-  compute_in_order<MixedChunk>(0, chunks, runner, make_worker, [&](const MixedChunk& chunk) {
-    append(all, chunk);
+  compute_in_order<Rows>(0, chunks, runner, make_worker, [&](const Rows& rows) {
+    all.insert(all.end(), rows.begin(), rows.end());
     return true;
   });
-  const std::uint64_t seed = space.sample()->seed;
-  result.incomplete = incomplete_points(all[feasible_output]);
-  result.area = sobol_indices(all[area_output], seed);
-  result.power = sobol_indices(all[power_output], seed);
+  const auto indices = [&](const auto& output) {
+    return sobol_indices(sample_of(all, axes, output), space.sample()->seed);
+  };
+  result.incomplete = incomplete_points(all, axes);
+  result.area = indices([](const JudgedRow& row) { return row.feasible ? row.area : nan; });
+  result.power = indices([](const JudgedRow& row) { return row.feasible ? row.power : nan; });
   if (result.incomplete > 0) {
-    result.feasible = sobol_indices(all[feasible_output], seed);
+    result.feasible = indices([](const JudgedRow& row) { return row.feasible ? 1.0 : 0.0; });
     if (std::isnan(result.feasible.front().total.value)) result.feasible.clear();
   }
   return result;
