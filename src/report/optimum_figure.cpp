@@ -59,13 +59,14 @@ bool any_power(const Curves& curves) {
 /// Around the least power; thin conductors need any amount.
 gp::Range power_range(const OptimumStudy& study, const Curves& curves) {
   if (!any_power(curves)) return {0, 1};
-  const double least = std::min(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
-  double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
+  const gp::Range hover = gp::extent(curves.hover_W);
+  const gp::Range forward = gp::extent(curves.forward_W);
+  const auto [least, most] = gp::joint(hover, forward);
+  double reference = std::max(hover.lo, forward.lo);
   if (study.result.feasible) {
     reference =
         std::max({reference, study.result.hover.total_power, study.result.forward.total_power});
   }
-  const double most = std::max(gp::extent(curves.hover_W).hi, gp::extent(curves.forward_W).hi);
   const double top = std::min(most, reference + 1.2 * (reference - 0.8 * least));
   return {least - 0.12 * (top - least), top};
 }
