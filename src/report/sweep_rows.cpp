@@ -8,7 +8,6 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
