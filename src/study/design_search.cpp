@@ -203,12 +203,8 @@ Candidate candidate_of(Design design) {
     // Nearest to feasible, so that it can be told by how much the demands are missed.
     area = best_headroom(design, design.requirements.headroom_at).area;
   }
-  Candidate candidate{{area, {}, {}, {}}, std::move(design)};
-  if (std::isfinite(area)) {
-    candidate.hover = evaluate(candidate.design, area, Condition::hover);
-    candidate.forward = evaluate(candidate.design, area, Condition::forward);
-  }
-  return candidate;
+  if (!std::isfinite(area)) return {{area, {}, {}, {}}, std::move(design)};
+  return {evaluate_areas(design, std::span(&area, 1)).front(), std::move(design)};
 }
 
 std::vector<DemandState> demand_states(const Candidate& candidate,
