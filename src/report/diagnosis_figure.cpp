@@ -209,16 +209,15 @@ Figure diagnosis_figure(const std::string& name, const Diagnosis& diagnosis) {
     throw std::invalid_argument(diagnosis.notes.empty() ? "nothing in this log can be compared"
                                                         : diagnosis.notes.back());
   }
-  Figure figure;
-  figure.id = "diagnosis";
-  figure.title = "Diagnosis of " + name;
-  figure.description = description_of(name, diagnosis);
   const double budget_lines = 5 + lines_of_a_bar * double(origins(diagnosis).size());
   const double lines = 2.6 + compared_lines * double(diagnosis.compared.size()) +
                        finding_lines * double(diagnosis.traces.size()) + budget_lines;
-  figure.lines = int(std::ceil(lines));
+  Figure figure{.id = "diagnosis",
+                .title = "Diagnosis of " + name,
+                .description = description_of(name, diagnosis),
+                .lines = int(std::ceil(lines)),
+                .script = gp::prelude() + "set samples 2\nset multiplot\n"};
   const gp::Layout layout(figure.lines, 0.115);
-  figure.script = gp::prelude() + "set samples 2\nset multiplot\n";
   double top = 2.6;
   for (std::size_t k = 0; k < diagnosis.compared.size(); ++k) {
     figure.script += compared_panels(layout, top, diagnosis, k, name);

@@ -118,9 +118,7 @@ std::string samples_words(std::size_t step) {
 }  // namespace
 
 Figure log_figure(const std::string& name, const Observations& flight) {
-  Figure figure;
-  figure.id = "log";
-  figure.title = "Accelerations of " + name;
+  Figure figure{.id = "log", .title = "Accelerations of " + name, .description = {}, .lines = 43};
   const std::vector<double> drag =
       difference(flight.expected_acceleration, flight.forward_acceleration);
   const gp::Range drags = gp::extent(drag);
@@ -132,7 +130,6 @@ Figure log_figure(const std::string& name, const Observations& flight) {
       fixed(flight.time.back() - flight.time.front(), 0), flight.size(),
       fixed(root_mean_square(drag), 2), fixed(std::max(drags.hi, -drags.lo), 2),
       fixed(speeds.lo, 1), fixed(speeds.hi, 1));
-  figure.lines = 43;
   const gp::Layout layout(figure.lines, 0.105);
   figure.script = gp::prelude() +
                   outline_block("expected", flight.time, flight.expected_acceleration) +
@@ -178,15 +175,12 @@ Figure drag_figure(const DragStudy& drag) {
   const gp::Range speeds = gp::with_margin(flown, 0.03);
   const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, flown);
 
-  Figure figure;
-  figure.id = "drag";
-  figure.title = "Drag of " + drag.name;
+  Figure figure{.id = "drag", .title = "Drag of " + drag.name, .description = {}, .lines = 40};
   figure.description = fmt::format(
       "Drag in newtons over airspeed from {} to {} m/s, measured at {} samples{} and fitted: {}. "
       "The line is steady flight. Below, measured less fitted: {} m/s² root mean square.",
       fixed(flown.lo, 1), fixed(flown.hi, 1), all.size(), samples_words(step),
       parameter_words(drag.identified.fit), fixed(drag.identified.fit.quality.rmse, 3));
-  figure.lines = 40;
   const gp::Layout layout(figure.lines, 0.105);
   figure.script = gp::prelude() +
                   gp::data_block("samples", shown,
@@ -234,9 +228,10 @@ Figure drag_surface_figure(const DragStudy& drag) {
   const gp::Range forces = gp::bulk(measured);
   const std::string outside = outside_words(measured, forces);
 
-  Figure figure;
-  figure.id = "dragsurface";
-  figure.title = "Drag of " + drag.name + " over airspeed and tilt";
+  Figure figure{.id = "dragsurface",
+                .title = "Drag of " + drag.name + " over airspeed and tilt",
+                .description = {},
+                .lines = 32};
   figure.description = fmt::format(
       "A surface of drag in newtons over airspeed from {} to {} m/s and tilt from {} to {} "
       "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady "
@@ -244,7 +239,6 @@ Figure drag_surface_figure(const DragStudy& drag) {
       fixed(slowest, 1), fixed(fastest, 1), fixed(least_tilt, 0), fixed(most_tilt, 0),
       parameter_words(drag.identified.fit), samples_words(step),
       outside.empty() ? "" : "; " + outside);
-  figure.lines = 32;
   constexpr int grid = 16;
   figure.script = gp::prelude() + "$surface << EOD\n";
   for (int i = 0; i <= grid; ++i) {

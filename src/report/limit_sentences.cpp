@@ -204,14 +204,10 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
   if (best.value >= demanded) {
     return "No cross-section works: each demand can be met by some, but none meets all of them.";
   }
-  if (refusal.converter_caps) {
-    return fmt::format(
-        "No cross-section gives {}. The most is a headroom of {} at {} mm², where the converter "
-        "gives its rated {} W: a thicker conductor would only weigh more.",
-        demand, significant(best.value, 3), significant(best.area / unit::square_millimetre, 4),
-        significant(*design.supply.converter.rated_output_power, 4));
-  }
-  const char* reason = refusal.limit == Limit::motor_thrust
+  const char* reason = refusal.converter_caps
+                           ? "where the converter gives its rated {rated_W} W: a thicker conductor "
+                             "would only weigh more"
+                       : refusal.limit == Limit::motor_thrust
                            ? "where the motors are at the end of their data sheet: a thicker "
                              "conductor would only weigh more"
                        : refusal.limit == Limit::max_pitch
@@ -220,7 +216,8 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
                              "more than they deliver";
   return fmt::format("No cross-section gives {}. The most is a headroom of {} at {} mm², {}.",
                      demand, significant(best.value, 3),
-                     significant(best.area / unit::square_millimetre, 4), reason);
+                     significant(best.area / unit::square_millimetre, 4),
+                     filled_in(reason, design, where));
 }
 
 }  // namespace tethercalc

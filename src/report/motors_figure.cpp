@@ -217,14 +217,13 @@ std::string description_of(std::span<const MotorOptimum> ranking) {
 }  // namespace
 
 Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranking) {
-  Figure figure;
-  figure.id = "motors";
-  figure.title = "Motors for " + file.name;
-  figure.description = description_of(ranking);
   constexpr double frame_bottom = 24;
   constexpr double legend_top = 28.2;
-  figure.lines = int(legend_top) + 6 + int(ranking.size());
-  figure.script = gp::prelude();
+  Figure figure{.id = "motors",
+                .title = "Motors for " + file.name,
+                .description = description_of(ranking),
+                .lines = int(legend_top) + 6 + int(ranking.size()),
+                .script = gp::prelude()};
 
   std::vector<EfficiencyCurve> curves;
   std::vector<CurvePoint> points;  // of all curves

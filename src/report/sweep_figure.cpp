@@ -308,10 +308,9 @@ Figure sweep_figure(const SweepTable& table, const SweepView& view) {
   if (least_of(cells) == nullptr) {
     throw InputError(table.file, fmt::format("has no row with a value of {}", table.value_column));
   }
-  Figure figure;
-  figure.id = "sweep";
-  figure.title = view.title.empty() ? table.file : view.title;
-  figure.description = description_of(table, axes, cells);
+  Figure figure{.id = "sweep",
+                .title = view.title.empty() ? table.file : view.title,
+                .description = description_of(table, axes, cells)};
   const bool curves = axes.y == nullptr || (axes.x->names.empty() && !axes.y->names.empty() &&
                                             axes.y->names.size() <= most_curves);
   return curves ? curves_figure(table, axes, cells, std::move(figure))
