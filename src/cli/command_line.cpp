@@ -3,12 +3,13 @@
 #include "cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <map>
 
 #include "cli/commands.hpp"
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
-#include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -17,11 +18,9 @@ namespace {
 using Action = std::function<int()>;
 
 Format parse_format(const std::string& text) {
-  static const std::map<std::string, Format> formats{
-      {"table", Format::table}, {"json", Format::json}, {"csv", Format::csv}};
-  const auto found = formats.find(text);
-  if (found != formats.end()) return found->second;
-  const std::vector<std::string> names{"table", "json", "csv"};
+  const std::vector<std::string> names{"table", "json", "csv"};  // as in Format
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return static_cast<Format>(found - names.begin());
   throw InputError("--format", "\"" + text + "\" is not a format; allowed are table, json and csv" +
                                    did_you_mean(text, names));
 }
@@ -79,23 +78,6 @@ void add_logs(
   command.add_option("--power", logs.power_log, power_help);
   add_comma_list(command, "--base", logs.base, base_help);
   add_flight(command, logs.flight);
-}
-
-std::vector<double> parse_areas(const std::vector<std::string>& texts) {
-  std::vector<double> areas;
-  std::vector<InputProblem> problems;
-  for (const std::string& text : texts) {
-    char* end = nullptr;
-    const double area = std::strtod(text.c_str(), &end);
-    // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
-    if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
-      problems.push_back(
-          {"--area-mm2", "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²"});
-    }
-    areas.push_back(area);
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return areas;
 }
 
 /// The commands and their options. Kept alive until the chosen action has run.
@@ -157,7 +139,7 @@ class CommandLine {
   void add_evaluate() {
     CLI::App& command =
         add("evaluate", "Operating points in hover and forward flight at given cross-sections",
-            [this] { return run_evaluate(spec_, parse_areas(areas_), output_); });
+            [this] { return run_evaluate(spec_, areas_, output_); });
     add_spec(command, spec_);
     add_comma_list(command, "--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]");
     add_output(command, output_);
@@ -222,7 +204,7 @@ class CommandLine {
   void add_envelope() {
     CLI::App& command =
         add("envelope", "How high, how heavy, how fast and in how much wind a given cable flies",
-            [this] { return run_envelope(spec_, parse_areas(areas_), output_); });
+            [this] { return run_envelope(spec_, areas_, output_); });
     add_spec(command, spec_);
     add_repeatable(command, "--area-mm2", areas_,
                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)");
@@ -240,11 +222,17 @@ class CommandLine {
 
   /// What is printed as it stands: the schema, a starting spec, the library.
   void add_texts() {
-    add_output_file(add("schema", "The JSON Schema of design specs, for editors",
-                        [this] { return run_schema(output_); }),
-                    output_);
-    add_output_file(add("init", "A starting spec to edit", [this] { return run_init(output_); }),
-                    output_);
+    const auto add_text = [this](const char* name, const char* help, const auto& text) {
+      add_output_file(add(name, help,
+                          [this, text] {
+                            emit(output_, text());
+                            return done;
+                          }),
+                      output_);
+    };
+    add_text("schema", "The JSON Schema of design specs, for editors",
+             [] { return json_text(spec_schema()); });
+    add_text("init", "A starting spec to edit", starting_spec);
     CLI::App& list = add("list", "The library: motors, conductors, insulation or sizes",
                          [this] { return run_list(what_, output_); });
     list.add_option("WHAT", what_, "motors, conductors, insulation or sizes")->required();
@@ -290,13 +278,13 @@ class CommandLine {
       for (const CLI::Option* option : app_.get_subcommand("plot")->get_options()) {
         if (option->count() > 0) plot_.given.push_back(option->get_name());
       }
-      return run_plot(plot_);
+      return run_plot(plot_, output_);
     });
     command.add_option("KIND", plot_.kind, plot_kinds_help())->required();
     command.add_option("FILE", plot_.files, "What it is drawn from")->required();
     add_repeatable(command, "--set", plot_.made_of.spec.overrides,
                    "Change a field of the spec: path=value; repeatable");
-    command.add_option("--output", plot_.output,
+    command.add_option("--output", output_.file,
                        "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
                        "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
     command.add_option("--title", plot_.title,
@@ -345,21 +333,21 @@ class CommandLine {
     for (const CLI::Option* option : command.get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
-    std::vector<InputProblem> problems;
+    Problems problems;
     bool after_option = false;  // what follows an unknown option is probably its value
     for (const std::string& extra : command.remaining()) {
       const std::string given = extra.substr(0, extra.find('='));
       const bool option = given.starts_with("-");
       if (option) {
-        problems.push_back({"tethercalc " + command.get_name(),
-                            "there is no option " + given + did_you_mean(given, names)});
+        problems.add("tethercalc " + command.get_name(),
+                     "there is no option " + given + did_you_mean(given, names));
       } else if (!after_option) {
-        problems.push_back(
-            {"tethercalc " + command.get_name(), "\"" + extra + "\" is one argument too many"});
+        problems.add("tethercalc " + command.get_name(),
+                     "\"" + extra + "\" is one argument too many");
       }
       after_option = option && given == extra;
     }
-    if (!problems.empty()) throw InputError(std::move(problems));
+    problems.throw_if_any();
   }
 
   CLI::App app_;

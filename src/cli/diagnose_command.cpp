@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "files/whole_file.hpp"
 #include "io/closest_name.hpp"
