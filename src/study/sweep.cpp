@@ -25,48 +25,30 @@ JudgedRow judged(const SweepOutcome& outcome, const Design& design) {
   return {outcome.area(), judged_power(outcome, design), outcome.feasible};
 }
 
-/// Computes designs at points of two samples and of their mixtures.
-class MixedPoints {
- public:
-  MixedPoints(const SweepSpace& space, const Design& base, std::uint64_t points)
-      : axes_(space.axes()),
-        cursor_(space, base),
-        given_area_(varies_cross_section(space)),
-        points_({points, space.sample()->method, space.sample()->seed}, 2 * axes_.size()),
-        unit_(2 * axes_.size()) {}
-
-  /// Appends what point `j` comes to in the first sample, in the second, and in every mixture.
-  void compute(std::uint64_t j, std::vector<JudgedRow>& rows) {
-    points_.at(j, unit_);
-    std::vector<double> a;
-    std::vector<double> b;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      a.push_back(quantile(axes_[i], unit_[i]));
-      b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
-    }
-    rows.push_back(row(a));
-    rows.push_back(row(b));
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-      std::vector<double> mixed = a;
-      mixed[i] = b[i];
-      rows.push_back(row(mixed));
-    }
+/// Appends what a point of two samples comes to: in the first, in the second, and in the first with
+/// each axis in turn taken from the second. `unit` holds its place in both, in shares.
+void add_mixtures(std::span<const SweepAxis> axes, std::span<const double> unit, bool given_area,
+                  SweepCursor& cursor, std::vector<JudgedRow>& rows) {
+  const auto add = [&](const std::vector<double>& values) {
+    cursor.set_values(values);
+    rows.push_back(judged(sweep_outcome(cursor.design(), given_area), cursor.design()));
+  };
+  std::vector<double> a;
+  std::vector<double> b;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    a.push_back(quantile(axes[i], unit[i]));
+    b.push_back(quantile(axes[i], unit[axes.size() + i]));
   }
-
- private:
-  JudgedRow row(const std::vector<double>& values) {
-    cursor_.set_values(values);
-    return judged(sweep_outcome(cursor_.design(), given_area_), cursor_.design());
+  add(a);
+  add(b);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    std::vector<double> mixed = a;
+    mixed[i] = b[i];
+    add(mixed);
   }
+}
 
-  std::span<const SweepAxis> axes_;
-  SweepCursor cursor_;
-  bool given_area_;
-  UnitPoints points_;
-  std::vector<double> unit_;
-};
-
-/// One output of what `MixedPoints` computed for some points, one after the other.
+/// One output of what `add_mixtures` made of some points.
 template <typename Output>
 SensitivitySample sample_of(const std::vector<JudgedRow>& rows, std::size_t axes,
                             const Output& output) {
@@ -178,13 +160,18 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   result.points = std::min(space.rows(), most_sensitivity_points);
   result.evaluations = result.points * (axes + 2);
   using Rows = std::vector<JudgedRow>;
+  const SamplePlan plan{result.points, space.sample()->method, space.sample()->seed};
+  const bool given_area = varies_cross_section(space);
   const auto make_worker = [&] {
-    return [&result, points = MixedPoints(space, base, result.points)](std::uint64_t index,
-                                                                       Rows& rows) mutable {
+    return [&, cursor = SweepCursor(space, base), points = UnitPoints(plan, 2 * axes),
+            unit = std::vector<double>(2 * axes)](std::uint64_t index, Rows& rows) mutable {
       rows.clear();
       const std::uint64_t begin = index * points_per_chunk;
       const std::uint64_t end = std::min(begin + points_per_chunk, result.points);
-      for (std::uint64_t j = begin; j < end; ++j) points.compute(j, rows);
+      for (std::uint64_t j = begin; j < end; ++j) {
+        points.at(j, unit);
+        add_mixtures(space.axes(), unit, given_area, cursor, rows);
+      }
     };
   };
   Rows all;
@@ -194,7 +181,7 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
     return true;
   });
   const auto indices = [&](const auto& output) {
-    return sobol_indices(sample_of(all, axes, output), space.sample()->seed);
+    return sobol_indices(sample_of(all, axes, output), plan.seed);
   };
   result.incomplete = incomplete_points(all, axes);
   result.area = indices([](const JudgedRow& row) { return row.feasible ? row.area : nan; });
