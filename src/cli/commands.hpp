@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "cli/output.hpp"
-#include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
+#include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
 
 namespace tethercalc::cli {
@@ -140,10 +140,8 @@ struct DiagnoseOptions {
 };
 
 /// What the logs say; either may be absent.
-struct ToldDiagnosis {
-  std::optional<Diagnosis> flight;
-  std::optional<Diagnosis> power;
-  nlohmann::ordered_json extended;  ///< the spec with the findings of both
+struct ToldDiagnosis : DiagnosisStudy {
+  nlohmann::ordered_json spec;  ///< of the extended design
 };
 
 /// Compares each log that `options` name with the spec as it stands; what both together do to the
