@@ -67,6 +67,11 @@ class Progress {
     shown_ = !rows_on_terminal && ::isatty(STDERR_FILENO) == 1 && terminal != nullptr &&
              std::string_view(terminal) != "dumb";
   }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() {
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+  }
 
   void reached(std::uint64_t row) {
     const Clock::time_point now = Clock::now();
@@ -80,10 +85,6 @@ class Progress {
                100 * done / all, rate, duration_words((all - done) / rate));
     std::fflush(stderr);
     drawn_ = true;
-  }
-
-  void clear() {
-    if (std::exchange(drawn_, false)) std::fputs("\r\x1b[K", stderr);
   }
 
  private:
@@ -236,9 +237,9 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
   };
   SweepJob job{&sweep.space, &sweep.base, write, {first, sweep.range.end}, first, runner};
   if (summary != nullptr) job.range.begin = sweep.range.begin;  // it needs the earlier rows as well
-  Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
   std::uint64_t written = first;
   try {
+    Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
     const bool fresh = first == sweep.range.begin && file.lines_found() == 0;
     if (fresh && sweep.header) file.append(sweep.rows.header());
     compute_sweep(job, [&](const SweepChunk& chunk) {
@@ -253,11 +254,9 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
     });
     file.close();
   } catch (const std::system_error& error) {
-    progress.clear();
     throw InputError(file.name(), fmt::format("cannot be written: {}; {}", error.code().message(),
                                               how_to_continue(file)));
   }
-  progress.clear();
   if (interrupting_signal == 0) return true;
   fmt::print(stderr, "tethercalc: interrupted after {} of {} designs; {}\n",
              written - sweep.range.begin, sweep.range.end - sweep.range.begin,
