@@ -163,23 +163,17 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
   const Condition where = refusal.condition;
   const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
-  switch (refusal.limit) {
-    case Limit::max_pitch:
-      return fmt::format("tilt above {}° in {}",
-                         significant(design.requirements.max_pitch / unit::degree, 3),
-                         condition_words(where));
-    case Limit::motor_thrust:
-      return fmt::format("motors too weak: headroom {} of {} in {}", fixed(best.value, 2),
-                         fixed(demanded, 2), condition_words(where));
-    default:
-      if (const auto words = limit_words(refusal.limit).in_short; !words.empty()) {
-        return std::string(words);
-      }
-      return best.value >= demanded
-                 ? std::string("no area meets all demands at once")
-                 : fmt::format("too little power: headroom {} of {} in {}", fixed(best.value, 2),
-                               fixed(demanded, 2), condition_words(where));
+  if (refusal.limit == Limit::max_pitch) {
+    return fmt::format("tilt above {}° in {}",
+                       significant(design.requirements.max_pitch / unit::degree, 3),
+                       condition_words(where));
   }
+  const LimitWords& words = limit_words(refusal.limit);
+  if (!words.in_short.empty()) return std::string(words.in_short);
+  const bool weak = refusal.limit == Limit::motor_thrust;
+  if (!weak && best.value >= demanded) return "no area meets all demands at once";
+  return fmt::format("{}: headroom {} of {} in {}", weak ? "motors too weak" : "too little power",
+                     fixed(best.value, 2), fixed(demanded, 2), condition_words(where));
 }
 
 std::string refusal_sentence(const Design& design, const Refusal& refusal) {
