@@ -3,12 +3,13 @@
 #include "cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <map>
 
 #include "cli/commands.hpp"
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
-#include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -17,86 +18,101 @@ namespace {
 using Action = std::function<int()>;
 
 Format parse_format(const std::string& text) {
-  static const std::map<std::string, Format> formats{
-      {"table", Format::table}, {"json", Format::json}, {"csv", Format::csv}};
-  const auto found = formats.find(text);
-  if (found != formats.end()) return found->second;
-  const std::vector<std::string> names{"table", "json", "csv"};
+  const std::vector<std::string> names{"table", "json", "csv"};  // as in Format
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return static_cast<Format>(found - names.begin());
   throw InputError("--format", "\"" + text + "\" is not a format; allowed are table, json and csv" +
                                    did_you_mean(text, names));
 }
 
-void add_output_file(CLI::App& command, Output& output) {
-  command.add_option("--output", output.file, "Write to this file, whole or not at all");
-}
+/// A command under construction; its options are added in the order in which help lists them.
+class Command {
+ public:
+  explicit Command(CLI::App& app) : app_(app) {}
 
-/// Adds --format and --output.
-void add_output(CLI::App& command, Output& output) {
-  command.add_option_function<std::string>(
-      "--format", [&output](const std::string& text) { output.format = parse_format(text); },
-      "table (default), json or csv");
-  add_output_file(command, output);
-}
-
-/// An option that takes one value, each time it is given.
-void add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                    const std::string& help) {
-  command.add_option(name, values, help)->allow_extra_args(false);
-}
-
-void add_spec(CLI::App& command, SpecOptions& spec) {
-  command.add_option("SPEC", spec.file, "Design spec (JSON), - for standard input")->required();
-  add_repeatable(command, "--set", spec.overrides,
-                 "Change a field of the spec: path=value, such as supply.voltage_V=60; repeatable");
-}
-
-/// The options that say which part of a flight counts and what is known about it.
-void add_flight(CLI::App& command, FlightOptions& flight) {
-  command.add_option("--mass-g", flight.mass_g, "Mass of the drone as flown, in g");
-  command.add_option("--from", flight.from, "First sample: seconds (120) or percent (25%)");
-  command.add_option("--to", flight.to, "Last sample; with neither, the moving part is used");
-  command.add_option("--pitch-offset-deg", flight.pitch_offset_deg,
-                     "Pitch that the log shows in level flight, nose-up");
-  command.add_option("--trim-log", flight.trim_log, "Hover flight whose mean pitch is that offset");
-  command.add_option("--air-density", flight.air_density_kg_m3, "In kg/m³ (default 1.293)");
-  command.add_option("--pressure-hPa", flight.pressure_hPa, "For the air density, with");
-  command.add_option("--temperature-C", flight.temperature_C, "the air temperature");
-  command.add_option("--core", flight.core, "EKF core to read (default 0)")
-      ->check(CLI::Range(0, 255));
-}
-
-void add_comma_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                    const std::string& help) {
-  command.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
-}
-
-/// The options that name measured logs and say how to look at them.
-void add_logs(
-    CLI::App& command, DiagnoseOptions& logs, const std::string& flight_help,
-    const std::string& power_help,
-    const std::string& base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]") {
-  command.add_option("--flight", logs.flight_log, flight_help);
-  command.add_option("--power", logs.power_log, power_help);
-  add_comma_list(command, "--base", logs.base, base_help);
-  add_flight(command, logs.flight);
-}
-
-std::vector<double> parse_areas(const std::vector<std::string>& texts) {
-  std::vector<double> areas;
-  std::vector<InputProblem> problems;
-  for (const std::string& text : texts) {
-    char* end = nullptr;
-    const double area = std::strtod(text.c_str(), &end);
-    // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
-    if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
-      problems.push_back(
-          {"--area-mm2", "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²"});
-    }
-    areas.push_back(area);
+  template <typename Value>
+  Command& option(const char* name, Value& value, const std::string& help) {
+    app_.add_option(name, value, help);
+    return *this;
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return areas;
-}
+
+  /// What must be given, without a name.
+  template <typename Value>
+  Command& argument(const char* name, Value& value, const std::string& help) {
+    app_.add_option(name, value, help)->required();
+    return *this;
+  }
+
+  Command& flag(const char* name, bool& value, const char* help) {
+    app_.add_flag(name, value, help);
+    return *this;
+  }
+
+  /// An option that may be given without its value.
+  Command& option_or_flag(const char* name, std::string& value, const char* help) {
+    app_.add_option(name, value, help)->expected(0, 1);
+    return *this;
+  }
+
+  /// An option that takes one value, each time it is given.
+  Command& repeatable(const char* name, std::vector<std::string>& values, const char* help) {
+    app_.add_option(name, values, help)->allow_extra_args(false);
+    return *this;
+  }
+
+  Command& comma_list(const char* name, std::vector<std::string>& values, const char* help) {
+    app_.add_option(name, values, help)->delimiter(',')->allow_extra_args(false);
+    return *this;
+  }
+
+  Command& spec(SpecOptions& spec) {
+    return argument("SPEC", spec.file, "Design spec (JSON), - for standard input")
+        .repeatable(
+            "--set", spec.overrides,
+            "Change a field of the spec: path=value, such as supply.voltage_V=60; repeatable");
+  }
+
+  /// The options that say which part of a flight counts and what is known about it.
+  Command& flight(FlightOptions& flight) {
+    option("--mass-g", flight.mass_g, "Mass of the drone as flown, in g");
+    option("--from", flight.from, "First sample: seconds (120) or percent (25%)");
+    option("--to", flight.to, "Last sample; with neither, the moving part is used");
+    option("--pitch-offset-deg", flight.pitch_offset_deg,
+           "Pitch that the log shows in level flight, nose-up");
+    option("--trim-log", flight.trim_log, "Hover flight whose mean pitch is that offset");
+    option("--air-density", flight.air_density_kg_m3, "In kg/m³ (default 1.293)");
+    option("--pressure-hPa", flight.pressure_hPa, "For the air density, with");
+    option("--temperature-C", flight.temperature_C, "the air temperature");
+    app_.add_option("--core", flight.core, "EKF core to read (default 0)")
+        ->check(CLI::Range(0, 255));
+    return *this;
+  }
+
+  /// The options that name measured logs and say how to look at them.
+  Command& logs(
+      DiagnoseOptions& logs, const char* flight_help, const char* power_help,
+      const char* base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]") {
+    return option("--flight", logs.flight_log, flight_help)
+        .option("--power", logs.power_log, power_help)
+        .comma_list("--base", logs.base, base_help)
+        .flight(logs.flight);
+  }
+
+  Command& output_file(Output& output) {
+    return option("--output", output.file, "Write to this file, whole or not at all");
+  }
+
+  /// Adds --format and --output.
+  Command& output(Output& output) {
+    app_.add_option_function<std::string>(
+        "--format", [&output](const std::string& text) { output.format = parse_format(text); },
+        "table (default), json or csv");
+    return output_file(output);
+  }
+
+ private:
+  CLI::App& app_;
+};
 
 /// The commands and their options. Kept alive until the chosen action has run.
 class CommandLine {
@@ -104,20 +120,10 @@ class CommandLine {
   CommandLine() : app_("Design calculator for drones powered through a tether.", "tethercalc") {
     app_.set_version_flag("--version", std::string("tethercalc ") + TETHERCALC_VERSION);
     app_.require_subcommand(1);
-    add_optimize();
-    add_evaluate();
-    add_compare();
-    add_sweep();
-    add_check();
-    add_design();
-    add_envelope();
-    add_validate();
+    add_design_commands();
     add_texts();
-    add_drag();
-    add_diagnose();
-    add_log();
-    add_plot();
-    add_report();
+    add_log_commands();
+    add_pictures();
     app_.footer("Exit codes: 0 done; 1 the honest answer is no; 2 bad input; 3 internal error.");
   }
 
@@ -140,189 +146,153 @@ class CommandLine {
   }
 
  private:
-  CLI::App& add(const std::string& name, const std::string& help, Action action) {
+  Command add(const std::string& name, const std::string& help, Action action) {
     CLI::App& command = *app_.add_subcommand(name, help);
     command.allow_extras();  // told with the closest known option in check_extras
     actions_[name] = std::move(action);
-    return command;
+    return Command(command);
   }
 
-  void add_optimize() {
-    CLI::App& command = add("optimize", "Which conductor cross-section to fly, and what limits it",
-                            [this] { return run_optimize(spec_, output_); });
-    add_spec(command, spec_);
-    add_output(command, output_);
-  }
-
-  void add_evaluate() {
-    CLI::App& command =
-        add("evaluate", "Operating points in hover and forward flight at given cross-sections",
-            [this] { return run_evaluate(spec_, parse_areas(areas_), output_); });
-    add_spec(command, spec_);
-    add_comma_list(command, "--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]");
-    add_output(command, output_);
-  }
-
-  void add_compare() {
-    CLI::App& command = add("compare", "One optimum a motor, the most economical first",
-                            [this] { return run_compare(spec_, motors_, output_); });
-    add_spec(command, spec_);
-    add_comma_list(command, "--motors", motors_,
-                   "all, or names of the library and files, separated by commas (default: all)");
-    add_output(command, output_);
-  }
-
-  void add_sweep() {
-    CLI::App& command =
-        add("sweep", "One row a design, for every combination or a sample of values",
-            [this] { return run_sweep(sweep_); });
-    add_spec(command, sweep_.spec);
-    add_repeatable(command, "--vary", sweep_.varied,
-                   "path=from:to:step, path=a,b,c or path=all; in a sample also path=lo..hi "
-                   "(uniform) and path=mean~sd (normal); repeatable, the last changes fastest");
-    command.add_option("--sample", sweep_.sample, "Draw N designs instead of every combination");
-    command.add_option("--method", sweep_.method, "sobol (default) or lhs, a Latin hypercube");
-    command.add_option("--seed", sweep_.seed, "Of the sample (default 0)");
-    command.add_option("--summary", sweep_.summary_file, "Write a sample's summary here as JSON");
-    command.add_option("--format", sweep_.format, "csv (default) or jsonl, JSON Lines");
-    command.add_option("--output", sweep_.file, "Write rows to this file as they are computed");
-    command.add_flag("--resume", sweep_.resume, "Continue what --output holds from an earlier run");
-    command.add_option("--shard", sweep_.shard,
-                       "i/n: only the i-th of n equal parts; joined they are the whole sweep");
-    command.add_option("--jobs", sweep_.jobs, "Threads (default: one a core)");
-  }
-
-  void add_check() {
-    CLI::App& command = add("check", "Reference designs against their recorded results",
-                            [this] { return run_check(check_, output_); });
-    command.add_option("PATH", check_.paths, "Folders of specs, or specs")->required();
-    command.add_flag("--update", check_.update, "Bring the records up to date");
-    command.add_option("--junit", check_.junit_file, "Write a JUnit XML report here");
-    add_output(command, output_);
-  }
-
-  void add_design() {
-    CLI::App& command = add("design", "The best whole design among those that free fields allow",
-                            [this] { return run_design(spec_, request_, output_); });
-    add_spec(command, spec_);
-    add_repeatable(
-        command, "--free", request_.free,
-        "A field the search may change: PATH=lo..hi, or what --vary of sweep takes; repeatable");
-    command.add_option("--minimize", request_.minimize,
-                       "Key of a result or path of a field (default: total_power_W)");
-    add_repeatable(command, "--subject-to", request_.subject_to,
-                   "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable");
-    command.add_option("--standard", request_.standard,
-                       "awg or iec: the cross-section is one of these sizes");
-    add_comma_list(command, "--pareto", request_.pareto, "KEY,KEY: the front of two quantities");
-    command.add_option("--seed", request_.seed, "Of the points from which the search starts");
-    add_output(command, output_);
-  }
-
-  void add_envelope() {
-    CLI::App& command =
-        add("envelope", "How high, how heavy, how fast and in how much wind a given cable flies",
-            [this] { return run_envelope(spec_, parse_areas(areas_), output_); });
-    add_spec(command, spec_);
-    add_repeatable(command, "--area-mm2", areas_,
-                   "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)");
-    add_output(command, output_);
-  }
-
-  void add_validate() {
-    CLI::App& command = add("validate", "Check specs without computing anything",
-                            [this] { return run_validate(files_, spec_.overrides, output_); });
-    command.add_option("SPEC", files_, "Design specs (JSON), - for standard input")->required();
-    add_repeatable(command, "--set", spec_.overrides,
-                   "Change a field first: path=value; repeatable");
-    add_output(command, output_);
+  void add_design_commands() {
+    add("optimize", "Which conductor cross-section to fly, and what limits it",
+        [this] { return run_optimize(spec_, output_); })
+        .spec(spec_)
+        .output(output_);
+    add("evaluate", "Operating points in hover and forward flight at given cross-sections",
+        [this] { return run_evaluate(spec_, areas_, output_); })
+        .spec(spec_)
+        .comma_list("--area-mm2", areas_, "Cross-sections of one conductor, X[,Y...]")
+        .output(output_);
+    add("compare", "One optimum a motor, the most economical first",
+        [this] { return run_compare(spec_, motors_, output_); })
+        .spec(spec_)
+        .comma_list("--motors", motors_,
+                    "all, or names of the library and files, separated by commas (default: all)")
+        .output(output_);
+    add("sweep", "One row a design, for every combination or a sample of values",
+        [this] { return run_sweep(sweep_); })
+        .spec(sweep_.spec)
+        .repeatable("--vary", sweep_.varied,
+                    "path=from:to:step, path=a,b,c or path=all; in a sample also path=lo..hi "
+                    "(uniform) and path=mean~sd (normal); repeatable, the last changes fastest")
+        .option("--sample", sweep_.sample, "Draw N designs instead of every combination")
+        .option("--method", sweep_.method, "sobol (default) or lhs, a Latin hypercube")
+        .option("--seed", sweep_.seed, "Of the sample (default 0)")
+        .option("--summary", sweep_.summary_file, "Write a sample's summary here as JSON")
+        .option("--format", sweep_.format, "csv (default) or jsonl, JSON Lines")
+        .option("--output", sweep_.file, "Write rows to this file as they are computed")
+        .flag("--resume", sweep_.resume, "Continue what --output holds from an earlier run")
+        .option("--shard", sweep_.shard,
+                "i/n: only the i-th of n equal parts; joined they are the whole sweep")
+        .option("--jobs", sweep_.jobs, "Threads (default: one a core)");
+    add("check", "Reference designs against their recorded results",
+        [this] { return run_check(check_, output_); })
+        .argument("PATH", check_.paths, "Folders of specs, or specs")
+        .flag("--update", check_.update, "Bring the records up to date")
+        .option("--junit", check_.junit_file, "Write a JUnit XML report here")
+        .output(output_);
+    add("design", "The best whole design among those that free fields allow",
+        [this] { return run_design(spec_, request_, output_); })
+        .spec(spec_)
+        .repeatable("--free", request_.free,
+                    "A field the search may change: PATH=lo..hi, or what --vary of sweep takes; "
+                    "repeatable")
+        .option("--minimize", request_.minimize,
+                "Key of a result or path of a field (default: total_power_W)")
+        .repeatable("--subject-to", request_.subject_to,
+                    "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable")
+        .option("--standard", request_.standard,
+                "awg or iec: the cross-section is one of these sizes")
+        .comma_list("--pareto", request_.pareto, "KEY,KEY: the front of two quantities")
+        .option("--seed", request_.seed, "Of the points from which the search starts")
+        .output(output_);
+    add("envelope", "How high, how heavy, how fast and in how much wind a given cable flies",
+        [this] { return run_envelope(spec_, areas_, output_); })
+        .spec(spec_)
+        .repeatable("--area-mm2", areas_,
+                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
+        .output(output_);
+    add("validate", "Check specs without computing anything",
+        [this] { return run_validate(files_, spec_.overrides, output_); })
+        .argument("SPEC", files_, "Design specs (JSON), - for standard input")
+        .repeatable("--set", spec_.overrides, "Change a field first: path=value; repeatable")
+        .output(output_);
   }
 
   /// What is printed as it stands: the schema, a starting spec, the library.
   void add_texts() {
-    add_output_file(add("schema", "The JSON Schema of design specs, for editors",
-                        [this] { return run_schema(output_); }),
-                    output_);
-    add_output_file(add("init", "A starting spec to edit", [this] { return run_init(output_); }),
-                    output_);
-    CLI::App& list = add("list", "The library: motors, conductors, insulation or sizes",
-                         [this] { return run_list(what_, output_); });
-    list.add_option("WHAT", what_, "motors, conductors, insulation or sizes")->required();
-    add_output(list, output_);
+    const auto add_text = [this](const char* name, const char* help, const auto& text) {
+      add(name, help, [this, text] {
+        emit(output_, text());
+        return done;
+      }).output_file(output_);
+    };
+    add_text("schema", "The JSON Schema of design specs, for editors",
+             [] { return json_text(spec_schema()); });
+    add_text("init", "A starting spec to edit", starting_spec);
+    add("list", "The library: motors, conductors, insulation or sizes",
+        [this] { return run_list(what_, output_); })
+        .argument("WHAT", what_, "motors, conductors, insulation or sizes")
+        .output(output_);
   }
 
-  void add_drag() {
-    CLI::App& command = add("drag", "The drone's drag, learned from its own flight logs",
-                            [this] { return run_drag(files_, flight_, what_, output_); });
-    command.add_option("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")->required();
-    add_flight(command, flight_);
-    command.add_option("--into", what_,
-                       "Print this spec with its drag replaced, instead of the fit");
-    add_output(command, output_);
-  }
-
-  void add_diagnose() {
-    CLI::App& command =
-        add("diagnose", "What the simulation of a measured flight gets wrong, and why", [this] {
+  void add_log_commands() {
+    add("drag", "The drone's drag, learned from its own flight logs",
+        [this] { return run_drag(files_, flight_, what_, output_); })
+        .argument("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")
+        .flight(flight_)
+        .option("--into", what_, "Print this spec with its drag replaced, instead of the fit")
+        .output(output_);
+    add("diagnose", "What the simulation of a measured flight gets wrong, and why",
+        [this] {
           diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;
           return run_diagnose(diagnose_, output_);
-        });
-    add_spec(command, diagnose_.spec);
-    add_logs(command, diagnose_, "Flight log: DataFlash (.bin) or CSV", "Power log (CSV)");
-    command
-        .add_option("--into", diagnose_.into_file,
-                    "Write the extended spec to this file; without a name print it instead of the "
-                    "diagnosis")
-        ->expected(0, 1);
-    add_output(command, output_);
+        })
+        .spec(diagnose_.spec)
+        .logs(diagnose_, "Flight log: DataFlash (.bin) or CSV", "Power log (CSV)")
+        .option_or_flag("--into", diagnose_.into_file,
+                        "Write the extended spec to this file; without a name print it instead of "
+                        "the diagnosis")
+        .output(output_);
+    add("log", "What a DataFlash log holds", [this] { return run_log(what_, message_, output_); })
+        .argument("LOG", what_, "DataFlash log (.bin)")
+        .option("--csv", message_, "Export all messages of this name, such as XKF1")
+        .output(output_);
   }
 
-  void add_log() {
-    CLI::App& command = add("log", "What a DataFlash log holds",
-                            [this] { return run_log(what_, message_, output_); });
-    command.add_option("LOG", what_, "DataFlash log (.bin)")->required();
-    command.add_option("--csv", message_, "Export all messages of this name, such as XKF1");
-    add_output(command, output_);
-  }
-
-  void add_plot() {
-    CLI::App& command = add("plot", "A figure of a result, drawn by gnuplot", [this] {
-      for (const CLI::Option* option : app_.get_subcommand("plot")->get_options()) {
-        if (option->count() > 0) plot_.given.push_back(option->get_name());
-      }
-      return run_plot(plot_);
-    });
-    command.add_option("KIND", plot_.kind, plot_kinds_help())->required();
-    command.add_option("FILE", plot_.files, "What it is drawn from")->required();
-    add_repeatable(command, "--set", plot_.made_of.spec.overrides,
-                   "Change a field of the spec: path=value; repeatable");
-    command.add_option("--output", plot_.output,
-                       "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure "
-                       "is drawn with characters, as wide as the terminal (COLUMNS, else 100)");
-    command.add_option("--title", plot_.title,
-                       "Words above the figure (default: the design's or the file's name)");
-    command.add_option("--width-mm", plot_.width_mm,
-                       "Width of the figure, 85 to 400 (default: 85, one column of a journal)");
-    add_comma_list(command, "--motors", plot_.motors,
-                   "motors: all, or names of the library and files, separated by commas");
-    command.add_option("--view", plot_.view,
-                       "drag: speed (default), or surface over airspeed and tilt");
-    command.add_option("--x", plot_.x, "sweep: the varied field along the horizontal axis");
-    command.add_option("--y", plot_.y, "sweep: the varied field along the vertical axis");
-    command.add_option("--value", plot_.value,
-                       "sweep: the column shown (default: forward.total_power_W)");
-    add_logs(command, plot_.made_of, "diagnosis: the flight log", "diagnosis: the power log",
-             "diagnosis: effects taken as part of the base model");
-  }
-
-  void add_report() {
-    CLI::App& command =
-        add("report", "One page with everything about a design, to be mailed or printed",
-            [this] { return run_report(diagnose_, shell_command(arguments_), output_); });
-    add_spec(command, diagnose_.spec);
-    add_logs(command, diagnose_, "With what this flight log says: DataFlash (.bin) or CSV",
-             "With what this power log says (CSV)");
-    add_output_file(command, output_);
+  void add_pictures() {
+    add("plot", "A figure of a result, drawn by gnuplot",
+        [this] {
+          for (const CLI::Option* option : app_.get_subcommand("plot")->get_options()) {
+            if (option->count() > 0) plot_.given.push_back(option->get_name());
+          }
+          return run_plot(plot_, output_);
+        })
+        .argument("KIND", plot_.kind, plot_kinds_help())
+        .argument("FILE", plot_.files, "What it is drawn from")
+        .repeatable("--set", plot_.made_of.spec.overrides,
+                    "Change a field of the spec: path=value; repeatable")
+        .option("--output", output_.file,
+                "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure is "
+                "drawn with characters, as wide as the terminal (COLUMNS, else 100)")
+        .option("--title", plot_.title,
+                "Words above the figure (default: the design's or the file's name)")
+        .option("--width-mm", plot_.width_mm,
+                "Width of the figure, 85 to 400 (default: 85, one column of a journal)")
+        .comma_list("--motors", plot_.motors,
+                    "motors: all, or names of the library and files, separated by commas")
+        .option("--view", plot_.view, "drag: speed (default), or surface over airspeed and tilt")
+        .option("--x", plot_.x, "sweep: the varied field along the horizontal axis")
+        .option("--y", plot_.y, "sweep: the varied field along the vertical axis")
+        .option("--value", plot_.value, "sweep: the column shown (default: forward.total_power_W)")
+        .logs(plot_.made_of, "diagnosis: the flight log", "diagnosis: the power log",
+              "diagnosis: effects taken as part of the base model");
+    add("report", "One page with everything about a design, to be mailed or printed",
+        [this] { return run_report(diagnose_, shell_command(arguments_), output_); })
+        .spec(diagnose_.spec)
+        .logs(diagnose_, "With what this flight log says: DataFlash (.bin) or CSV",
+              "With what this power log says (CSV)")
+        .output_file(output_);
   }
 
   /// A mistyped command gets the closest one instead of CLI11's "argument was not expected".
@@ -345,21 +315,21 @@ class CommandLine {
     for (const CLI::Option* option : command.get_options()) {
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     }
-    std::vector<InputProblem> problems;
+    Problems problems;
     bool after_option = false;  // what follows an unknown option is probably its value
     for (const std::string& extra : command.remaining()) {
       const std::string given = extra.substr(0, extra.find('='));
       const bool option = given.starts_with("-");
       if (option) {
-        problems.push_back({"tethercalc " + command.get_name(),
-                            "there is no option " + given + did_you_mean(given, names)});
+        problems.add("tethercalc " + command.get_name(),
+                     "there is no option " + given + did_you_mean(given, names));
       } else if (!after_option) {
-        problems.push_back(
-            {"tethercalc " + command.get_name(), "\"" + extra + "\" is one argument too many"});
+        problems.add("tethercalc " + command.get_name(),
+                     "\"" + extra + "\" is one argument too many");
       }
       after_option = option && given == extra;
     }
-    if (!problems.empty()) throw InputError(std::move(problems));
+    problems.throw_if_any();
   }
 
   CLI::App app_;

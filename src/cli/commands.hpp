@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "cli/output.hpp"
-#include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
+#include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
 
 namespace tethercalc::cli {
@@ -29,8 +29,8 @@ struct SpecOptions {
 
 int run_optimize(const SpecOptions& spec, const Output& output);
 
-/// Without `areas_mm2` at the spec's own cross-section.
-int run_evaluate(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+/// `areas_mm2` as typed; without any, at the spec's own cross-section.
+int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
 /// The motors that `--motors` names: "all", names of the library, or files. Throws InputError with
@@ -43,7 +43,7 @@ int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
 int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output);
 
 /// The envelope of one cross-section: the one of `areas_mm2`, or the spec's own.
-int run_envelope(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
 struct SweepOptions {
@@ -77,11 +77,6 @@ int run_check(const CheckOptions& options, const Output& output);
 /// Reads specs and says what is wrong with them, or that nothing is.
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
                  const Output& output);
-
-int run_schema(const Output& output);
-
-/// A starting spec.
-int run_init(const Output& output);
 
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
@@ -145,10 +140,8 @@ struct DiagnoseOptions {
 };
 
 /// What the logs say; either may be absent.
-struct ToldDiagnosis {
-  std::optional<Diagnosis> flight;
-  std::optional<Diagnosis> power;
-  nlohmann::ordered_json extended;  ///< the spec with the findings of both
+struct ToldDiagnosis : DiagnosisStudy {
+  nlohmann::ordered_json spec;  ///< of the extended design
 };
 
 /// Compares each log that `options` name with the spec as it stands; what both together do to the
@@ -163,7 +156,6 @@ struct PlotOptions {
   std::vector<std::string> files;  ///< the spec, logs or CSV that the kind is drawn from
   std::vector<std::string> given;  ///< names of all options that were given
   DiagnoseOptions made_of;         ///< changes of the spec, logs and what is known of them
-  std::string output;              ///< empty: characters on standard output
   std::string title;               ///< above the figure; empty: the design's or the file's name
   double width_mm = 85;
   std::vector<std::string> motors{"all"};
@@ -176,8 +168,8 @@ struct PlotOptions {
 /// Names and what they show, for help and messages.
 [[nodiscard]] std::string plot_kinds_help();
 
-/// Draws one figure.
-int run_plot(const PlotOptions& options);
+/// Draws one figure, without a file of characters on standard output.
+int run_plot(const PlotOptions& options, const Output& output);
 
 /// Writes the page. `options` names the spec and the logs, which may both be there; `command` is
 /// what was typed, for a shell. The exit code is that of `optimize` for the spec.

@@ -1,7 +1,9 @@
 #include "cli/commands.hpp"
 
+#include <cstdlib>
+
+#include "io/checked_values.hpp"
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/envelope_report.hpp"
 #include "tethercalc/report/library_report.hpp"
@@ -10,15 +12,31 @@
 namespace tethercalc::cli {
 namespace {
 
-/// The cross-sections that were given in mm², or else the spec's own; in m².
-std::vector<double> chosen_areas(const std::vector<double>& areas_mm2, const Design& design) {
-  if (areas_mm2.empty() && !design.tether.cross_section) {
+/// The cross-sections that were typed in mm², in m².
+std::vector<double> parsed_areas(const std::vector<std::string>& texts) {
+  std::vector<double> areas;
+  Problems problems;
+  for (const std::string& text : texts) {
+    char* end = nullptr;
+    const double area = std::strtod(text.c_str(), &end);
+    // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
+    if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
+      problems.add("--area-mm2",
+                   "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²");
+    }
+    areas.push_back(area * unit::square_millimetre);
+  }
+  problems.throw_if_any();
+  return areas;
+}
+
+/// `areas`, or else the spec's own.
+std::vector<double> chosen_areas(std::vector<double> areas, const Design& design) {
+  if (!areas.empty()) return areas;
+  if (!design.tether.cross_section) {
     throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
   }
-  if (areas_mm2.empty()) return {*design.tether.cross_section};
-  std::vector<double> areas;
-  for (const double area : areas_mm2) areas.push_back(area * unit::square_millimetre);
-  return areas;
+  return {*design.tether.cross_section};
 }
 
 }  // namespace
@@ -27,7 +45,7 @@ DesignFile read_spec(const SpecOptions& spec) { return read_design(spec.file, sp
 
 std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
   std::vector<MotorEntry> motors;
-  std::vector<InputProblem> problems;
+  Problems problems;
   for (const std::string& name : names) {
     if (name == "all") {
       for (MotorEntry& motor : library_motors()) motors.push_back(std::move(motor));
@@ -36,10 +54,10 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
     try {
       motors.push_back(find_motor(name, files_in(""), "--motors"));
     } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+      problems.add(error.problems());
     }
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
+  problems.throw_if_any();
   return motors;
 }
 
@@ -52,11 +70,12 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
   return answer.result.feasible ? done : answer_is_no;
 }
 
-int run_evaluate(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output) {
+  const std::vector<double> areas = parsed_areas(areas_mm2);
   const DesignFile file = read_spec(spec);
   const std::vector<AreaPoints> table =
-      evaluate_areas(file.design, chosen_areas(areas_mm2, file.design));
+      evaluate_areas(file.design, chosen_areas(areas, file.design));
   emit(
       output, [&] { return evaluate_text(file, table, style_for(output)); },
       [&] { return evaluate_json(file, table); }, [&] { return evaluate_csv(table); });
@@ -83,12 +102,12 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
   return answer.answer.feasible ? done : answer_is_no;
 }
 
-int run_envelope(const SpecOptions& spec, const std::vector<double>& areas_mm2,
+int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output) {
+  const std::vector<double> areas = parsed_areas(areas_mm2);
   DesignFile file = read_spec(spec);
-  if (areas_mm2.size() > 1)
-    throw InputError("--area-mm2", "an envelope is that of one cross-section");
-  file.design.tether.cross_section = chosen_areas(areas_mm2, file.design).front();
+  if (areas.size() > 1) throw InputError("--area-mm2", "an envelope is that of one cross-section");
+  file.design.tether.cross_section = chosen_areas(areas, file.design).front();
   const EnvelopeStudy answer = study_envelope(file.design);
   emit(
       output, [&] { return envelope_text(file, answer, style_for(output)); },
@@ -113,16 +132,6 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   emit(output, output.format == Format::json ? json_text(json) : text);
-  return done;
-}
-
-int run_schema(const Output& output) {
-  emit(output, json_text(spec_schema()));
-  return done;
-}
-
-int run_init(const Output& output) {
-  emit(output, starting_spec());
   return done;
 }
 

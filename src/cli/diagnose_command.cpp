@@ -6,17 +6,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "files/whole_file.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
-#include "tethercalc/study/diagnosis.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -104,8 +101,8 @@ void tell(const ToldDiagnosis& told, const Output& output) {
                     : diagnosis_text(only, style_for(output));
       },
       [&] {
-        return both ? joint_diagnosis_json(*told.flight, *told.power, told.extended)
-                    : diagnosis_json(only, told.extended);
+        return both ? joint_diagnosis_json(*told.flight, *told.power, told.spec)
+                    : diagnosis_json(only, told.spec);
       },
       [&] {
         std::vector<Finding> findings = told.flight ? told.flight->findings : only.findings;
@@ -146,19 +143,18 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
     study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
   }
   // Checked as if a person had written it.
-  const DesignFile extended =
-      read_design_document(spec_with(file, study.extended), file.file, file.load);
-  return {std::move(study.flight), std::move(study.power), extended.document};
+  DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);
+  return {std::move(study), std::move(extended.document)};
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   check_into(options);
   const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
-    emit(output, json_text(told.extended));
+    emit(output, json_text(told.spec));
     return done;
   }
-  if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.extended));
+  if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.spec));
   tell(told, output);
   return done;
 }

@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "files/mapped_file.hpp"
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/gnuplot.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
-#include "tethercalc/io/input_error.hpp"
 #include "tethercalc/report/report_page.hpp"
 #include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
@@ -137,16 +137,16 @@ void check_options(const PlotOptions& options) {
       {"log, drag, diagnosis",
        {"--mass-g", "--from", "--to", "--pitch-offset-deg", "--trim-log", "--air-density",
         "--pressure-hPa", "--temperature-C"}}};
-  std::vector<InputProblem> problems;
+  Problems problems;
   for (const auto& [figures, names] : takers) {
     if (figures.find(options.kind) != std::string::npos) continue;
     for (const std::string& name : names) {
       if (std::count(options.given.begin(), options.given.end(), name) == 0) continue;
-      problems.push_back(
-          {name, fmt::format("is an option of the figures {}, not of {}", figures, options.kind)});
+      problems.add(name,
+                   fmt::format("is an option of the figures {}, not of {}", figures, options.kind));
     }
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
+  problems.throw_if_any();
 }
 
 /// Columns of the terminal: COLUMNS, what the terminal says, or 100 where there is none.
@@ -193,11 +193,11 @@ std::string plot_kinds_help() {
   return out;
 }
 
-int run_plot(const PlotOptions& options) {
+int run_plot(const PlotOptions& options, const Output& output) {
   const Kind& kind = find_kind(options.kind);
   // Told before a long computation, not after it.
   const FigureFormat format =
-      options.output.empty() ? FigureFormat::text : figure_format(options.output, "--output");
+      output.file.empty() ? FigureFormat::text : figure_format(output.file, "--output");
   if (options.files.size() != 1 && !kind.many_files) {
     throw InputError("plot " + options.kind,
                      fmt::format("is drawn from one file: plot {} {}", options.kind, kind.input));
@@ -207,12 +207,7 @@ int run_plot(const PlotOptions& options) {
     throw InputError("--width-mm", std::to_string(options.width_mm) +
                                        " is out of range; allowed is 85 to 400 mm");
   }
-  Output output;
-  output.file = options.output;
-  FigureSize size;
-  size.width_mm = options.width_mm;
-  size.columns = text_columns();
-  size.colour = style_for(output).colour;
+  const FigureSize size{options.width_mm, text_columns(), style_for(output).colour};
   emit(output, render(kind.draw(options), format, run_gnuplot, size));
   return done;
 }

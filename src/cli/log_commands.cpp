@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "files/mapped_file.hpp"
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/io/spec_writer.hpp"

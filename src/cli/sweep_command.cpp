@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -68,6 +67,11 @@ class Progress {
     shown_ = !rows_on_terminal && ::isatty(STDERR_FILENO) == 1 && terminal != nullptr &&
              std::string_view(terminal) != "dumb";
   }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() {
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+  }
 
   void reached(std::uint64_t row) {
     const Clock::time_point now = Clock::now();
@@ -81,10 +85,6 @@ class Progress {
                100 * done / all, rate, duration_words((all - done) / rate));
     std::fflush(stderr);
     drawn_ = true;
-  }
-
-  void clear() {
-    if (std::exchange(drawn_, false)) std::fputs("\r\x1b[K", stderr);
   }
 
  private:
@@ -110,27 +110,20 @@ SampleMethod sample_method(const std::string& method) {
                    fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
 }
 
-/// 0 where the text is no whole number.
-std::uint64_t positive_number(std::string_view text) {
-  std::uint64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stopped == end ? value : 0;
-}
-
 /// The part of the sweep to compute, counted from 1, and the number of parts.
 struct Shard {
-  std::uint64_t part = 1;
-  std::uint64_t parts = 1;
+  std::uint64_t part = 0;
+  std::uint64_t parts = 0;
 };
 
 Shard parsed_shard(const std::string& text) {
-  if (text.empty()) return {};
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const std::string_view before = std::string_view(text).substr(0, slash);
-  const std::string_view after = std::string_view(text).substr(slash);
-  const Shard shard{positive_number(before), positive_number(after.substr(after.empty() ? 0 : 1))};
-  if (shard.part < 1 || shard.part > shard.parts) {
+  if (text.empty()) return {1, 1};
+  Shard shard;  // what is no number leaves 0
+  const char* const end = text.data() + text.size();
+  const char* const slash = std::from_chars(text.data(), end, shard.part).ptr;
+  const bool whole =
+      slash != end && *slash == '/' && std::from_chars(slash + 1, end, shard.parts).ptr == end;
+  if (!whole || shard.part < 1 || shard.part > shard.parts) {
     throw InputError("--shard",
                      fmt::format("\"{}\" is not i/n with i from 1 to n, such as 2/8", text));
   }
@@ -244,9 +237,9 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
   };
   SweepJob job{&sweep.space, &sweep.base, write, {first, sweep.range.end}, first, runner};
   if (summary != nullptr) job.range.begin = sweep.range.begin;  // it needs the earlier rows as well
-  Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
   std::uint64_t written = first;
   try {
+    Progress progress(job.range, file.name() == "standard output" && ::isatty(STDOUT_FILENO) == 1);
     const bool fresh = first == sweep.range.begin && file.lines_found() == 0;
     if (fresh && sweep.header) file.append(sweep.rows.header());
     compute_sweep(job, [&](const SweepChunk& chunk) {
@@ -261,11 +254,9 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
     });
     file.close();
   } catch (const std::system_error& error) {
-    progress.clear();
     throw InputError(file.name(), fmt::format("cannot be written: {}; {}", error.code().message(),
                                               how_to_continue(file)));
   }
-  progress.clear();
   if (interrupting_signal == 0) return true;
   fmt::print(stderr, "tethercalc: interrupted after {} of {} designs; {}\n",
              written - sweep.range.begin, sweep.range.end - sweep.range.begin,

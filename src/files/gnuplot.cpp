@@ -1,6 +1,5 @@
 #include "tethercalc/files/gnuplot.hpp"
 
-#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -54,21 +54,19 @@ void run(unsigned threads, std::uint64_t first, std::uint64_t last,
       if (stop) break;
       lock.unlock();
       bool go_on = false;
-      std::exception_ptr thrown;
       try {
         go_on = consume(slot);
+        lock.lock();
       } catch (...) {
-        thrown = std::current_exception();
+        lock.lock();
+        if (!failure) failure = std::current_exception();
       }
-      lock.lock();
       ready[slot] = false;
       ++consumed;
-      if (thrown && !failure) failure = thrown;
-      if (thrown || !go_on) stop = true;
+      stop = stop || !go_on;
       slot_free.notify_all();
       if (stop) break;
     }
-    lock.unlock();
   }
   if (failure) std::rethrow_exception(failure);
 }

@@ -243,13 +243,16 @@ ordered_json design_json(const DesignFile& file, const DesignRequest& request,
 }
 
 std::string design_csv(const DesignRequest& request, const DesignStudy& study) {
-  std::string out;
+  ordered_json header = ordered_json::array();
+  ordered_json row = ordered_json::array();
   const ordered_json values = free_values(study, study.answer.values);
-  for (const auto& [path, value] : values.items()) out += path + ",";
-  out += "feasible," + request.minimize + "\n";
-  for (const ordered_json& value : values) out += csv_cell(value) + ",";
-  return out + (study.answer.feasible ? "true," : "false,") +
-         csv_number(study.answer.minimum.value) + "\n";
+  for (const auto& [path, value] : values.items()) {
+    header.push_back(path);
+    row.push_back(value);
+  }
+  header.insert(header.end(), {"feasible", request.minimize});
+  row.insert(row.end(), {study.answer.feasible, study.answer.minimum.value});
+  return csv_line(header) + csv_line(row);
 }
 
 }  // namespace tethercalc

@@ -59,8 +59,6 @@ Table binned(const Table& rows, gp::Range range) {
   return out;
 }
 
-gp::Range joint(gp::Range a, gp::Range b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
-
 /// Held-out errors of a compared quantity before and after, in words.
 struct Errors {
   std::string before;
@@ -88,7 +86,7 @@ std::string compared_panels(const gp::Layout& layout, double top, const Diagnosi
   const Table rows = complete_rows({series.measured, series.before, series.after});
   const std::string name = fmt::format("compared{}", k + 1);
   const gp::Range measured = gp::bulk(rows[0]);
-  const gp::Range range = joint(measured, joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
+  const gp::Range range = gp::joint(measured, gp::joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
   const Errors errors = errors_of(d, k);
   std::string out = thinned_block(name, rows) + gp::set_range("x", measured) +
                     gp::set_range("y", range) + gp::set_tics("x", measured, 5) +
@@ -127,7 +125,8 @@ std::string finding_panel(const gp::Layout& layout, double top, const Diagnosis&
   plot.curve("$means" + name + " using 1:3", gp::line(colour::blue, 2, 2), "means with it");
   std::string out =
       thinned_block(name, rows) + gp::data_block("means" + name, {means[0], means[1], means[2]});
-  out += gp::set_range("x", x) + gp::set_range("y", joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
+  out +=
+      gp::set_range("x", x) + gp::set_range("y", gp::joint(gp::bulk(rows[1]), gp::bulk(rows[2])));
   out += "set xtics autofreq\n" + std::string(gp::zero_line) +
          "set format x '%g'\nset format y '%g'\n";
   out += layout.panel(top + 2, top + 11.5);
@@ -210,16 +209,15 @@ Figure diagnosis_figure(const std::string& name, const Diagnosis& diagnosis) {
     throw std::invalid_argument(diagnosis.notes.empty() ? "nothing in this log can be compared"
                                                         : diagnosis.notes.back());
   }
-  Figure figure;
-  figure.id = "diagnosis";
-  figure.title = "Diagnosis of " + name;
-  figure.description = description_of(name, diagnosis);
   const double budget_lines = 5 + lines_of_a_bar * double(origins(diagnosis).size());
   const double lines = 2.6 + compared_lines * double(diagnosis.compared.size()) +
                        finding_lines * double(diagnosis.traces.size()) + budget_lines;
-  figure.lines = int(std::ceil(lines));
+  Figure figure{.id = "diagnosis",
+                .title = "Diagnosis of " + name,
+                .description = description_of(name, diagnosis),
+                .lines = int(std::ceil(lines)),
+                .script = gp::prelude() + "set samples 2\nset multiplot\n"};
   const gp::Layout layout(figure.lines, 0.115);
-  figure.script = gp::prelude() + "set samples 2\nset multiplot\n";
   double top = 2.6;
   for (std::size_t k = 0; k < diagnosis.compared.size(); ++k) {
     figure.script += compared_panels(layout, top, diagnosis, k, name);

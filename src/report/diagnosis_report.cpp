@@ -335,11 +335,8 @@ std::string diagnosis_csv(const std::vector<Finding>& findings) {
       "effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent\n";
   for (const Finding& f : findings) {
     for (const ParameterEstimate& p : f.parameters) {
-      const std::vector<std::string> cells{
-          csv_text(f.effect),       csv_text(f.stage),          csv_text(p.name),
-          csv_number(p.value),      csv_text(p.unit),           csv_number(p.ci95_lower),
-          csv_number(p.ci95_upper), csv_number(f.gain_percent), csv_number(f.gain_se_percent)};
-      out += fmt::format("{}\n", fmt::join(cells, ","));
+      out += csv_line({f.effect, f.stage, p.name, p.value, p.unit, p.ci95_lower, p.ci95_upper,
+                       f.gain_percent, f.gain_se_percent});
     }
   }
   return out;

@@ -41,28 +41,6 @@ ordered_json correlation_json(const DragFit& fit) {
   return {{"parameters", json_list(fit.parameters, name)}, {"matrix", matrix}};
 }
 
-ordered_json entangled_json(const DragFit& fit) {
-  return json_list(entangled_pairs(fit), [&](const EntangledPair& pair) {
-    return ordered_json{
-        {"parameters", {fit.parameters[pair.first].name, fit.parameters[pair.second].name}},
-        {"correlation", pair.correlation}};
-  });
-}
-
-ordered_json parts_json(const DragIdentification& result) {
-  return json_list(result.parts, [](const FlightPart& part) {
-    return ordered_json{{"from_s", part.from}, {"to_s", part.to}, {"samples", part.samples}};
-  });
-}
-
-ordered_json table_json(const DragFit& fit) {
-  return json_list(steady_drag_table(fit), [](const SteadyDrag& row) {
-    return ordered_json{{"airspeed_m_s", row.airspeed},
-                        {"drag_force_N", estimate_json(row.force)},
-                        {"pitch_deg", estimate_json(row.tilt, unit::degree)}};
-  });
-}
-
 bool automatic(const DragIdentification& result) {
   return !result.options.from && !result.options.to;
 }
@@ -205,14 +183,24 @@ ordered_json drag_json(const DragIdentification& result) {
   out["warnings"] = drag_warnings(fit);
   out["converged"] = fit.converged;
   out["correlation"] = correlation_json(fit);
-  out["entangled"] = entangled_json(fit);
+  out["entangled"] = json_list(entangled_pairs(fit), [&](const EntangledPair& pair) {
+    return ordered_json{
+        {"parameters", {fit.parameters[pair.first].name, fit.parameters[pair.second].name}},
+        {"correlation", pair.correlation}};
+  });
   out["mass_g"] = fit.conditions.mass / unit::gram;
   out["air_density_kg_m3"] = fit.conditions.air_density;
   out["gravity_m_s2"] = fit.conditions.gravity;
   out["pitch_offset_deg"] = result.options.pitch_offset / unit::degree;
   out["range"] = automatic(result) ? "automatic" : "given";
-  out["flights"] = parts_json(result);
-  out["table"] = table_json(fit);
+  out["flights"] = json_list(result.parts, [](const FlightPart& part) {
+    return ordered_json{{"from_s", part.from}, {"to_s", part.to}, {"samples", part.samples}};
+  });
+  out["table"] = json_list(steady_drag_table(fit), [](const SteadyDrag& row) {
+    return ordered_json{{"airspeed_m_s", row.airspeed},
+                        {"drag_force_N", estimate_json(row.force)},
+                        {"pitch_deg", estimate_json(row.tilt, unit::degree)}};
+  });
   const AirframeDrag drag = fit.drag();
   out["drone"]["drag"] = {{"front_area_m2", drag.front_area},
                           {"top_area_m2", drag.top_area},

@@ -115,9 +115,8 @@ std::string envelope_csv(const EnvelopeStudy& study) {
     const ReachWords of = words_of(curve.of);
     const ReachWords against = words_of(curve.against);
     for (const EnvelopePoint& point : curve.points) {
-      out += fmt::format(
-          "{},{},{},{},{}\n", against.key, csv_number(point.against / against.si_factor), of.key,
-          csv_number(end_value(point.end) / of.si_factor), csv_cell(limit_json(point.end)));
+      out += csv_line({against.key, point.against / against.si_factor, of.key,
+                       end_value(point.end) / of.si_factor, limit_json(point.end)});
     }
   }
   return out;

@@ -118,20 +118,18 @@ std::string samples_words(std::size_t step) {
 }  // namespace
 
 Figure log_figure(const std::string& name, const Observations& flight) {
-  Figure figure;
-  figure.id = "log";
-  figure.title = "Accelerations of " + name;
+  Figure figure{.id = "log", .title = "Accelerations of " + name, .description = {}, .lines = 43};
   const std::vector<double> drag =
       difference(flight.expected_acceleration, flight.forward_acceleration);
+  const gp::Range drags = gp::extent(drag);
+  const gp::Range speeds = gp::extent(flight.forward_speed);
   figure.description = fmt::format(
       "Three diagrams over {} s of flight, {} samples: forward acceleration expected from the "
       "attitude and observed; drag per mass, their difference, {} m/s² root mean square and at "
       "most {} m/s²; and forward speed, from {} to {} m/s.",
       fixed(flight.time.back() - flight.time.front(), 0), flight.size(),
-      fixed(root_mean_square(drag), 2),
-      fixed(std::max(gp::extent(drag).hi, -gp::extent(drag).lo), 2),
-      fixed(gp::extent(flight.forward_speed).lo, 1), fixed(gp::extent(flight.forward_speed).hi, 1));
-  figure.lines = 43;
+      fixed(root_mean_square(drag), 2), fixed(std::max(drags.hi, -drags.lo), 2),
+      fixed(speeds.lo, 1), fixed(speeds.hi, 1));
   const gp::Layout layout(figure.lines, 0.105);
   figure.script = gp::prelude() +
                   outline_block("expected", flight.time, flight.expected_acceleration) +
@@ -141,12 +139,6 @@ Figure log_figure(const std::string& name, const Observations& flight) {
   figure.script += gp::set_range("x", {flight.time.front(), flight.time.back()}) + gp::zero_line +
                    "set multiplot\n";
 
-  const auto extent_of = [](std::span<const double> values) {
-    const auto [lo, hi] = gp::extent(values);
-    return gp::with_margin(lo, hi);
-  };
-  const auto [lo, hi] = gp::extent(flight.expected_acceleration);
-  const auto [observed_lo, observed_hi] = gp::extent(flight.forward_acceleration);
   gp::Plot accelerations;
   accelerations.curve("$expected using 1:2", gp::line(colour::blue, 1, 0.7), "expected (attitude)");
   accelerations.curve("$observed using 1:2", gp::line(colour::sky, 1, 0.7), "observed");
@@ -154,21 +146,22 @@ Figure log_figure(const std::string& name, const Observations& flight) {
       layout.panel(3.5, 14.5) + layout.heading(name) +
       layout.above(2.6, "forward acceleration (m/s²)") +
       layout.legend(15.6, 2, accelerations.legend()) +
-      gp::set_range("y", gp::with_margin(std::min(lo, observed_lo), std::max(hi, observed_hi))) +
+      gp::set_range("y", gp::with_margin(gp::joint(gp::extent(flight.expected_acceleration),
+                                                   gp::extent(flight.forward_acceleration)))) +
       "set format x ''\n" + accelerations.text();
 
   gp::Plot difference_plot;
   difference_plot.curve("$drag using 1:2", gp::line(colour::vermilion, 1, 0.7));
   figure.script += layout.panel(18.5, 28) + layout.legend(0, 1, {}) +
                    layout.above(17.6, "drag per mass, expected less observed (m/s²)") +
-                   gp::set_range("y", extent_of(drag)) + difference_plot.text();
+                   gp::set_range("y", gp::with_margin(drags)) + difference_plot.text();
 
   gp::Plot speed;
   speed.curve("$speed using 1:2", gp::line(colour::black, 1, 0.8));
   figure.script += layout.panel(30.6, 39) + layout.legend(0, 1, {}) +
                    layout.above(29.7, "forward speed over ground (m/s)") +
                    layout.below(41.6, "time of the log (s)") +
-                   gp::set_range("y", extent_of(flight.forward_speed)) + "set format x '%g'\n" +
+                   gp::set_range("y", gp::with_margin(speeds)) + "set format x '%g'\n" +
                    speed.text() + "unset multiplot\n";
   return figure;
 }
@@ -178,19 +171,16 @@ Figure drag_figure(const DragStudy& drag) {
   const std::size_t step = gp::thinning(all.size(), most_samples);
   const std::vector<DragSample> shown = thinned(all, step);
   const std::vector<double> measured = gp::column(all, &DragSample::measured);
-  const auto [slowest, fastest] = gp::extent(gp::column(all, &DragSample::airspeed));
-  const gp::Range speeds = gp::with_margin(slowest, fastest, 0.03);
-  const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, {slowest, fastest});
+  const gp::Range flown = gp::extent(gp::column(all, &DragSample::airspeed));
+  const gp::Range speeds = gp::with_margin(flown, 0.03);
+  const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, flown);
 
-  Figure figure;
-  figure.id = "drag";
-  figure.title = "Drag of " + drag.name;
+  Figure figure{.id = "drag", .title = "Drag of " + drag.name, .description = {}, .lines = 40};
   figure.description = fmt::format(
       "Drag in newtons over airspeed from {} to {} m/s, measured at {} samples{} and fitted: {}. "
       "The line is steady flight. Below, measured less fitted: {} m/s² root mean square.",
-      fixed(slowest, 1), fixed(fastest, 1), all.size(), samples_words(step),
+      fixed(flown.lo, 1), fixed(flown.hi, 1), all.size(), samples_words(step),
       parameter_words(drag.identified.fit), fixed(drag.identified.fit.quality.rmse, 3));
-  figure.lines = 40;
   const gp::Layout layout(figure.lines, 0.105);
   figure.script = gp::prelude() +
                   gp::data_block("samples", shown,
@@ -207,7 +197,7 @@ Figure drag_figure(const DragStudy& drag) {
   plot.dots("$samples", 1, 3, dot, colour::vermilion, "fitted" + samples_words(step));
   plot.curve("$steady using 1:2", gp::line(colour::black, 1, 1.4), "steady flight");
   if (drag.without_linear) {
-    figure.script += gp::data_block("bare", steady_line(*drag.without_linear, {slowest, fastest}),
+    figure.script += gp::data_block("bare", steady_line(*drag.without_linear, flown),
                                     {&SteadyPoint::airspeed, &SteadyPoint::force});
     plot.curve("$bare using 1:2", gp::line(colour::orange, 2, 1.6), "without a linear term");
   }
@@ -238,9 +228,10 @@ Figure drag_surface_figure(const DragStudy& drag) {
   const gp::Range forces = gp::bulk(measured);
   const std::string outside = outside_words(measured, forces);
 
-  Figure figure;
-  figure.id = "dragsurface";
-  figure.title = "Drag of " + drag.name + " over airspeed and tilt";
+  Figure figure{.id = "dragsurface",
+                .title = "Drag of " + drag.name + " over airspeed and tilt",
+                .description = {},
+                .lines = 32};
   figure.description = fmt::format(
       "A surface of drag in newtons over airspeed from {} to {} m/s and tilt from {} to {} "
       "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady "
@@ -248,7 +239,6 @@ Figure drag_surface_figure(const DragStudy& drag) {
       fixed(slowest, 1), fixed(fastest, 1), fixed(least_tilt, 0), fixed(most_tilt, 0),
       parameter_words(drag.identified.fit), samples_words(step),
       outside.empty() ? "" : "; " + outside);
-  figure.lines = 32;
   constexpr int grid = 16;
   figure.script = gp::prelude() + "$surface << EOD\n";
   for (int i = 0; i <= grid; ++i) {

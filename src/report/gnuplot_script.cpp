@@ -1,6 +1,5 @@
 #include "report/gnuplot_script.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -224,7 +223,8 @@ std::size_t thinning(std::size_t samples, std::size_t most) {
   return samples <= most ? 1 : (samples + most - 1) / most;
 }
 
-Range with_margin(double lo, double hi, double margin) {
+Range with_margin(Range range, double margin) {
+  const auto [lo, hi] = range;
   const double length = hi > lo ? hi - lo : std::max(1e-9, std::abs(hi));
   return {lo - margin * length, hi + margin * length};
 }
@@ -233,11 +233,7 @@ Range extent(std::span<const double> values) {
   Range range{1, 0};
   for (const double value : values) {
     if (!std::isfinite(value)) continue;
-    if (range.lo > range.hi) {
-      range = {value, value};
-    } else {
-      range = {std::min(range.lo, value), std::max(range.hi, value)};
-    }
+    range = range.lo > range.hi ? Range{value, value} : joint(range, {value, value});
   }
   return range.lo > range.hi ? Range{} : range;
 }
@@ -249,8 +245,8 @@ Range bulk(std::span<const double> values, double outlying) {
   if (sorted.empty()) return {};
   std::sort(sorted.begin(), sorted.end());
   const auto skipped = std::size_t(outlying * double(sorted.size()));
-  const Range most = with_margin(sorted[skipped], sorted[sorted.size() - 1 - skipped], 0.25);
-  return with_margin(std::max(sorted.front(), most.lo), std::min(sorted.back(), most.hi));
+  const Range most = with_margin({sorted[skipped], sorted[sorted.size() - 1 - skipped]}, 0.25);
+  return with_margin({std::max(sorted.front(), most.lo), std::min(sorted.back(), most.hi)});
 }
 
 std::string set_tics(std::string_view axis, Range range, int most) {

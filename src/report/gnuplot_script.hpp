@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -157,13 +158,20 @@ class Layout {
   double edge_ = 0.01;  ///< where texts above a plot begin
 };
 
-/// A range that leaves `margin` of its length free on both sides of [lo, hi]; where that is empty,
-/// one around it.
+/// What an axis shows.
 struct Range {
   double lo = 0;
   double hi = 1;
 };
-[[nodiscard]] Range with_margin(double lo, double hi, double margin = 0.05);
+
+/// A range that leaves `margin` of its length free on both sides of `range`; where that is empty,
+/// one around it.
+[[nodiscard]] Range with_margin(Range range, double margin = 0.05);
+
+/// From the lesser beginning to the greater end.
+[[nodiscard]] inline Range joint(Range a, Range b) {
+  return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+}
 
 /// A series thinned for drawing: of every one of `bins` equal stretches of `x` the first, least,
 /// greatest and last point, in their order, so that the drawn line covers what the whole one would.

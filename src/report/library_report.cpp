@@ -119,15 +119,11 @@ std::string library_text(const ordered_json& entries, const TextStyle& style) {
 }
 
 std::string library_csv(const ordered_json& entries) {
-  std::string out;
-  for (const auto& [key, value] : entries.front().items()) out += (out.empty() ? "" : ",") + key;
-  for (const ordered_json& entry : entries) {
-    const char* before = "\n";
-    for (const ordered_json& value : entry) {
-      out += std::exchange(before, ",") + csv_cell(value);
-    }
-  }
-  return out + "\n";
+  ordered_json keys = ordered_json::array();
+  for (const auto& [key, value] : entries.front().items()) keys.push_back(key);
+  std::string out = csv_line(keys);
+  for (const ordered_json& entry : entries) out += csv_line(entry);
+  return out;
 }
 
 }  // namespace tethercalc

@@ -163,23 +163,17 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
   const Condition where = refusal.condition;
   const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
-  switch (refusal.limit) {
-    case Limit::max_pitch:
-      return fmt::format("tilt above {}° in {}",
-                         significant(design.requirements.max_pitch / unit::degree, 3),
-                         condition_words(where));
-    case Limit::motor_thrust:
-      return fmt::format("motors too weak: headroom {} of {} in {}", fixed(best.value, 2),
-                         fixed(demanded, 2), condition_words(where));
-    default:
-      if (const auto words = limit_words(refusal.limit).in_short; !words.empty()) {
-        return std::string(words);
-      }
-      return best.value >= demanded
-                 ? std::string("no area meets all demands at once")
-                 : fmt::format("too little power: headroom {} of {} in {}", fixed(best.value, 2),
-                               fixed(demanded, 2), condition_words(where));
+  if (refusal.limit == Limit::max_pitch) {
+    return fmt::format("tilt above {}° in {}",
+                       significant(design.requirements.max_pitch / unit::degree, 3),
+                       condition_words(where));
   }
+  const LimitWords& words = limit_words(refusal.limit);
+  if (!words.in_short.empty()) return std::string(words.in_short);
+  const bool weak = refusal.limit == Limit::motor_thrust;
+  if (!weak && best.value >= demanded) return "no area meets all demands at once";
+  return fmt::format("{}: headroom {} of {} in {}", weak ? "motors too weak" : "too little power",
+                     fixed(best.value, 2), fixed(demanded, 2), condition_words(where));
 }
 
 std::string refusal_sentence(const Design& design, const Refusal& refusal) {
@@ -204,14 +198,10 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
   if (best.value >= demanded) {
     return "No cross-section works: each demand can be met by some, but none meets all of them.";
   }
-  if (refusal.converter_caps) {
-    return fmt::format(
-        "No cross-section gives {}. The most is a headroom of {} at {} mm², where the converter "
-        "gives its rated {} W: a thicker conductor would only weigh more.",
-        demand, significant(best.value, 3), significant(best.area / unit::square_millimetre, 4),
-        significant(*design.supply.converter.rated_output_power, 4));
-  }
-  const char* reason = refusal.limit == Limit::motor_thrust
+  const char* reason = refusal.converter_caps
+                           ? "where the converter gives its rated {rated_W} W: a thicker conductor "
+                             "would only weigh more"
+                       : refusal.limit == Limit::motor_thrust
                            ? "where the motors are at the end of their data sheet: a thicker "
                              "conductor would only weigh more"
                        : refusal.limit == Limit::max_pitch
@@ -220,7 +210,8 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
                              "more than they deliver";
   return fmt::format("No cross-section gives {}. The most is a headroom of {} at {} mm², {}.",
                      demand, significant(best.value, 3),
-                     significant(best.area / unit::square_millimetre, 4), reason);
+                     significant(best.area / unit::square_millimetre, 4),
+                     filled_in(reason, design, where));
 }
 
 }  // namespace tethercalc

@@ -124,15 +124,16 @@ struct Place {
 /// curves nor marks nor other numbers.
 class EndNumbers {
  public:
-  EndNumbers(gp::Range x, gp::Range y) : x_(x), y_(y) {}
-
-  void keep_free(const CurvePoint& point) { taken_.push_back(share(point)); }
+  /// On axes of these ranges, clear of `points`.
+  EndNumbers(gp::Range x, gp::Range y, std::span<const CurvePoint> points) : x_(x), y_(y) {
+    for (const CurvePoint& point : points) taken_.push_back(share(point));
+  }
 
   /// The label of `curve`, at that end of it where there is more room.
   std::string label(std::size_t tag, const EfficiencyCurve& curve) {
-    const Found right = nearest_free(share(curve.back()));
-    const Found left = nearest_free(share(curve.front()));
-    const Place place = left.distance < right.distance ? left.place : right.place;
+    const auto [right_distance, right] = nearest_free(share(curve.back()));
+    const auto [left_distance, left] = nearest_free(share(curve.front()));
+    const Place place = left_distance < right_distance ? left : right;
     for (const double dx : {-0.5, 0.0, 0.5}) {
       for (const double dy : {-0.5, 0.0, 0.5}) {
         taken_.push_back({place.x + dx * width, place.y + dy * height});
@@ -161,21 +162,17 @@ class EndNumbers {
     });
   }
 
-  struct Found {
-    Place place;
-    double distance = 0;
-  };
-
-  [[nodiscard]] Found nearest_free(Place end) const {
+  /// How far from `end` the nearest free place is, and which.
+  [[nodiscard]] std::pair<double, Place> nearest_free(Place end) const {
     constexpr double farthest = 6;
     for (double distance = 1; distance < farthest; distance += 0.25) {
       for (const double angle : {0.0, -0.6, 0.6, -1.2, 1.2, -1.9, 1.9, -2.5, 2.5, 3.1}) {
         const Place place{end.x + 0.7 * width * distance * std::cos(angle),
                           end.y + 0.7 * height * distance * std::sin(angle)};
-        if (is_free(place)) return {place, distance};
+        if (is_free(place)) return {distance, place};
       }
     }
-    return {end, farthest};
+    return {farthest, end};
   }
 
   gp::Range x_;
@@ -220,18 +217,16 @@ std::string description_of(std::span<const MotorOptimum> ranking) {
 }  // namespace
 
 Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranking) {
-  Figure figure;
-  figure.id = "motors";
-  figure.title = "Motors for " + file.name;
-  figure.description = description_of(ranking);
   constexpr double frame_bottom = 24;
   constexpr double legend_top = 28.2;
-  figure.lines = int(legend_top) + 6 + int(ranking.size());
-  figure.script = gp::prelude();
+  Figure figure{.id = "motors",
+                .title = "Motors for " + file.name,
+                .description = description_of(ranking),
+                .lines = int(legend_top) + 6 + int(ranking.size()),
+                .script = gp::prelude()};
 
   std::vector<EfficiencyCurve> curves;
-  std::vector<double> thrusts{0};
-  std::vector<double> efficiencies;
+  std::vector<CurvePoint> points;  // of all curves
   gp::Plot plot;
   for (std::size_t i = 0; i < ranking.size(); ++i) {
     curves.push_back(efficiency_of(ranking[i].design.drone.motor));
@@ -239,30 +234,22 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
     figure.script += gp::data_block(fmt::format("motor{}", i + 1), curve,
                                     {&CurvePoint::thrust, &CurvePoint::efficiency});
     plot.curve(fmt::format("$motor{} using 1:2", i + 1), style_of(i), words_of(ranking[i], i));
-    thrusts.push_back(curve.back().thrust);
-    for (const CurvePoint& point : curve) efficiencies.push_back(point.efficiency);
+    points.insert(points.end(), curve.begin(), curve.end());
   }
-  std::vector<std::vector<Mark>> marks;
+  std::vector<Mark> marks;
   for (std::size_t i = 0; i < ranking.size(); ++i) {
-    marks.push_back(marks_of(ranking[i], i));
-    draw_assumed(plot, curves[i], marks[i], i);
+    const std::vector<Mark> own = marks_of(ranking[i], i);
+    draw_assumed(plot, curves[i], own, i);
+    marks.insert(marks.end(), own.begin(), own.end());
   }
-  for (const auto& own : marks) {
-    for (const Mark& mark : own) plot.mark(mark.thrust, mark.efficiency, mark.style);
-  }
-
+  for (const Mark& mark : marks) plot.mark(mark.thrust, mark.efficiency, mark.style);
   explain_marks(plot, file.design.requirements);
 
-  const gp::Range thrust{0, 1.08 * gp::extent(thrusts).hi};
-  const auto [least, most] = gp::extent(efficiencies);
-  const gp::Range efficiency = gp::with_margin(least, most, 0.1);
-  EndNumbers numbers(thrust, efficiency);
-  for (const EfficiencyCurve& curve : curves) {
-    for (const CurvePoint& point : curve) numbers.keep_free(point);
-  }
-  for (const auto& own : marks) {
-    for (const Mark& mark : own) numbers.keep_free(mark);
-  }
+  const gp::Range thrust{0, 1.08 * gp::extent(gp::column(points, &CurvePoint::thrust)).hi};
+  const gp::Range efficiency =
+      gp::with_margin(gp::extent(gp::column(points, &CurvePoint::efficiency)), 0.1);
+  points.insert(points.end(), marks.begin(), marks.end());
+  EndNumbers numbers(thrust, efficiency, points);
 
   const gp::Layout layout(figure.lines, 0.09, 0.045);
   figure.script += "set samples 2\n" + layout.panel(3.6, frame_bottom) + layout.heading(file.name);

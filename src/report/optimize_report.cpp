@@ -8,7 +8,6 @@
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
@@ -116,16 +115,14 @@ ordered_json optimum_json(const Optimization& result) {
       {"forward", result.feasible ? operating_point_json(result.forward) : ordered_json(nullptr)}};
 }
 
-/// A line of CSV: the names of an optimum's results or, of a given one, the results.
-std::string csv_line(const Optimization* optimum) {
-  std::string out;
-  for (const NamedResult& result : optimum_results(optimum ? *optimum : Optimization{})) {
-    const auto* word = std::get_if<std::string>(&result.value);
-    const auto* number = std::get_if<double>(&result.value);
-    if (!out.empty()) out += ',';
-    out += optimum == nullptr ? result.name : number ? csv_number(*number) : word ? *word : "";
-  }
-  return out + "\n";
+/// Lines of CSV: the names of an optimum's results, and the results.
+std::string header_csv() {
+  return csv_line(json_list(optimum_results({}), [](const auto& result) { return result.name; }));
+}
+
+std::string results_csv(const Optimization& optimum) {
+  return csv_line(json_list(optimum_results(optimum),
+                            [](const auto& result) { return result_json(result.value); }));
 }
 
 std::string notes_text(std::span<const std::string> warnings, const TextStyle& style) {
@@ -268,7 +265,7 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
 }
 
 std::string optimize_csv(const OptimumStudy& study) {
-  return csv_line(nullptr) + csv_line(&study.result);
+  return header_csv() + results_csv(study.result);
 }
 
 std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
@@ -373,9 +370,9 @@ ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> 
 }
 
 std::string compare_csv(std::span<const MotorOptimum> ranking) {
-  std::string out = "motor," + csv_line(nullptr);
+  std::string out = "motor," + header_csv();
   for (const MotorOptimum& entry : ranking) {
-    out += csv_text(entry.motor.id) + "," + csv_line(&entry.result);
+    out += csv_text(entry.motor.id) + "," + results_csv(entry.result);
   }
   return out;
 }

@@ -9,14 +9,9 @@
 namespace tethercalc {
 namespace {
 
-std::string feasible_style() { return gp::area(colour::green); }
+double in_mm2(double area) { return area / unit::square_millimetre; }
 
-/// The cross-sections shown, mm².
-struct View {
-  double lo = 0;
-  double hi = 1;
-  bool logarithmic = false;
-};
+std::string feasible_style() { return gp::area(colour::green); }
 
 /// What is drawn over the cross-section, in practical units.
 struct Curves {
@@ -33,7 +28,7 @@ Curves curves_of(const Requirements& need, std::span<const AreaPoints> points) {
   Curves curves;
   for (const AreaPoints& row : points) {
     const OperatingPoint& judged = row.in(need.headroom_at);
-    curves.area.push_back(row.area / unit::square_millimetre);
+    curves.area.push_back(in_mm2(row.area));
     curves.available.push_back(judged.available_thrust / unit::gram_force);
     curves.hover.push_back(row.hover.necessary_thrust / unit::gram_force);
     curves.forward.push_back(row.forward.necessary_thrust / unit::gram_force);
@@ -59,26 +54,27 @@ bool any_power(const Curves& curves) {
 /// Around the least power; thin conductors need any amount.
 gp::Range power_range(const OptimumStudy& study, const Curves& curves) {
   if (!any_power(curves)) return {0, 1};
-  const double least = std::min(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
-  double reference = std::max(gp::extent(curves.hover_W).lo, gp::extent(curves.forward_W).lo);
+  const gp::Range hover = gp::extent(curves.hover_W);
+  const gp::Range forward = gp::extent(curves.forward_W);
+  const auto [least, most] = gp::joint(hover, forward);
+  double reference = std::max(hover.lo, forward.lo);
   if (study.result.feasible) {
     reference =
         std::max({reference, study.result.hover.total_power, study.result.forward.total_power});
   }
-  const double most = std::max(gp::extent(curves.hover_W).hi, gp::extent(curves.forward_W).hi);
   const double top = std::min(most, reference + 1.2 * (reference - 0.8 * least));
   return {least - 0.12 * (top - least), top};
 }
 
-/// Where `value` lies along the axis, 0 to 1.
-double along(const View& view, double value) {
-  return view.logarithmic ? std::log(value / view.lo) / std::log(view.hi / view.lo)
-                          : (value - view.lo) / (view.hi - view.lo);
+/// Where `area` lies along the axis, 0 to 1.
+double along(const AreaCurve& view, double area) {
+  return view.logarithmic ? std::log(area / view.lo) / std::log(view.hi / view.lo)
+                          : (area - view.lo) / (view.hi - view.lo);
 }
 
 /// Ticks of the sizes that `standard` names; those whose names would touch stay without one, the
-/// sizes next to `middle` (mm²) go first.
-std::string size_ticks(const View& view, std::string_view standard, double middle) {
+/// sizes next to `middle` go first.
+std::string size_ticks(const AreaCurve& view, std::string_view standard, double middle) {
   struct Tick {
     std::string name;
     double area = 0;
@@ -87,14 +83,13 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
   };
   std::vector<Tick> ticks;
   for (const WireSize& size : wire_sizes()) {
-    const double area = size.area / unit::square_millimetre;
-    if (size.standard != standard || area <= view.lo || area > view.hi) continue;
+    if (size.standard != standard || size.area <= view.lo || size.area > view.hi) continue;
     std::string name = size.name;
     // Thin sizes crowd at the beginning of a linear axis; there they say nothing.
-    if (along(view, area) < 0.06) continue;
+    if (along(view, size.area) < 0.06) continue;
     if (name.starts_with("AWG ")) name = name.substr(4);
     if (const auto space = name.find(' '); space != std::string::npos) name = name.substr(0, space);
-    ticks.push_back({name, area, std::abs(std::log(area / middle)), false});
+    ticks.push_back({name, size.area, std::abs(std::log(size.area / middle)), false});
   }
   std::vector<Tick*> order;
   for (Tick& tick : ticks) order.push_back(&tick);
@@ -111,41 +106,39 @@ std::string size_ticks(const View& view, std::string_view standard, double middl
   std::string list;
   for (const Tick& tick : ticks) {
     list += fmt::format("{}{} {}", list.empty() ? "" : ", ",
-                        gnuplot_text(tick.named ? tick.name : ""), gp::number(tick.area));
+                        gnuplot_text(tick.named ? tick.name : ""), gp::number(in_mm2(tick.area)));
   }
   return list;
 }
 
 /// The upper axis with the sizes of a standard.
-std::string top_axis(const OptimumStudy& study, const View& view, std::string_view standard) {
+std::string top_axis(const OptimumStudy& study, const AreaCurve& view, std::string_view standard) {
   const double middle = study.result.feasible
-                            ? study.result.area / unit::square_millimetre
+                            ? study.result.area
                             : std::sqrt(std::max(view.lo, 0.1 * view.hi) * view.hi);
   const std::string ticks = size_ticks(view, standard, middle);
   return ticks.empty() ? "unset x2tics\n" : fmt::format("set x2tics ({}) offset 0,-0.4\n", ticks);
 }
 
 /// Shaded ranges behind the curves, and a line at the optimum.
-std::string shading(const OptimumStudy& study, const View& view) {
+std::string shading(const OptimumStudy& study, const AreaCurve& view) {
   std::string out = "if (!characters) {\n";
   for (const Interval& range : study.result.feasible_areas) {
-    const double lo = std::max(view.lo, range.lo / unit::square_millimetre);
-    const double hi = std::min(view.hi, range.hi / unit::square_millimetre);
+    const double lo = std::max(view.lo, range.lo);
+    const double hi = std::min(view.hi, range.hi);
     if (!(lo < hi)) continue;
     out += fmt::format("  set object rectangle from {},graph 0 to {},graph 1 behind {}\n",
-                       gp::number(lo), gp::number(hi), feasible_style());
+                       gp::number(in_mm2(lo)), gp::number(in_mm2(hi)), feasible_style());
   }
   if (study.result.feasible) {
-    const std::string at = gp::number(study.result.area / unit::square_millimetre);
+    const std::string at = gp::number(in_mm2(study.result.area));
     out += fmt::format("  set arrow from {0},graph 0 to {0},graph 1 nohead {1}\n", at,
                        gp::line(colour::black, 3, 0.8));
   }
   return out + "}\n";
 }
 
-std::string rounded_area(double area) {
-  return significant(area / unit::square_millimetre, 3) + " mm²";
-}
+std::string rounded_area(double area) { return significant(in_mm2(area), 3) + " mm²"; }
 
 gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> points) {
   const Requirements& need = study.design.requirements;
@@ -159,14 +152,13 @@ gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> poin
   const Optimization& result = study.result;
   if (result.feasible) {
     const OperatingPoint judged = study.points().in(need.headroom_at);
-    plot.mark(result.area / unit::square_millimetre, judged.available_thrust / unit::gram_force,
+    plot.mark(in_mm2(result.area), judged.available_thrust / unit::gram_force,
               gp::point(colour::black, 13, 0.9), "");
   } else if (study.best_headroom.value > 0) {
     const auto best = std::find_if(points.begin(), points.end(), [&](const AreaPoints& row) {
       return row.area == study.best_headroom.area;
     });
-    plot.mark(best->area / unit::square_millimetre,
-              best->in(need.headroom_at).available_thrust / unit::gram_force,
+    plot.mark(in_mm2(best->area), best->in(need.headroom_at).available_thrust / unit::gram_force,
               gp::point(colour::black, 9, 0.9),
               fmt::format("best headroom, {}×", significant(study.best_headroom.value, 3)));
   }
@@ -179,12 +171,12 @@ gp::Plot power_plot(const OptimumStudy& study) {
   plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
     const OperatingPoint judged = study.points().in(study.design.requirements.power_at);
-    plot.mark(result.area / unit::square_millimetre, judged.total_power,
-              gp::point(colour::black, 13, 0.9), "optimum, " + rounded_area(result.area));
+    plot.mark(in_mm2(result.area), judged.total_power, gp::point(colour::black, 13, 0.9),
+              "optimum, " + rounded_area(result.area));
   }
   plot.curve("$curves using 1:7", gp::line(colour::orange, 5, 1.6), "forward flight");
   const MinimumPower& least = result.minimum_power;
-  plot.mark(least.area / unit::square_millimetre, least.power, gp::point(colour::green, 7, 0.8),
+  plot.mark(in_mm2(least.area), least.power, gp::point(colour::green, 7, 0.8),
             "least power, " + rounded_area(least.area));
   if (!result.feasible_areas.empty())
     plot.entry({gp::LegendEntry::Sample::area, feasible_style(), "feasible"});
@@ -207,36 +199,31 @@ std::string description_of(const OptimumStudy& study) {
 }  // namespace
 
 Figure optimum_figure(const std::string& name, const OptimumStudy& study, const AreaCurve& curve) {
-  const View view{curve.lo / unit::square_millimetre, curve.hi / unit::square_millimetre,
-                  curve.logarithmic};
+  const gp::Range shown{in_mm2(curve.lo), in_mm2(curve.hi)};
   const Curves curves = curves_of(study.design.requirements, curve.points);
-  Figure figure;
-  figure.id = "optimum";
-  figure.title = name;
-  figure.description = description_of(study);
-  figure.lines = 43;
+  Figure figure{.id = "optimum", .title = name, .description = description_of(study), .lines = 43};
   const gp::Layout layout(figure.lines);
   figure.script =
       gp::prelude() +
       gp::data_block("curves", {curves.area, curves.available, curves.hover, curves.forward,
                                 curves.required, curves.hover_W, curves.forward_W});
-  figure.script += gp::set_range("x", {view.lo, view.hi}) + gp::set_range("x2", {view.lo, view.hi});
-  if (view.logarithmic) figure.script += "set logscale x\nset logscale x2\n";
+  figure.script += gp::set_range("x", shown) + gp::set_range("x2", shown);
+  if (curve.logarithmic) figure.script += "set logscale x\nset logscale x2\n";
   figure.script += "set samples 2\nset multiplot\n";
 
   const gp::Plot thrust = thrust_plot(study, curve.points);
-  figure.script += layout.panel(4, 18) + layout.heading(name) + shading(study, view);
+  figure.script += layout.panel(4, 18) + layout.heading(name) + shading(study, curve);
   figure.script += layout.above(2.4, "thrust per motor (g)", "AWG");
   figure.script += layout.legend(19.2, 2, thrust.legend());
-  figure.script += top_axis(study, view, "AWG") + gp::set_range("y", thrust_range(curves));
+  figure.script += top_axis(study, curve, "AWG") + gp::set_range("y", thrust_range(curves));
   figure.script += "set format x ''\n" + thrust.text();
 
   const gp::Plot power = power_plot(study);
-  figure.script += layout.panel(25.5, 36) + shading(study, view);
+  figure.script += layout.panel(25.5, 36) + shading(study, curve);
   figure.script += layout.above(23.9, "power from the supply (W)", "IEC 60228 (mm²)");
   figure.script += layout.below(38.4, "cross-section of one conductor (mm²)");
   figure.script += layout.legend(40, 2, power.legend());
-  figure.script += top_axis(study, view, "IEC 60228");
+  figure.script += top_axis(study, curve, "IEC 60228");
   figure.script += gp::set_range("y", power_range(study, curves));
   if (!any_power(curves)) {
     figure.script += "set label 1 'cannot be delivered' at graph 0.5,0.5 center\n";

@@ -35,38 +35,16 @@ constexpr const char* main_results[] = {"status",
                                         "minimum_power.cross_section_mm2",
                                         "minimum_power.total_power_W"};
 
-ordered_json json_of(const ResultValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) return *number;
-  const auto* word = std::get_if<std::string>(&value);
-  return word != nullptr ? ordered_json(*word) : ordered_json(nullptr);
-}
-
 /// What the record has; what is neither number nor text counts as nothing.
 ResultValue value_of(const ordered_json& value) {
   if (value.is_number()) return value.get<double>();
   return value.is_string() ? ResultValue(value.get<std::string>()) : ResultValue();
 }
 
-/// A tolerance of a recorded number; 0 where the record names none.
-double tolerance_at(const JsonDocument& document, const ordered_json& entry,
-                    const std::string& pointer, const char* key, Problems& problems) {
-  if (!entry.contains(key)) return 0;
-  const ordered_json& value = entry[key];
-  if (value.is_number() && value.get<double>() >= 0) return value.get<double>();
-  problems.add(document.where(child_pointer(pointer, key)),
-               "a tolerance is a number of at least 0, found " + shown(value));
-  return 0;
-}
+constexpr const char* tolerances[] = {"relative_tolerance", "absolute_tolerance"};
 
-void check_keys(const JsonDocument& document, const ordered_json& entry, const std::string& pointer,
-                Problems& problems) {
-  const std::vector<std::string> known{"value", "relative_tolerance", "absolute_tolerance"};
-  for (const auto& [key, value] : entry.items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      problems.add(document.where(child_pointer(pointer, key)),
-                   fmt::format("unknown key {}{}", shown(key), did_you_mean(key, known)));
-    }
-  }
+bool has_tolerance(const ordered_json& entry) {
+  return entry.contains(tolerances[0]) || entry.contains(tolerances[1]);
 }
 
 /// Compares one entry of a record.
@@ -78,24 +56,29 @@ std::optional<RecordedResult> compared(const JsonDocument& document, const Named
     problems.add(document.where(pointer), "expected an object with \"value\" and a tolerance");
     return std::nullopt;
   }
-  check_keys(document, entry, pointer, problems);
-  const double relative = tolerance_at(document, entry, pointer, "relative_tolerance", problems);
-  const double absolute = tolerance_at(document, entry, pointer, "absolute_tolerance", problems);
-  if (entry["value"].is_number() && !entry.contains("relative_tolerance") &&
-      !entry.contains("absolute_tolerance")) {
+  const std::vector<std::string> known{"value", tolerances[0], tolerances[1]};
+  for (const auto& [key, value] : entry.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      problems.add(document.where(child_pointer(pointer, key)),
+                   fmt::format("unknown key {}{}", shown(key), did_you_mean(key, known)));
+    }
+  }
+  const auto tolerance = [&](const char* key) {
+    if (!entry.contains(key)) return 0.0;
+    const ordered_json& value = entry[key];
+    if (value.is_number() && value.get<double>() >= 0) return value.get<double>();
+    problems.add(document.where(child_pointer(pointer, key)),
+                 "a tolerance is a number of at least 0, found " + shown(value));
+    return 0.0;
+  };
+  const double relative = tolerance(tolerances[0]);
+  const double absolute = tolerance(tolerances[1]);
+  if (entry["value"].is_number() && !has_tolerance(entry)) {
     problems.add(document.where(pointer),
                  "a number needs \"relative_tolerance\" or \"absolute_tolerance\"");
   }
   return held_against({computed.name, value_of(entry["value"])}, computed.value, relative,
                       absolute);
-}
-
-/// The result of that name; null where there is none.
-const NamedResult* find_result(const std::vector<NamedResult>& results, std::string_view name) {
-  const auto found =
-      std::find_if(results.begin(), results.end(),
-                   [name](const NamedResult& result) { return result.name == name; });
-  return found == results.end() ? nullptr : &*found;
 }
 
 std::vector<RecordedResult> compared(const JsonDocument& document,
@@ -110,11 +93,12 @@ std::vector<RecordedResult> compared(const JsonDocument& document,
   std::vector<std::string> names;
   for (const NamedResult& result : results) names.push_back(result.name);
   for (const auto& [name, entry] : document.root.items()) {
-    const NamedResult* computed = find_result(results, name);
-    if (computed == nullptr) {
+    const auto known = std::find(names.begin(), names.end(), name);
+    if (known == names.end()) {
       problems.add(document.where(child_pointer("", name)),
                    fmt::format("no result {}{}", shown(name), did_you_mean(name, names)));
-    } else if (auto result = compared(document, *computed, problems)) {
+    } else if (auto result =
+                   compared(document, results[std::size_t(known - names.begin())], problems)) {
       all.push_back(std::move(*result));
     }
   }
@@ -125,8 +109,10 @@ std::vector<RecordedResult> compared(const JsonDocument& document,
 std::vector<RecordedResult> unrecorded(const std::vector<NamedResult>& results) {
   std::vector<RecordedResult> all;
   for (const char* name : main_results) {
-    const ResultValue& value = find_result(results, name)->value;
-    if (value.index() != 0) all.push_back({name, {}, value, 0, std::nullopt, true});
+    for (const auto& [known, value] : results) {
+      const bool exists = known == name && value.index() != 0;
+      if (exists) all.push_back({name, {}, value, 0, std::nullopt, true});
+    }
   }
   return all;
 }
@@ -134,7 +120,7 @@ std::vector<RecordedResult> unrecorded(const std::vector<NamedResult>& results) 
 /// Number, text or null as people read it.
 std::string value_words(const ResultValue& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return *word;
-  return value.index() == 0 ? "none" : json_of(value).dump();
+  return value.index() == 0 ? "none" : result_json(value).dump();
 }
 
 std::string drift_words(const RecordedResult& result) {
@@ -145,24 +131,21 @@ std::string drift_words(const RecordedResult& result) {
   return words + fmt::format(", allowed ±{:.3g}", result.tolerance);
 }
 
-/// One line a drifted result.
-std::string drift_lines(const ReferenceCheck& check) {
-  if (!check.recorded) return "no record; --update makes one\n";
-  std::string lines;
+/// What is wrong with a design that did not pass: its problems or, where there are none, what
+/// drifted.
+std::vector<std::string> complaints(const ReferenceCheck& check) {
+  std::vector<std::string> lines;
+  for (const InputProblem& problem : check.problems) {
+    lines.push_back(problem.where + ": " + problem.message);
+  }
+  if (!lines.empty()) return lines;
+  if (!check.recorded) return {"no record; --update makes one"};
   for (const RecordedResult& result : check.results) {
     if (!result.drifted) continue;
-    lines += fmt::format("{}: recorded {}, now {}", result.name, value_words(result.recorded),
-                         value_words(result.computed));
     const std::string words = drift_words(result);
-    lines += (words.empty() ? "" : ": " + words) + "\n";
-  }
-  return lines;
-}
-
-std::string problem_lines(const ReferenceCheck& check) {
-  std::string lines;
-  for (const InputProblem& problem : check.problems) {
-    lines += problem.where + ": " + problem.message + "\n";
+    lines.push_back(fmt::format("{}: recorded {}, now {}{}{}", result.name,
+                                value_words(result.recorded), value_words(result.computed),
+                                words.empty() ? "" : ": ", words));
   }
   return lines;
 }
@@ -217,11 +200,9 @@ std::string updated_record(const ReferenceCheck& check, const std::optional<Load
   for (const RecordedResult& result : check.results) {
     if (!result.drifted) continue;
     ordered_json& entry = record[result.name];
-    entry["value"] = json_of(result.computed);
+    entry["value"] = result_json(result.computed);
     const bool number = std::holds_alternative<double>(result.computed);
-    if (number && !entry.contains("relative_tolerance") && !entry.contains("absolute_tolerance")) {
-      entry["relative_tolerance"] = default_relative_tolerance;
-    }
+    if (number && !has_tolerance(entry)) entry[tolerances[0]] = default_relative_tolerance;
   }
   return record.dump(2) + "\n";
 }
@@ -235,11 +216,7 @@ std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
     out += fmt::format("{}{}  {}  {}\n", shown_status, std::string(10 - status.size(), ' '),
                        check.spec, style.subdued(check.name));
     if (check.passed()) continue;
-    std::string lines = problem_lines(check) + (check.problems.empty() ? drift_lines(check) : "");
-    for (std::size_t end = lines.find('\n'); end != lines.npos; end = lines.find('\n')) {
-      out += "    " + lines.substr(0, end + 1);
-      lines.erase(0, end + 1);
-    }
+    for (const std::string& complaint : complaints(check)) out += "    " + complaint + "\n";
   }
   out += fmt::format("{} designs: {} as recorded, {} drifted, {} without a record", checks.size(),
                      count_status(checks, "ok"), count_status(checks, "drifted"),
@@ -248,10 +225,10 @@ std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
 }
 
 ordered_json check_json(std::span<const ReferenceCheck> checks) {
-  const auto result_json = [](const RecordedResult& result) {
+  const auto entry_json = [](const RecordedResult& result) {
     return ordered_json{{"result", result.name},
-                        {"recorded", json_of(result.recorded)},
-                        {"computed", json_of(result.computed)},
+                        {"recorded", result_json(result.recorded)},
+                        {"computed", result_json(result.computed)},
                         {"difference", number_or_null(result.difference)},
                         {"tolerance", result.tolerance},
                         {"drifted", result.drifted}};
@@ -260,7 +237,7 @@ ordered_json check_json(std::span<const ReferenceCheck> checks) {
     return ordered_json{{"spec", check.spec},
                         {"name", check.name},
                         {"status", status_of(check)},
-                        {"results", json_list(check.results, result_json)}};
+                        {"results", json_list(check.results, entry_json)}};
   });
   return {{"designs", designs},
           {"ok", count_status(checks, "ok")},
@@ -271,14 +248,13 @@ ordered_json check_json(std::span<const ReferenceCheck> checks) {
 std::string check_csv(std::span<const ReferenceCheck> checks) {
   std::string out = "spec,status,result,recorded,computed,difference,tolerance,drifted\n";
   const auto cell = [](const ResultValue& value) {
-    return value.index() == 0 ? std::string() : csv_text(value_words(value));
+    return value.index() == 0 ? ordered_json(nullptr) : ordered_json(value_words(value));
   };
   for (const ReferenceCheck& check : checks) {
     for (const RecordedResult& result : check.results) {
-      out += fmt::format("{},{},{},{},{},{},{},{}\n", csv_text(check.spec), status_of(check),
-                         result.name, cell(result.recorded), cell(result.computed),
-                         result.difference ? csv_number(*result.difference) : "",
-                         csv_number(result.tolerance), result.drifted);
+      out += csv_line({check.spec, status_of(check), result.name, cell(result.recorded),
+                       cell(result.computed), number_or_null(result.difference), result.tolerance,
+                       result.drifted});
     }
   }
   return out;
@@ -302,12 +278,9 @@ std::string check_junit(std::span<const ReferenceCheck> checks) {
       out += opening + "/>\n";
       continue;
     }
-    const bool error = !check.problems.empty();
-    const std::string message = error ? problem_lines(check) : drift_lines(check);
-    const char* const element = error ? "error" : "failure";
     out += fmt::format("{}>\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n", opening,
-                       element, status_of(check),
-                       attribute_text(message.substr(0, message.rfind('\n'))));
+                       check.problems.empty() ? "failure" : "error", status_of(check),
+                       attribute_text(fmt::format("{}", fmt::join(complaints(check), "\n"))));
   }
   return out + "  </testsuite>\n</testsuites>\n";
 }

@@ -14,6 +14,11 @@ ordered_json number_or_null(const std::optional<double>& value) {
   return value ? number_or_null(*value) : ordered_json(nullptr);
 }
 
+ordered_json result_json(const ResultValue& value) {
+  if (const auto* word = std::get_if<std::string>(&value)) return *word;
+  return value.index() == 0 ? ordered_json(nullptr) : ordered_json(std::get<double>(value));
+}
+
 ordered_json operating_point_json(const OperatingPoint& point) {
   ordered_json out = ordered_json::object();
   for (const OperatingPointField& field : operating_point_fields()) {
@@ -36,9 +41,17 @@ std::string csv_number(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
-std::string csv_cell(const ordered_json& value) {
-  if (value.is_string()) return csv_text(value.get_ref<const std::string&>());
-  return value.is_number() ? csv_number(value.get<double>()) : "";
+std::string csv_line(const ordered_json& values) {
+  std::string out;
+  for (const ordered_json& value : values) {
+    out += value.is_string()    ? csv_text(value.get_ref<const std::string&>())
+           : value.is_number()  ? csv_number(value.get<double>())
+           : value.is_boolean() ? value.dump()
+                                : "";
+    out += ',';
+  }
+  out.back() = '\n';
+  return out;
 }
 
 }  // namespace tethercalc

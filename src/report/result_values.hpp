@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/reference.hpp"
 #include "tethercalc/study/result_keys.hpp"
 
 namespace tethercalc {
@@ -16,6 +16,9 @@ using nlohmann::ordered_json;
 /// The number, or null where it does not exist: JSON knows neither NaN nor infinity.
 [[nodiscard]] ordered_json number_or_null(double value);
 [[nodiscard]] ordered_json number_or_null(const std::optional<double>& value);
+
+/// A number or a word; null where the result does not exist.
+[[nodiscard]] ordered_json result_json(const ResultValue& value);
 
 /// A list of what `of` makes of each of `values`.
 template <typename Values, typename Of>
@@ -34,7 +37,7 @@ template <typename Values, typename Of>
 /// The shortest text that reads back as the same number; empty where it does not exist.
 [[nodiscard]] std::string csv_number(double value);
 
-/// A text, a number or null as one cell of CSV.
-[[nodiscard]] std::string csv_cell(const ordered_json& value);
+/// A line of CSV of these texts, numbers, truth values and nulls.
+[[nodiscard]] std::string csv_line(const ordered_json& values);
 
 }  // namespace tethercalc

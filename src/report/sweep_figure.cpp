@@ -214,14 +214,14 @@ Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vecto
   explain_names(plot, *axes.x);
   figure.lines = 29 + int(plot.legend().size());
   const gp::Layout layout(figure.lines, 0.125, 0.045);
-  const auto [lo, hi] = gp::extent(gp::column(cells, &Cell::value));
-  const auto [x_lo, x_hi] = gp::extent(gp::column(cells, &Cell::x));
+  const gp::Range values = gp::extent(gp::column(cells, &Cell::value));
+  const gp::Range places = gp::extent(gp::column(cells, &Cell::x));
   figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
                    layout.above(2.7, subtitle(table, axes)) +
                    layout.below(25, axis_label(axes.x->path)) +
                    layout.legend(27, 1, plot.legend()) + tics("x", *axes.x) +
-                   gp::set_range("x", gp::with_margin(x_lo, x_hi, 0.03)) +
-                   gp::set_range("y", gp::with_margin(lo, hi, 0.06)) + plot.text();
+                   gp::set_range("x", gp::with_margin(places, 0.03)) +
+                   gp::set_range("y", gp::with_margin(values, 0.06)) + plot.text();
   return figure;
 }
 
@@ -308,10 +308,9 @@ Figure sweep_figure(const SweepTable& table, const SweepView& view) {
   if (least_of(cells) == nullptr) {
     throw InputError(table.file, fmt::format("has no row with a value of {}", table.value_column));
   }
-  Figure figure;
-  figure.id = "sweep";
-  figure.title = view.title.empty() ? table.file : view.title;
-  figure.description = description_of(table, axes, cells);
+  Figure figure{.id = "sweep",
+                .title = view.title.empty() ? table.file : view.title,
+                .description = description_of(table, axes, cells)};
   const bool curves = axes.y == nullptr || (axes.x->names.empty() && !axes.y->names.empty() &&
                                             axes.y->names.size() <= most_curves);
   return curves ? curves_figure(table, axes, cells, std::move(figure))

@@ -8,7 +8,6 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
-#include "tethercalc/study/reference.hpp"
 
 namespace tethercalc {
 namespace {
@@ -38,37 +37,39 @@ class RowText {
   /// Empty text stands for none.
   void words(std::string_view value) {
     text_ += *opening_++;
-    if (csv_) {
-      text_ += csv_text(value);
-    } else {
-      text_ += value.empty() ? "null" : nlohmann::json(value).dump();
-    }
+    text_ += csv_ ? csv_text(value) : value.empty() ? "null" : nlohmann::json(value).dump();
   }
 
   /// A word without characters that would need quoting.
   void plain_word(std::string_view value) {
     text_ += *opening_++;
-    if (csv_) {
-      text_ += value;
-    } else if (value.empty()) {
-      text_ += "null";
-    } else {
-      text_ += '"';
-      text_ += value;
-      text_ += '"';
+    const bool none = !csv_ && value.empty();
+    const char* const quote = csv_ || none ? "" : "\"";
+    text_.append(quote).append(none ? "null" : value).append(quote);
+  }
+
+  /// Both points, with the numbers that they share printed once and copied: printing is what costs
+  /// time here, and half of the quantities depend on the cable alone.
+  void points(const SweepOutcome& outcome) {
+    const auto fields = operating_point_fields();
+    const bool exists = !std::isnan(outcome.area());
+    std::vector<std::pair<std::size_t, std::size_t>> printed;  // from where on, and how much
+    printed.reserve(fields.size());
+    for (const OperatingPointField& field : fields) {
+      const std::size_t begin = text_.size() + opening_->size();
+      number(exists ? practical_value(outcome.points.hover, field) : nan);
+      printed.emplace_back(begin, text_.size() - begin);
+    }
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const double OperatingPoint::*const member = fields[i].member;
+      if (!exists || outcome.points.hover.*member == outcome.points.forward.*member) {
+        text_ += *opening_++;
+        text_.append(text_, printed[i].first, printed[i].second);
+      } else {
+        number(practical_value(outcome.points.forward, fields[i]));
+      }
     }
   }
-
-  /// The text between two positions once more.
-  void again(std::size_t begin, std::size_t end) {
-    text_ += *opening_++;
-    text_.append(text_, begin, end - begin);
-  }
-
-  [[nodiscard]] std::size_t position_after_opening() const {
-    return text_.size() + opening_->size();
-  }
-  [[nodiscard]] std::size_t position() const { return text_.size(); }
 
   void end() { text_ += csv_ ? "\n" : "}\n"; }
 
@@ -77,32 +78,6 @@ class RowText {
   bool csv_;
   const std::string* opening_;
 };
-
-struct Extent {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-/// Both points, with the numbers that they share printed once and copied: printing is what costs
-/// time here, and half of the quantities depend on the cable alone.
-void append_points(RowText& row, const SweepOutcome& outcome) {
-  const auto fields = operating_point_fields();
-  const bool exists = !std::isnan(outcome.area());
-  std::vector<Extent> printed(fields.size());
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    printed[i].begin = row.position_after_opening();
-    row.number(exists ? practical_value(outcome.points.hover, fields[i]) : nan);
-    printed[i].end = row.position();
-  }
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const double OperatingPoint::*const member = fields[i].member;
-    if (!exists || outcome.points.hover.*member == outcome.points.forward.*member) {
-      row.again(printed[i].begin, printed[i].end);
-    } else {
-      row.number(practical_value(outcome.points.forward, fields[i]));
-    }
-  }
-}
 
 /// Why a row is infeasible; empty where it is not.
 std::string reason_words(const SweepRow& row) {
@@ -149,7 +124,7 @@ void SweepRows::append(std::string& text, const SweepRow& swept) const {
   row.plain_word(limited ? limit_name(outcome.limited_by) : "");
   row.plain_word(limited ? condition_name(outcome.limiting_condition) : "");
   row.number(outcome.area() / unit::square_millimetre);
-  append_points(row, outcome);
+  row.points(outcome);
   row.words(reason_words(swept));
   row.end();
 }

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <optional>
 
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "io/csv_rows.hpp"
 #include "model/constants.hpp"
-#include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc {
@@ -19,24 +15,16 @@ namespace {
 // More would scroll the first, which is usually the cause, off the screen.
 constexpr std::size_t most_problems = 20;
 
-std::optional<double> number_in(const std::string& cell) {
-  double value = 0;
-  const char* const end = cell.data() + cell.size();
-  const auto [stopped, error] = std::from_chars(cell.data(), end, value);
-  if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 /// Of fields that only sweeps know, such as a material's density, the first row tells.
 bool takes_numbers(const std::string& path, const std::string& first_cell) {
   const SpecField* field = find_field(path);
-  return field != nullptr ? is_numeric(*field) : number_in(first_cell).has_value();
+  return field != nullptr ? is_numeric(*field) : parsed_number(first_cell).has_value();
 }
 
 class Reader {
  public:
   Reader(std::string_view text, const std::string& file, const std::string& value)
-      : rows_(text, file) {
+      : rows_(text, file), problems_(most_problems, file) {
     table_.file = file;
     table_.value_column = value.empty() ? "forward.total_power_W" : value;
   }
@@ -46,13 +34,8 @@ class Reader {
     header();
     std::vector<std::string> cells;
     while (rows_.next(cells)) row(cells);
-    if (problems_.empty() && table_.value.empty()) {
-      throw InputError(table_.file, "has a header and no rows");
-    }
-    if (untold_ > 0) {
-      problems_.push_back({table_.file, fmt::format("and {} more problems", untold_)});
-    }
-    if (!problems_.empty()) throw InputError(problems_);
+    problems_.throw_if_any();
+    if (table_.value.empty()) throw InputError(table_.file, "has a header and no rows");
     return std::move(table_);
   }
 
@@ -79,25 +62,23 @@ class Reader {
     value_ = std::size_t(value - names.begin());
   }
 
-  void problem(const std::string& message) {
-    if (problems_.size() < most_problems) {
-      problems_.push_back({rows_.where(), message});
-    } else {
-      ++untold_;
+  /// The number that a cell is; nothing, with a problem unless it is empty, where it is none.
+  std::optional<double> number(const std::string& column, const std::string& cell, bool required) {
+    const std::optional<double> value = parsed_number(cell);
+    if (!value && (required || !cell.empty())) {
+      problems_.add(rows_.where(),
+                    fmt::format("{}: \"{}\" is no number", column, cell.substr(0, 40)));
     }
+    return value;
   }
 
   void row(const std::vector<std::string>& cells) {
     if (cells.size() != table_.columns.size()) {
-      return problem(
-          fmt::format("has {} cells, the header has {}", cells.size(), table_.columns.size()));
+      return problems_.add(rows_.where(), fmt::format("has {} cells, the header has {}",
+                                                      cells.size(), table_.columns.size()));
     }
     for (std::size_t c = 0; c < table_.varied.size(); ++c) varied_cell(table_.varied[c], cells[c]);
-    const std::string& cell = cells[value_];
-    const std::optional<double> value = number_in(cell);
-    if (!value && !cell.empty()) {
-      problem(fmt::format("{}: \"{}\" is no number", table_.value_column, cell.substr(0, 40)));
-    }
+    const auto value = number(table_.value_column, cells[value_], false);
     if (!value) ++table_.infeasible;
     table_.value.push_back(value.value_or(nan));
   }
@@ -106,10 +87,7 @@ class Reader {
     const bool first = column.values.empty();
     const bool numbers = first ? takes_numbers(column.path, cell) : column.names.empty();
     if (numbers) {
-      const std::optional<double> value = number_in(cell);
-      if (!value) problem(fmt::format("{}: \"{}\" is no number", column.path, cell.substr(0, 40)));
-      column.values.push_back(value.value_or(0));
-      return;
+      return column.values.push_back(number(column.path, cell, true).value_or(0));
     }
     const auto known = std::find(column.names.begin(), column.names.end(), cell);
     column.values.push_back(double(known - column.names.begin()));
@@ -119,8 +97,7 @@ class Reader {
   CsvRows rows_;
   SweepTable table_;
   std::size_t value_ = 0;
-  std::vector<InputProblem> problems_;
-  std::size_t untold_ = 0;
+  Problems problems_;
 };
 
 /// The ending of a name that says its unit, and the unit; empty where it has none.

@@ -41,64 +41,55 @@ DesignProblem with_cross_section(const DesignQuestion& question) {
   return problem;
 }
 
-/// A demand of the design that can be given way to, or a field that may cost something.
+/// A field that is moved: to give way to a demand that binds, or to see what it costs.
 struct Movable {
-  std::string_view path;          ///< of the field that is moved
-  double (*step)(const Design&);  ///< by how much, in the field's unit
-  void (*move)(Design& design, double step);
-};
+  std::string_view path;       ///< of the field
+  double* (*field)(Design&);   ///< where it stands, in SI
+  double si_factor = 1;        ///< SI value of the field's unit
+  double step = 1;             ///< in that unit
+  bool step_is_share = false;  ///< of the field's value
 
-double one(const Design&) { return 1; }
+  [[nodiscard]] double step_of(Design design) const {
+    return step_is_share ? step * *field(design) : step;
+  }
+};
 
 constexpr Movable fields[] = {
-    {"tether.length_m", one, [](Design& d, double step) { d.tether.length += step; }},
-    {"drone.mass_g", [](const Design&) { return 100.0; },
-     [](Design& d, double step) { d.drone.mass += step * unit::gram; }},
-    {"supply.voltage_V", one, [](Design& d, double step) { d.supply.voltage += step; }},
+    {"tether.length_m", [](Design& d) { return &d.tether.length; }},
+    {"drone.mass_g", [](Design& d) { return &d.drone.mass; }, unit::gram, 100},
+    {"supply.voltage_V", [](Design& d) { return &d.supply.voltage; }},
 };
 
-constexpr Movable headroom{"requirements.thrust_headroom", [](const Design&) { return -0.01; },
-                           [](Design& d, double step) { d.requirements.thrust_headroom += step; }};
-constexpr Movable tilt{"requirements.max_pitch_deg", one, [](Design& d, double step) {
-                         d.requirements.max_pitch += step * unit::degree;
-                       }};
 constexpr Movable rated_temperature{
-    "tether.insulation.material.rated_temperature_C", one,
-    [](Design& d, double step) { *d.tether.insulation.rated_temperature_C += step; }};
-constexpr Movable strength{
-    "requirements.strength_safety_factor",
-    [](const Design& d) { return -0.01 * d.requirements.strength_safety_factor; },
-    [](Design& d, double step) { d.requirements.strength_safety_factor += step; }};
-constexpr Movable rated_output{
-    "supply.converter.rated_output_W",
-    [](const Design& d) { return 0.01 * *d.supply.converter.rated_output_power; },
-    [](Design& d, double step) { *d.supply.converter.rated_output_power += step; }};
-constexpr Movable highest_input{
-    "supply.converter.max_input_voltage_V",
-    [](const Design& d) { return 0.01 * *d.supply.converter.max_input_voltage; },
-    [](Design& d, double step) { *d.supply.converter.max_input_voltage += step; }};
+    "tether.insulation.material.rated_temperature_C",
+    [](Design& d) { return &*d.tether.insulation.rated_temperature_C; }};
 
-/// What gives way to a demand that binds; null where nothing does.
-const Movable* relaxation(const Design& design, const DemandMargin& margin) {
-  switch (margin.demand) {
-    case Demand::max_pitch:
-      return &tilt;
-    case Demand::thrust_headroom:
-      // Level flight is not negotiable.
-      return is_headroom_demanded(design.requirements, margin.condition) ? &headroom : nullptr;
-    case Demand::conductor_temperature:
-    case Demand::drum_temperature:
-      return &rated_temperature;
-    case Demand::tether_strength:
-      return &strength;
-    case Demand::converter_rating:
-      return &rated_output;
-    case Demand::input_voltage:
-      return design.supply.converter.max_input_voltage ? &highest_input : nullptr;
-    case Demand::takeoff_mass:
-      break;
+/// What gives way to which demand.
+constexpr std::pair<Demand, Movable> relaxations[] = {
+    {Demand::max_pitch,
+     {"requirements.max_pitch_deg", [](Design& d) { return &d.requirements.max_pitch; },
+      unit::degree}},
+    {Demand::thrust_headroom,
+     {"requirements.thrust_headroom", [](Design& d) { return &d.requirements.thrust_headroom; }, 1,
+      -0.01}},
+    {Demand::conductor_temperature, rated_temperature},
+    {Demand::drum_temperature, rated_temperature},
+    {Demand::tether_strength,
+     {"requirements.strength_safety_factor",
+      [](Design& d) { return &d.requirements.strength_safety_factor; }, 1, -0.01, true}},
+    {Demand::converter_rating,
+     {"supply.converter.rated_output_W",
+      [](Design& d) { return &*d.supply.converter.rated_output_power; }, 1, 0.01, true}},
+    {Demand::input_voltage,
+     {"supply.converter.max_input_voltage_V",
+      [](Design& d) { return &*d.supply.converter.max_input_voltage; }, 1, 0.01, true}}};
+
+/// Whether anything gives way: level flight does not, nor the least input of a converter.
+bool is_negotiable(const Design& design, const DemandMargin& margin) {
+  if (margin.demand == Demand::thrust_headroom) {
+    return is_headroom_demanded(design.requirements, margin.condition);
   }
-  return nullptr;
+  return margin.demand != Demand::input_voltage || design.supply.converter.max_input_voltage;
 }
 
 /// The prices of one study: each the least objective after a change, less that before it.
@@ -161,23 +152,26 @@ class Prices {
   /// The demands of the design that bind, each once.
   void add_demands() {
     const Candidate& best = answer_.best;
-    std::vector<const Movable*> told;
+    std::vector<std::string_view> told;
     for (const DemandMargin& margin : demand_margins(best.design, best.hover, best.forward)) {
-      if (margin.value > binding) continue;
-      const Movable* way = relaxation(best.design, margin);
-      if (way == nullptr || std::find(told.begin(), told.end(), way) != told.end()) continue;
-      told.push_back(way);
-      add_moved({Priced::demand, false, margin.demand}, *way, best.design);
+      if (margin.value > binding || !is_negotiable(best.design, margin)) continue;
+      for (const auto& [demand, way] : relaxations) {
+        if (demand != margin.demand || std::count(told.begin(), told.end(), way.path) > 0) continue;
+        told.push_back(way.path);
+        add_moved({Priced::demand, false, demand}, way, best.design);
+      }
     }
   }
 
   void add_moved(ShadowPrice price, const Movable& movable, const Design& design) {
     if (problem_.frees(movable.path)) return;
     price.name = movable.path;
-    price.step = movable.step(design);
+    price.step = movable.step_of(design);
     DesignProblem changed = problem_;
     // Last, so that no material or motor chosen undoes it.
-    changed.free.push_back({price.name, std::vector<double>{price.step}, movable.move});
+    changed.free.push_back(
+        {price.name, std::vector<double>{price.step},
+         [&movable](Design& d, double step) { *movable.field(d) += step * movable.si_factor; }});
     add(std::move(price), changed);
   }
 

@@ -203,12 +203,8 @@ Candidate candidate_of(Design design) {
     // Nearest to feasible, so that it can be told by how much the demands are missed.
     area = best_headroom(design, design.requirements.headroom_at).area;
   }
-  Candidate candidate{{area, {}, {}, {}}, std::move(design)};
-  if (std::isfinite(area)) {
-    candidate.hover = evaluate(candidate.design, area, Condition::hover);
-    candidate.forward = evaluate(candidate.design, area, Condition::forward);
-  }
-  return candidate;
+  if (!std::isfinite(area)) return {{area, {}, {}, {}}, std::move(design)};
+  return {evaluate_areas(design, std::span(&area, 1)).front(), std::move(design)};
 }
 
 std::vector<DemandState> demand_states(const Candidate& candidate,
@@ -218,11 +214,13 @@ std::vector<DemandState> demand_states(const Candidate& candidate,
   std::vector<DemandState> states;
   for (const char* condition : {" in hover", " in forward flight"}) {
     for (std::size_t i = 0; i < demand_count; ++i) {
-      states.push_back({std::string(demand_name(static_cast<Demand>(i))) + condition, 0});
+      const std::string name(demand_name(static_cast<Demand>(i)));
+      states.push_back({name + condition, violations[states.size()]});
     }
   }
-  for (const UserLimit& limit : limits) states.push_back({limit.name, 0});
-  for (std::size_t i = 0; i < states.size(); ++i) states[i].violation = violations[i];
+  for (const UserLimit& limit : limits) {
+    states.push_back({limit.name, violations[states.size()]});
+  }
   return states;
 }
 

@@ -17,23 +17,13 @@ void record(const Design& design, std::optional<double>& area, std::optional<dou
   power = (hover ? result.hover : result.forward).total_power;
 }
 
-Diagnosis flight_diagnosis(Design design, const LoggedFlight& flight,
-                           const SelectionProgress& progress) {
-  if (flight.mass) design.drone.mass = *flight.mass;
-  if (flight.air_density) design.flight.air_density = *flight.air_density;
+/// What `diagnose` says, which throws std::invalid_argument where the log will not do.
+template <typename Diagnose>
+auto of_suitable(LogKind kind, const Diagnose& diagnose) {
   try {
-    return diagnose_flight(design, flight.log, flight.options, progress);
+    return diagnose();
   } catch (const std::invalid_argument& error) {
-    throw UnsuitableLog(LogKind::flight, error.what());
-  }
-}
-
-PowerDiagnosis power_diagnosis(const Design& design, const LoggedPower& power,
-                               const SelectionProgress& progress) {
-  try {
-    return diagnose_power(design, power.log, power.base, progress);
-  } catch (const std::invalid_argument& error) {
-    throw UnsuitableLog(LogKind::power, error.what());
+    throw UnsuitableLog(kind, error.what());
   }
 }
 
@@ -65,9 +55,17 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
                                const SelectionProgress& progress) {
   const Design& design = question.design;
   DiagnosisStudy study{{}, {}, design};
-  if (question.flight) study.flight = flight_diagnosis(design, *question.flight, progress);
-  if (question.power) {
-    PowerDiagnosis found = power_diagnosis(design, *question.power, progress);
+  if (const auto& flight = question.flight) {
+    Design flown = design;
+    flown.drone.mass = flight->mass.value_or(design.drone.mass);
+    flown.flight.air_density = flight->air_density.value_or(design.flight.air_density);
+    study.flight = of_suitable(LogKind::flight, [&] {
+      return diagnose_flight(flown, flight->log, flight->options, progress);
+    });
+  }
+  if (const auto& power = question.power) {
+    PowerDiagnosis found = of_suitable(
+        LogKind::power, [&] { return diagnose_power(design, power->log, power->base, progress); });
     study.power = std::move(found.diagnosis);
     study.extended = std::move(found.extended);
   }

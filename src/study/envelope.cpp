@@ -1,7 +1,10 @@
 #include "tethercalc/study/envelope.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
+
+#include "tethercalc/study/evaluation.hpp"
 
 namespace tethercalc {
 namespace {
@@ -12,10 +15,7 @@ constexpr double shortest_length = 0.1;
 double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
 
 DemandMargin worst_margin(const Design& design) {
-  const double area = *design.tether.cross_section;
-  const Margins margins = demand_margins(design, evaluate(design, area, Condition::hover),
-                                         evaluate(design, area, Condition::forward));
-  return margins.worst();
+  return evaluate_areas(design, std::span(&*design.tether.cross_section, 1)).front().worst;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "tethercalc/study/sweep.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "model/constants.hpp"
@@ -22,83 +21,54 @@ SweepOutcome given_cable(const Design& design) {
   return outcome;
 }
 
-/// Outputs of some consecutive points: cross-section, power, and whether there are any.
-enum Output { area_output, power_output, feasible_output };
-using MixedChunk = std::array<SensitivitySample, 3>;
-
-MixedChunk empty_chunk(std::size_t inputs) {
-  MixedChunk chunk;
-  for (SensitivitySample& output : chunk) output.mixed.resize(inputs);
-  return chunk;
+JudgedRow judged(const SweepOutcome& outcome, const Design& design) {
+  return {outcome.area(), judged_power(outcome, design), outcome.feasible};
 }
 
-void append(std::vector<double>& to, const std::vector<double>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-void append(MixedChunk& to, const MixedChunk& from) {
-  for (std::size_t k = 0; k < to.size(); ++k) {
-    append(to[k].a, from[k].a);
-    append(to[k].b, from[k].b);
-    for (std::size_t i = 0; i < to[k].mixed.size(); ++i) append(to[k].mixed[i], from[k].mixed[i]);
+/// Appends what a point of two samples comes to: in the first, in the second, and in the first with
+/// each axis in turn taken from the second. `unit` holds its place in both, in shares.
+void add_mixtures(std::span<const SweepAxis> axes, std::span<const double> unit, bool given_area,
+                  SweepCursor& cursor, std::vector<JudgedRow>& rows) {
+  const auto add = [&](const std::vector<double>& values) {
+    cursor.set_values(values);
+    rows.push_back(judged(sweep_outcome(cursor.design(), given_area), cursor.design()));
+  };
+  std::vector<double> a;
+  std::vector<double> b;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    a.push_back(quantile(axes[i], unit[i]));
+    b.push_back(quantile(axes[i], unit[axes.size() + i]));
+  }
+  add(a);
+  add(b);
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    std::vector<double> mixed = a;
+    mixed[i] = b[i];
+    add(mixed);
   }
 }
 
-/// Computes the outputs at points of two samples and their mixtures.
-class MixedPoints {
- public:
-  MixedPoints(const SweepSpace& space, const Design& base, std::uint64_t points)
-      : axes_(space.axes()),
-        cursor_(space, base),
-        given_area_(varies_cross_section(space)),
-        points_({points, space.sample()->method, space.sample()->seed}, 2 * axes_.size()),
-        unit_(2 * axes_.size()) {}
-
-  void compute(std::uint64_t begin, std::uint64_t end, MixedChunk& chunk) {
-    chunk = empty_chunk(axes_.size());
-    for (std::uint64_t j = begin; j < end; ++j) {
-      points_.at(j, unit_);
-      std::vector<double> a;
-      std::vector<double> b;
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        a.push_back(quantile(axes_[i], unit_[i]));
-        b.push_back(quantile(axes_[i], unit_[axes_.size() + i]));
-      }
-      add(a, chunk, [](SensitivitySample& output) { return &output.a; });
-      add(b, chunk, [](SensitivitySample& output) { return &output.b; });
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        std::vector<double> mixed = a;
-        mixed[i] = b[i];
-        add(mixed, chunk, [i](SensitivitySample& output) { return &output.mixed[i]; });
-      }
-    }
+/// One output of what `add_mixtures` made of some points.
+template <typename Output>
+SensitivitySample sample_of(const std::vector<JudgedRow>& rows, std::size_t axes,
+                            const Output& output) {
+  SensitivitySample sample;
+  sample.mixed.resize(axes);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::size_t which = k % (axes + 2);
+    auto& values = which == 0 ? sample.a : which == 1 ? sample.b : sample.mixed[which - 2];
+    values.push_back(output(rows[k]));
   }
+  return sample;
+}
 
- private:
-  /// The outputs of `values`, each to where `place` finds it.
-  template <typename Place>
-  void add(const std::vector<double>& values, MixedChunk& chunk, const Place& place) {
-    cursor_.set_values(values);
-    const SweepOutcome outcome = sweep_outcome(cursor_.design(), given_area_);
-    const double power = judged_power(outcome, cursor_.design());
-    place(chunk[area_output])->push_back(outcome.feasible ? outcome.area() : nan);
-    place(chunk[power_output])->push_back(outcome.feasible ? power : nan);
-    place(chunk[feasible_output])->push_back(outcome.feasible ? 1 : 0);
-  }
-
-  std::span<const SweepAxis> axes_;
-  SweepCursor cursor_;
-  bool given_area_;
-  UnitPoints points_;
-  std::vector<double> unit_;
-};
-
-std::uint64_t incomplete_points(const SensitivitySample& feasible) {
+/// Of how many points some design is infeasible.
+std::uint64_t incomplete_points(const std::vector<JudgedRow>& rows, std::size_t axes) {
   std::uint64_t count = 0;
-  for (std::size_t j = 0; j < feasible.a.size(); ++j) {
-    bool complete = feasible.a[j] == 1 && feasible.b[j] == 1;
-    for (const auto& mixed : feasible.mixed) complete = complete && mixed[j] == 1;
-    if (!complete) ++count;
+  for (auto point = rows.begin(); point != rows.end();) {
+    const auto next = point + static_cast<std::ptrdiff_t>(axes + 2);
+    if (!std::all_of(point, next, [](const JudgedRow& row) { return row.feasible; })) ++count;
+    point = next;
   }
   return count;
 }
@@ -151,8 +121,7 @@ void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChun
       for (std::uint64_t row = chunk.range.begin; row < chunk.range.end; ++row) {
         cursor.move_to(row);
         const SweepOutcome outcome = sweep_outcome(cursor.design(), given_area);
-        chunk.judged.push_back(
-            {outcome.area(), judged_power(outcome, cursor.design()), outcome.feasible});
+        chunk.judged.push_back(judged(outcome, cursor.design()));
         if (row >= job.write_from)
           job.write(chunk.text, {cursor.values(), cursor.design(), outcome});
       }
@@ -190,25 +159,35 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   SweepSensitivity result;
   result.points = std::min(space.rows(), most_sensitivity_points);
   result.evaluations = result.points * (axes + 2);
-  MixedChunk all = empty_chunk(axes);
+  using Rows = std::vector<JudgedRow>;
+  const SamplePlan plan{result.points, space.sample()->method, space.sample()->seed};
+  const bool given_area = varies_cross_section(space);
   const auto make_worker = [&] {
-    return [&result, points = MixedPoints(space, base, result.points)](std::uint64_t index,
-                                                                       MixedChunk& chunk) mutable {
+    return [&, cursor = SweepCursor(space, base), points = UnitPoints(plan, 2 * axes),
+            unit = std::vector<double>(2 * axes)](std::uint64_t index, Rows& rows) mutable {
+      rows.clear();
       const std::uint64_t begin = index * points_per_chunk;
-      points.compute(begin, std::min(begin + points_per_chunk, result.points), chunk);
+      const std::uint64_t end = std::min(begin + points_per_chunk, result.points);
+      for (std::uint64_t j = begin; j < end; ++j) {
+        points.at(j, unit);
+        add_mixtures(space.axes(), unit, given_area, cursor, rows);
+      }
     };
   };
+  Rows all;
   const std::uint64_t chunks = (result.points + points_per_chunk - 1) / points_per_chunk;
-  compute_in_order<MixedChunk>(0, chunks, runner, make_worker, [&](const MixedChunk& chunk) {
-    append(all, chunk);
+  compute_in_order<Rows>(0, chunks, runner, make_worker, [&](const Rows& rows) {
+    all.insert(all.end(), rows.begin(), rows.end());
     return true;
   });
-  const std::uint64_t seed = space.sample()->seed;
-  result.incomplete = incomplete_points(all[feasible_output]);
-  result.area = sobol_indices(all[area_output], seed);
-  result.power = sobol_indices(all[power_output], seed);
+  const auto indices = [&](const auto& output) {
+    return sobol_indices(sample_of(all, axes, output), plan.seed);
+  };
+  result.incomplete = incomplete_points(all, axes);
+  result.area = indices([](const JudgedRow& row) { return row.feasible ? row.area : nan; });
+  result.power = indices([](const JudgedRow& row) { return row.feasible ? row.power : nan; });
   if (result.incomplete > 0) {
-    result.feasible = sobol_indices(all[feasible_output], seed);
+    result.feasible = indices([](const JudgedRow& row) { return row.feasible ? 1.0 : 0.0; });
     if (std::isnan(result.feasible.front().total.value)) result.feasible.clear();
   }
   return result;

@@ -18,7 +18,7 @@ struct Figure {
   std::string description;  ///< what it shows with its main numbers, for those who cannot see it
   int lines = 24;           ///< height in lines of text at one column's width (85 mm); the picture
                             ///< keeps its proportions at other widths
-  std::string script;       ///< gnuplot commands with their data inline
+  std::string script{};     ///< gnuplot commands with their data inline
 };
 
 /// What a figure is drawn as.
