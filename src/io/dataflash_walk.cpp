@@ -17,11 +17,6 @@ constexpr std::size_t labels_at = format_at + format_size;
 constexpr std::size_t labels_size = 64;
 static_assert(labels_at + labels_size == fmt_length);
 
-std::string_view text_at(const std::byte* start, std::size_t size) {
-  const std::string_view all(reinterpret_cast<const char*>(start), size);
-  return all.substr(0, all.find('\0'));
-}
-
 std::string_view name_in(const std::byte* fmt) { return text_at(fmt + name_at, name_size); }
 std::string_view format_in(const std::byte* fmt) { return text_at(fmt + format_at, format_size); }
 std::string_view labels_in(const std::byte* fmt) { return text_at(fmt + labels_at, labels_size); }
@@ -214,6 +209,13 @@ bool Framing::is_followed(std::size_t message, std::size_t at, const Definitions
   return std::search(begin, end, mark.begin(), mark.end()) == end;
 }
 
+std::size_t Framing::next_mark(std::size_t from, std::size_t end) const {
+  const void* const found =
+      std::memchr(log_.data() + from, std::to_integer<int>(mark_first), end - from);
+  if (found == nullptr) return end;
+  return static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
+}
+
 bool Framing::has_messages_within(std::size_t at, std::size_t length, const Definitions& known,
                                   const TimeGuard& guard) const {
   const std::size_t end = at + length;
@@ -229,28 +231,15 @@ bool Framing::has_messages_within(std::size_t at, std::size_t length, const Defi
     }
     return from == end;
   };
-  std::size_t from = at + header_size;
-  while (from + header_size <= end) {
-    const void* const found =
-        std::memchr(log_.data() + from, std::to_integer<int>(mark_first), end - from);
-    if (found == nullptr) return false;
-    from = static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
-    if (from + header_size <= end && mark_at(from) && leads_to_end(from)) return true;
-    ++from;
-  }
-  return false;
+  std::size_t from = next_mark(at + header_size, end);
+  while (from + header_size <= end && !leads_to_end(from)) from = next_mark(from + 1, end);
+  return from + header_size <= end;
 }
 
 std::size_t Framing::next_message(std::size_t at, const Definitions& known) const {
-  while (at < log_.size()) {
-    const void* const found =
-        std::memchr(log_.data() + at, std::to_integer<int>(mark_first), log_.size() - at);
-    if (found == nullptr) break;
-    at = static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
-    if (message_at(at, known) != 0) return at;
-    ++at;
-  }
-  return log_.size();
+  at = next_mark(at, log_.size());
+  while (at < log_.size() && message_at(at, known) == 0) at = next_mark(at + 1, log_.size());
+  return at;
 }
 
 SkippedBytes Framing::skipped(std::size_t from, std::size_t to) const {

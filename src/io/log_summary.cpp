@@ -162,15 +162,8 @@ std::optional<LogSummary::Flying> flying_by_speed(std::span<const std::byte> con
 /// What the summary of a message needs of its format.
 struct FieldsInUse {
   std::optional<DataFlashTime> time;
-  std::optional<DataFlashField> event;
+  const DataFlashField* event = nullptr;
 };
-
-FieldsInUse fields_in_use(const DataFlashFormat& format) {
-  FieldsInUse fields{time_of(format), std::nullopt};
-  const DataFlashField* const id = format.name == "EV" ? format.find("Id") : nullptr;
-  if (id != nullptr && id->is_number()) fields.event = *id;
-  return fields;
-}
 
 std::vector<LogSummary::Message> message_table(const DataFlashContents& contents,
                                                const Clock& clock) {
@@ -201,28 +194,29 @@ std::vector<LogSummary::Message> message_table(const DataFlashContents& contents
 }  // namespace
 
 LogSummary summarize_log(std::span<const std::byte> log) {
-  DataFlashContents contents = scan_dataflash(log);
+  const DataFlashContents contents = scan_dataflash(log);
   LogSummary summary;
+  static_cast<DataFlashTotals&>(summary) = contents;
   Clock clock;
   FlyingByEvents events;
   std::map<const DataFlashFormat*, FieldsInUse> fields_of;
   for_each_message(log, [&](const DataFlashFormat& format, const std::byte* message) {
     const auto [entry, is_new] = fields_of.try_emplace(&format);
-    if (is_new) entry->second = fields_in_use(format);
-    const FieldsInUse& fields = entry->second;
+    FieldsInUse& fields = entry->second;
+    if (is_new) {
+      fields = {time_of(format), format.name == "EV" ? format.find_number("Id") : nullptr};
+    }
     if (fields.time) {
       clock.take(format.name,
                  field_value(message, fields.time->field) / fields.time->counts_per_second);
     }
-    if (fields.event && clock.started()) {
+    if (fields.event != nullptr && clock.started()) {
       events.take(field_value(message, *fields.event), clock.now(), *clock.first);
     }
     if (summary.firmware.empty()) summary.firmware = message_words(format, message);
   });
   clock.finish();
 
-  summary.bytes = contents.bytes;
-  summary.messages = contents.messages;
   summary.types = message_table(contents, clock);
   summary.first_time = clock.first;
   summary.last_time = clock.last;
@@ -231,10 +225,6 @@ LogSummary summarize_log(std::span<const std::byte> log) {
   summary.implausible_times = clock.disbelieved;
   if (clock.last) summary.flying = events.finish(*clock.last);
   if (!summary.flying) summary.flying = flying_by_speed(log);
-  summary.skipped_bytes = contents.skipped_bytes;
-  summary.skipped_messages = contents.skipped_messages;
-  summary.skipped = std::move(contents.skipped);
-  summary.rejected_definitions = std::move(contents.rejected_definitions);
   return summary;
 }
 
