@@ -42,13 +42,9 @@ std::string_view without_blanks(std::string_view cell) {
 
 /// The cells of one line, blanks around each removed.
 std::vector<std::string_view> split_csv_line(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(without_blanks(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
+  std::vector<std::string_view> cells = split(line, ',');
+  for (std::string_view& cell : cells) cell = without_blanks(cell);
+  return cells;
 }
 
 /// Takes the next line, without its end, off the front of `text`.

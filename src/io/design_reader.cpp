@@ -166,13 +166,13 @@ class SpecReader {
       taken = std::move(*entry);
     };
     if (field.kind == FieldKind::motor) {
-      take(read_motor(place, result_.load, problems_), result_.motor);
+      take(entry_at<MotorEntry>(place, result_.load, problems_), result_.motor);
       result_.warnings.insert(result_.warnings.end(), result_.motor.warnings.begin(),
                               result_.motor.warnings.end());
     } else if (field.kind == FieldKind::conductor) {
-      take(read_conductor(place, result_.load, problems_), result_.conductor);
+      take(entry_at<ConductorEntry>(place, result_.load, problems_), result_.conductor);
     } else if (field.kind == FieldKind::insulation_material) {
-      take(read_insulation(place, result_.load, problems_), result_.insulation);
+      take(entry_at<InsulationEntry>(place, result_.load, problems_), result_.insulation);
     }
   }
 
