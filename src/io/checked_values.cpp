@@ -14,15 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view last_key(std::string_view pointer) {
-  return pointer.substr(pointer.rfind('/') + 1);
-}
-
-bool is_below(std::string_view pointer, std::string_view group) {
-  return pointer.size() > group.size() && pointer.starts_with(group) &&
-         pointer[group.size()] == '/';
-}
-
 /// Walks an object and the groups in it.
 class FieldFinder {
  public:

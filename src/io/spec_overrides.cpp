@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool is_at_or_below(std::string_view pointer, std::string_view top) {
-  return pointer.starts_with(top) && (pointer.size() == top.size() || pointer[top.size()] == '/');
+  return pointer == top || is_below(pointer, top);
 }
 
 std::string pointer_of(std::string_view dotted) {
