@@ -194,8 +194,6 @@ Samples read_samples(std::span<const std::byte> content, const EstimatorMessage&
 }
 
 void note_damage(FlightLogReading& reading, const DataFlashContents& contents) {
-  reading.skipped_bytes = contents.skipped_bytes;
-  reading.skipped_messages = contents.skipped_messages;
   if (contents.skipped_bytes > 0) {
     reading.notes.push_back(
         fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",

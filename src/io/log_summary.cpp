@@ -34,7 +34,7 @@ struct TimesOfMessage {
 class Clock {
  public:
   void take(const std::string& message, double time) {
-    if (std::abs(time - now_) <= believed_step && started_) {
+    if (first && std::abs(time - now_) <= believed_step) {
       disbelieve_waiting();
       believe(message, time);
     } else if (waiting_ && std::abs(time - waiting_->second) <= believed_step) {
@@ -48,7 +48,7 @@ class Clock {
   }
 
   void finish() {
-    if (!started_ && waiting_) {
+    if (!first && waiting_) {
       believe(waiting_->first, waiting_->second);
       waiting_.reset();
     }
@@ -56,7 +56,6 @@ class Clock {
   }
 
   [[nodiscard]] double now() const { return now_; }
-  [[nodiscard]] bool started() const { return started_; }
 
   std::map<std::string, TimesOfMessage, std::less<>> times;
   std::optional<double> first;
@@ -72,20 +71,17 @@ class Clock {
   }
 
   void believe(const std::string& message, double time) {
-    if (started_ && time - now_ > shortest_gap) {
+    if (first && time - now_ > shortest_gap) {
       ++gap_count;
       if (gaps.size() < most_gaps_told) gaps.push_back({now_, time - now_});
     }
     // Messages are written a little out of order; only a restart sets the clock back.
-    now_ = !started_ || now_ - time > believed_step ? time : std::max(now_, time);
-    started_ = true;
+    now_ = !first || now_ - time > believed_step ? time : std::max(now_, time);
     first = first ? std::min(*first, time) : time;
     last = last ? std::max(*last, time) : time;
 
-    TimesOfMessage& own = times[message];
-    if (own.count == 0) {
-      own.first = own.last = own.latest_seen = time;
-    }
+    TimesOfMessage& own =
+        times.try_emplace(message, TimesOfMessage{0, time, time, time, 0}).first->second;
     ++own.count;
     own.first = std::min(own.first, time);
     own.last = std::max(own.last, time);
@@ -94,7 +90,6 @@ class Clock {
   }
 
   double now_ = 0;
-  bool started_ = false;
   std::optional<std::pair<std::string, double>> waiting_;
 };
 
@@ -169,9 +164,7 @@ std::vector<LogSummary::Message> message_table(const DataFlashContents& contents
                                                const Clock& clock) {
   std::map<std::string, LogSummary::Message> by_name;
   for (const auto& type : contents.types) {
-    if (type.count == 0) continue;
-    LogSummary::Message& message = by_name[type.format.name];
-    message.count += type.count;
+    if (type.count > 0) by_name[type.format.name].count += type.count;
   }
   std::vector<LogSummary::Message> table;
   for (auto& [name, message] : by_name) {
@@ -210,7 +203,7 @@ LogSummary summarize_log(std::span<const std::byte> log) {
       clock.take(format.name,
                  field_value(message, fields.time->field) / fields.time->counts_per_second);
     }
-    if (fields.event != nullptr && clock.started()) {
+    if (fields.event != nullptr && clock.first) {
       events.take(field_value(message, *fields.event), clock.now(), *clock.first);
     }
     if (summary.firmware.empty()) summary.firmware = message_words(format, message);
