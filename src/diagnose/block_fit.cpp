@@ -227,6 +227,17 @@ MatrixXd steps_without_blocks(const BlockFit& fit, const Record& record) {
 
 }  // namespace
 
+Groups with_group(Groups groups, std::size_t group) {
+  groups.push_back(group);
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
+Groups without_group(Groups groups, std::size_t group) {
+  std::erase(groups, group);
+  return groups;
+}
+
 Record::Record(const SelectionProblem& problem)
     : problem_(problem), predicted_(problem.measured.size()) {
   const std::size_t size = problem.measured.size();
@@ -331,9 +342,7 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
   std::vector<double> start;
   for (const ModelParameter& p : record.parameters()) start.push_back(p.neutral);
   for (const std::size_t g : freed.groups) {
-    const bool known =
-        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
-                               near->freed.groups.end();
+    const bool known = near != nullptr && contains(near->freed.groups, g);
     for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
       const std::size_t index = record.first_parameter(g) + k;
       start[index] = known ? near->values[index] : record.parameters()[index].start;

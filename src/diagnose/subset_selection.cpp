@@ -13,6 +13,7 @@
 #include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
 #include "identify/distributions.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Groups = std::vector<std::size_t>;
 
 /// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
 /// likelihood.
@@ -72,9 +72,7 @@ class PartSearch {
   }
 
   /// Leaves a name of the best model out.
-  void take_back(std::size_t g) {
-    best_ = model(without(best_.named, g), best_.shapes, &best_.fit);
-  }
+  void take_back(std::size_t g) { best_ = best_without(g); }
 
   [[nodiscard]] const Record& record() const { return record_; }
   [[nodiscard]] const Model& base() const { return base_; }
@@ -89,11 +87,11 @@ class PartSearch {
     while (so_far.size() < best_.named.size()) {
       std::optional<std::pair<std::size_t, BlockFit>> next;
       for (const std::size_t g : best_.named) {
-        if (std::binary_search(so_far.begin(), so_far.end(), g)) continue;
-        BlockFit fit = model(with(so_far, g), {}, near).fit;
+        if (contains(so_far, g)) continue;
+        BlockFit fit = model(with_group(so_far, g), {}, near).fit;
         if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
       }
-      so_far = with(so_far, next->first);
+      so_far = with_group(so_far, next->first);
       order.push_back(std::move(*next));
     }
     return order;
@@ -105,13 +103,13 @@ class PartSearch {
   }
 
   [[nodiscard]] Groups rivals(std::size_t g) const {
-    const Groups rest = without(best_.named, g);
-    const double alone = model(rest, best_.shapes, &best_.fit).fit.squared_error();
+    const Groups rest = without_group(best_.named, g);
+    const double alone = best_without(g).fit.squared_error();
     const double earned = alone - best_.fit.squared_error();
     std::vector<std::pair<double, std::size_t>> found;
     for (const std::size_t c : candidates_) {
-      if (std::binary_search(best_.named.begin(), best_.named.end(), c)) continue;
-      const Model rival = model(with(rest, c), best_.shapes, &best_.fit);
+      if (contains(best_.named, c)) continue;
+      const Model rival = model(with_group(rest, c), best_.shapes, &best_.fit);
       if (rival.length - best_.length <= rival_excess &&
           alone - rival.fit.squared_error() >= rival_gain * earned) {
         found.emplace_back(rival.length, c);
@@ -120,20 +118,12 @@ class PartSearch {
     return nearest_rivals(std::move(found));
   }
 
-  [[nodiscard]] double length_without(std::size_t g) const {
-    return model(without(best_.named, g), best_.shapes, &best_.fit).fit.squared_error();
+  /// The best model, but for one of its names.
+  [[nodiscard]] Model best_without(std::size_t g) const {
+    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
   }
 
  private:
-  static Groups with(Groups named, std::size_t g) {
-    named.insert(std::upper_bound(named.begin(), named.end(), g), g);
-    return named;
-  }
-  static Groups without(Groups named, std::size_t g) {
-    std::erase(named, g);
-    return named;
-  }
-
   [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
     Freed freed;
     freed.groups = fitted_;
@@ -163,8 +153,8 @@ class PartSearch {
       std::map<Groups, Model> next;
       for (const Model& parent : level) {
         for (const std::size_t g : candidates_) {
-          if (std::binary_search(parent.named.begin(), parent.named.end(), g)) continue;
-          const Groups named = with(parent.named, g);
+          if (contains(parent.named, g)) continue;
+          const Groups named = with_group(parent.named, g);
           if (next.contains(named)) continue;
           if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
           next.emplace(named, model(named, {}, &parent.fit));
@@ -191,7 +181,8 @@ class PartSearch {
     if (named.named.empty()) return;
     if (named.named.size() > 1) {
       for (const std::size_t g : named.named) {
-        consider(with_shapes(model(without(named.named, g), {}, &named.fit)), name_preference);
+        consider(with_shapes(model(without_group(named.named, g), {}, &named.fit)),
+                 name_preference);
       }
     }
     consider(with_shapes(base_), name_preference);
@@ -219,19 +210,21 @@ class PartSearch {
       changed = false;
       const Model now = best_;
       for (const std::size_t g : candidates_) {
-        const bool in = std::binary_search(now.named.begin(), now.named.end(), g);
+        const bool in = contains(now.named, g);
         if (!in && now.named.size() >= options_.most_findings) continue;
-        consider(model(in ? without(now.named, g) : with(now.named, g), now.shapes, &now.fit));
+        const Groups named = in ? without_group(now.named, g) : with_group(now.named, g);
+        consider(model(named, now.shapes, &now.fit));
       }
-      for (const std::size_t u : now.shapes)
-        consider(model(now.named, without(now.shapes, u), &now.fit));
+      for (const std::size_t u : now.shapes) {
+        consider(model(now.named, without_group(now.shapes, u), &now.fit));
+      }
       changed = best_.length < now.length - 1e-9;
     }
   }
 
   void find_aliased(const Model& model, bool beside_findings) {
     for (const std::size_t g : candidates_) {
-      if (is_aliased(g) || std::binary_search(model.named.begin(), model.named.end(), g)) continue;
+      if (is_aliased(g) || contains(model.named, g)) continue;
       auto aliased = aliased_in(record_, model.fit, g);
       if (aliased && !(aliased->with.empty() && beside_findings)) {
         aliased_.push_back(std::move(*aliased));
@@ -257,9 +250,11 @@ class PartSearch {
   std::vector<Selection::Aliased> aliased_;
 };
 
-/// Standard errors from the curvature of the likelihood, by parameter. Unlike the jackknife of the
-/// fit, they count what a parameter that rests on a bound leaves open in the others.
-std::map<std::size_t, double> likelihood_errors(const Record& record, const BlockFit& fit) {
+/// Writes a part's fit into that of all, with standard errors from the curvature of the likelihood.
+/// Unlike the jackknife of the fit, they count what a parameter that rests on a bound leaves open
+/// in the others.
+void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
+               ModelFit& all) {
   std::vector<std::size_t> parameters;
   MatrixXd jacobian(record.rows(), 0);
   for (const std::size_t g : fit.freed.groups) {
@@ -275,20 +270,12 @@ std::map<std::size_t, double> likelihood_errors(const Record& record, const Bloc
   jacobian.conservativeResize(Eigen::NoChange, named + shapes);
   jacobian.rightCols(shapes) = fit.jacobian.rightCols(shapes);
 
-  std::map<std::size_t, double> errors;
-  if (named == 0) return errors;
-  const MatrixXd covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+  MatrixXd covariance;
+  if (named > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
   for (Index k = 0; k < named; ++k) {
     const std::size_t index = parameters[static_cast<std::size_t>(k)];
-    errors[index] = record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
-  }
-  return errors;
-}
-
-void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
-               ModelFit& all) {
-  for (const auto& [index, error] : likelihood_errors(record, fit)) {
-    all.standard_error[index] = error;
+    all.standard_error[index] =
+        record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
   }
   add_fit(record, fit, block_ids, {}, all);
 }
@@ -393,9 +380,9 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
   for (Named& n : worth_a_name(searched, base_error, rows, options.least_gain_percent)) {
     const PartSearch& search = *n.part->search;
     n.entry.indistinguishable = search.rivals(n.entry.group);
-    n.entry.p_value =
-        chi_squared_tail(search.length_without(n.entry.group) - search.best().fit.squared_error(),
-                         static_cast<double>(problem.groups[n.entry.group].parameters.size()));
+    n.entry.p_value = chi_squared_tail(
+        search.best_without(n.entry.group).fit.squared_error() - search.best().fit.squared_error(),
+        static_cast<double>(problem.groups[n.entry.group].parameters.size()));
     result.selected.push_back(std::move(n.entry));
   }
 
