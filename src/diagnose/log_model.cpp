@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -179,12 +180,6 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
   problem.groups.push_back(std::move(group));
 }
 
-std::size_t LogModel::first_parameter(std::string_view id) const {
-  const auto found = std::find_if(effects_.begin(), effects_.end(),
-                                  [id](const Effect* effect) { return effect->id == id; });
-  return first_[static_cast<std::size_t>(found - effects_.begin())];
-}
-
 std::optional<std::size_t> LogModel::index_of(std::string_view parameter) const {
   for (std::size_t g = 0; g < effects_.size(); ++g) {
     for (std::size_t k = 0; k < effects_[g]->parameters.size(); ++k) {
@@ -208,7 +203,7 @@ void check_base_effects(LogKind kind, std::span<const std::string> ids) {
     if (effect.log == kind) known.push_back(effect.id);
   }
   for (const std::string& id : ids) {
-    if (std::find(known.begin(), known.end(), id) == known.end()) unknown.push_back(id);
+    if (!contains(known, id)) unknown.push_back(id);
   }
   if (unknown.empty()) return;
   throw std::invalid_argument(fmt::format("no effect of a {} is called {}; there are {}",

@@ -219,25 +219,22 @@ void set_noise(std::vector<double> noise, double parameters, PowerStage& stage) 
 
 PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened)
     : screened_(std::move(screened)) {
-  if (!base.design.tether.cross_section) {
-    throw std::invalid_argument("a power log needs the cross-section of the cable that flew");
-  }
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
   if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
-    bus_power_.resize(n);
-    log_bus_power_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      bus_power_[i] = log.bus_voltage[i] * log.bus_current[i];
-      log_bus_power_[i] = std::log(std::max(bus_power_[i], 1e-3));
-    }
+    bus_power_ = product(log.bus_voltage, log.bus_current);
+    for (const double power : bus_power_) log_bus_power_.push_back(std::log(std::max(power, 1e-3)));
   }
 
   screened_.log.height = steadied(log.height);
 
-  const auto add = [&](PowerStage s, const std::vector<char>& usable) {
-    if (usable.empty()) return;
-    s.usable = usable;
+  for (PowerStage s :
+       {PowerStage{Stage::tether, "voltage lost in the tether", "V", "tether resistance", "ohm"},
+        {Stage::converter, "power at the converter's input", "W", "converter input power", "W"},
+        {Stage::motors, "power at the motors' bus", "%", "motor power", "%"}}) {
+    const auto usable = screened_.usable.find(s.stage);
+    if (usable == screened_.usable.end()) continue;
+    s.usable = usable->second;
     if (s.stage == Stage::motors) {
       const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
       s.samples_per_row = std::max<std::size_t>(
@@ -247,13 +244,7 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
     s.rows = n / s.samples_per_row;
     rows_ += s.rows;
     stages_.push_back(std::move(s));
-  };
-  add({Stage::tether, "voltage lost in the tether", "V", "tether resistance", "ohm"},
-      screened_.tether_usable);
-  add({Stage::converter, "power at the converter's input", "W", "converter input power", "W"},
-      screened_.converter_usable);
-  add({Stage::motors, "power at the motors' bus", "%", "motor power", "%"},
-      screened_.motors_usable);
+  }
   for (std::size_t k = 0; k < stages_.size(); ++k) estimate_noise(base, stages_[k], k);
 }
 
@@ -263,8 +254,7 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
   if (stage.stage == Stage::converter) {
     // Input and output share the true power and have noise of their own, so the covariance of their
     // fast changes holds the former and what exceeds it the latter.
-    std::vector<double> input(n);
-    for (std::size_t i = 0; i < n; ++i) input[i] = log.drone_voltage[i] * log.supply_current[i];
+    const std::vector<double> input = product(log.drone_voltage, log.supply_current);
     double in = 0, out = 0, both = 0, slope = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < n; ++i) {
