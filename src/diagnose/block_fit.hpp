@@ -82,13 +82,9 @@ struct BlockFit {
   }
 };
 
-/// Levenberg–Marquardt on Huber's loss from `start` (all parameters; those not freed must be
-/// neutral), then one Gauss–Newton step a block for the fits without it.
-[[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed,
-                                  std::vector<double> start);
-
-/// The same, started from the values of `near` for what is free in both, elsewhere from the
-/// parameters' own first values.
+/// Levenberg–Marquardt on Huber's loss, then one Gauss–Newton step a block for the fits without it.
+/// Starts from the values of `near`, which may be null, for what is free in both, elsewhere from
+/// the parameters' own first values.
 [[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near);
 
 /// Slopes of the prediction by the parameters of `group` over their scales, at `values`.

@@ -83,7 +83,7 @@ std::vector<ParameterEstimate> parameters(const LogModel& log, const Selection& 
   std::vector<ParameterEstimate> result;
   for (std::size_t g = 0; g < log.effects().size(); ++g) {
     const std::size_t first = log.first_parameter(g);
-    bool freed = log.problem.groups[g].role == ParameterGroup::Role::fitted;
+    bool freed = log.problem.groups[g].fitted;
     for (std::size_t k = 0; k < log.effect(g).parameters.size(); ++k) {
       freed = freed || fit.standard_error[first + k] > 0 ||
               fit.values[first + k] != log.problem.groups[g].parameters[k].neutral;
@@ -167,7 +167,7 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
   first_.push_back(effects_.empty() ? 0 : first_.back() + effects_.back()->parameters.size());
   ParameterGroup group;
   group.id = effect.id.empty() ? effect.title : effect.id;
-  group.role = fitted ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
+  group.fitted = fitted;
   for (const EffectParameter& p : effect.parameters) {
     group.parameters.push_back(in_SI(p, design));
     group.parameters.back().shape_only = group.parameters.size() > effect.sizes;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "diagnose/least_squares.hpp"
+#include "diagnose/unnamed_structure.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
@@ -68,28 +69,25 @@ Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
   constexpr int waves = 6;
   const auto n = static_cast<Eigen::Index>(log.time.size());
   std::vector<Eigen::VectorXd> columns;
-  const auto values = [n](const std::vector<double>& x) {
-    return Eigen::Map<const Eigen::ArrayXd>(x.data(), n);
-  };
-  const Eigen::ArrayXd height = values(log.height) / 10;
-  const Eigen::ArrayXd speed = values(log.airspeed) / 5;
-  const Eigen::ArrayXd elapsed = values(log.time) - log.time.front();
-  for (const Eigen::ArrayXd& x : std::initializer_list<Eigen::ArrayXd>{
-           Eigen::ArrayXd::Ones(n), height, height.square(), speed, speed.square(), speed.cube(),
-           height * speed, height * speed.square()}) {
+  const Series height = as_series(log.height) / 10;
+  const Series speed = as_series(log.airspeed) / 5;
+  const Series elapsed = as_series(log.time) - log.time.front();
+  for (const Series& x : std::initializer_list<Series>{Series::Ones(n), height, height.square(),
+                                                       speed, speed.square(), speed.cube(),
+                                                       height * speed, height * speed.square()}) {
     columns.emplace_back(x.matrix());
   }
   for (int k = 1; k <= waves; ++k) {
-    const Eigen::ArrayXd wave = (std::numbers::pi * k * elapsed / elapsed[n - 1]).cos();
+    const Series wave = (std::numbers::pi * k * elapsed / elapsed[n - 1]).cos();
     columns.emplace_back(wave.matrix());
     if (stage == Stage::tether) columns.emplace_back((wave * height).matrix());
   }
   if (stage == Stage::tether) {
-    for (Eigen::VectorXd& column : columns) column.array() *= values(log.supply_current);
+    for (Eigen::VectorXd& column : columns) column.array() *= as_series(log.supply_current);
   }
   if (stage == Stage::converter) {
-    columns.emplace_back((values(bus_power) / 300).matrix());
-    columns.emplace_back((values(bus_power) / 300).square().matrix());
+    columns.emplace_back((as_series(bus_power) / 300).matrix());
+    columns.emplace_back((as_series(bus_power) / 300).square().matrix());
   }
   Eigen::MatrixXd shapes(n, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {

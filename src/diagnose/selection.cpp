@@ -128,7 +128,7 @@ class Search {
                              const BlockFit* near) const {
     Freed freed{{}, shapes};
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      const bool wanted = group(g).role == ParameterGroup::Role::fitted || contains(selected, g);
+      const bool wanted = group(g).fitted || contains(selected, g);
       if (wanted && !is_replaced(g, selected)) freed.groups.push_back(g);
     }
     return fit_blocks(record_, freed, near);
@@ -222,8 +222,7 @@ class Search {
 
   /// Whether the group may be freed beside the selected ones.
   [[nodiscard]] bool is_open(std::size_t g) const {
-    return group(g).role == ParameterGroup::Role::candidate && !contains(selected_, g) &&
-           !aliased_.contains(g);
+    return !group(g).fitted && !contains(selected_, g) && !aliased_.contains(g);
   }
 
   [[nodiscard]] Groups candidates() const {

@@ -49,8 +49,7 @@ class PartSearch {
              const SelectionOptions& options, const SelectionProgress& progress)
       : problem_(part_problem), record_(part_problem), options_(options), progress_(progress) {
     for (const std::size_t g : groups) {
-      (problem_.groups[g].role == ParameterGroup::Role::fitted ? fitted_ : candidates_)
-          .push_back(g);
+      (problem_.groups[g].fitted ? fitted_ : candidates_).push_back(g);
     }
     const double alpha = options.false_alarm_probability;
     const auto price = [alpha](std::size_t choices) {

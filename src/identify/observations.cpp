@@ -45,26 +45,21 @@ double forward_speed(const FlightLog& log, std::size_t i) {
   return std::cos(log.yaw[i]) * log.north_velocity[i] + std::sin(log.yaw[i]) * log.east_velocity[i];
 }
 
-/// Derivative at the middle of three points, exact for a parabola.
-double central_difference(double t0, double t1, double t2, double x0, double x1, double x2) {
-  const double before = t1 - t0;
-  const double after = t2 - t1;
-  return ((x1 - x0) / before * after + (x2 - x1) / after * before) / (before + after);
-}
-
 /// Which neighbours of a sample may be used for its derivative.
 struct Neighbours {
   bool before = false;
   bool after = false;
 };
 
+/// One-sided, or at the middle of three points exact for a parabola.
 double derivative(const std::vector<double>& time, const std::vector<double>& x, std::size_t i,
                   Neighbours use) {
-  if (use.before && use.after) {
-    return central_difference(time[i - 1], time[i], time[i + 1], x[i - 1], x[i], x[i + 1]);
-  }
-  const std::size_t a = use.before ? i - 1 : i;
-  return (x[a + 1] - x[a]) / (time[a + 1] - time[a]);
+  const auto step = [&time](std::size_t k) { return time[k + 1] - time[k]; };
+  const auto slope = [&](std::size_t k) { return (x[k + 1] - x[k]) / step(k); };
+  if (!use.before || !use.after) return slope(use.before ? i - 1 : i);
+  const double before = step(i - 1);
+  const double after = step(i);
+  return (slope(i - 1) * after + slope(i) * before) / (before + after);
 }
 
 void demand_carrying_thrust(double time, double tilt, double roll) {
