@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "identify/series.hpp"
 
@@ -40,9 +41,8 @@ std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
 }
 
 bool constant(const std::vector<double>& series, const SampleRange& range) {
-  const auto begin = series.begin() + static_cast<std::ptrdiff_t>(range.first);
-  const auto end = series.begin() + static_cast<std::ptrdiff_t>(range.last);
-  return std::all_of(begin, end, [begin](double value) { return value == *begin; });
+  const auto part = std::span(series).subspan(range.first, range.size());
+  return std::all_of(part.begin(), part.end(), [part](double value) { return value == part[0]; });
 }
 
 /// Seconds for which the series repeats itself for `stuck_after` or longer at a time.

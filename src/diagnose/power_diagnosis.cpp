@@ -247,8 +247,8 @@ std::vector<SelectionPart> parts_of(const PowerResiduals& residuals, const LogMo
   SelectionPart line{std::vector<char>(residuals.rows(), 0), {}};
   for (const PowerStage& stage : residuals.stages()) {
     SelectionPart& part = stage.stage == Stage::motors ? motors : line;
-    const auto first = part.rows.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
-    std::fill(first, first + static_cast<std::ptrdiff_t>(stage.rows), char{1});
+    const auto rows = std::span(part.rows).subspan(stage.first_row, stage.rows);
+    std::fill(rows.begin(), rows.end(), char{1});
   }
   for (std::size_t g = 0; g < view.effects().size(); ++g) {
     (acts_on(view.effect(g), Stage::motors) ? motors : line).groups.push_back(g);
@@ -287,12 +287,8 @@ bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
     const PowerStage& stage = residuals.stages()[k];
     if (stage.stage != Stage::motors) continue;
     for (const std::size_t u : selection.unnamed.regressors) {
-      const auto first =
-          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
-      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
-                      [](double x) { return x != 0; })) {
-        return false;
-      }
+      const auto rows = std::span(problem.unnamed[u].column).subspan(stage.first_row, stage.rows);
+      if (std::any_of(rows.begin(), rows.end(), [](double x) { return x != 0; })) return false;
     }
     residuals.refine_noise(k, found);
     return true;

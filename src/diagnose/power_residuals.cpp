@@ -166,11 +166,10 @@ constexpr double motor_averaging = 8;  // s
 void set_usable_rows(PowerStage& stage) {
   stage.usable_rows.assign(stage.rows, 0);
   for (std::size_t row = 0; row < stage.rows; ++row) {
-    const auto first =
-        stage.usable.begin() + static_cast<std::ptrdiff_t>(row * stage.samples_per_row);
-    const auto usable = static_cast<std::size_t>(
-        std::count(first, first + static_cast<std::ptrdiff_t>(stage.samples_per_row), char{1}));
-    stage.usable_rows[row] = 2 * usable >= stage.samples_per_row;
+    const auto samples =
+        std::span(stage.usable).subspan(row * stage.samples_per_row, stage.samples_per_row);
+    const auto usable = std::count(samples.begin(), samples.end(), char{1});
+    stage.usable_rows[row] = 2 * static_cast<std::size_t>(usable) >= stage.samples_per_row;
   }
 }
 
@@ -256,8 +255,8 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
     double in = 0, out = 0, both = 0, slope = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < n; ++i) {
-      const auto first = stage.usable.begin() + static_cast<std::ptrdiff_t>(i);
-      if (!std::all_of(first, first + 4, [](char ok) { return ok; })) continue;
+      const auto four = std::span(stage.usable).subspan(i, 4);
+      if (std::count(four.begin(), four.end(), char{1}) < 4) continue;
       const double a = third_difference(input, i);
       const double b = third_difference(bus_power_, i);
       in += a * a;

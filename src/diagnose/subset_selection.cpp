@@ -42,13 +42,38 @@ struct Model {
   double length = 0;  ///< description length, in units of squared noise
 };
 
+/// `whole` with the rows of one part and the shapes that concern them, whose indices in `whole` go
+/// to `shapes`.
+SelectionProblem problem_of_rows(const SelectionProblem& whole, const std::vector<char>& rows,
+                                 Groups& shapes) {
+  SelectionProblem part = whole;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i]) part.block[i] = -1;
+  }
+  part.unnamed.clear();
+  for (std::size_t u = 0; u < whole.unnamed.size(); ++u) {
+    const std::vector<double>& column = whole.unnamed[u].column;
+    bool concerns = true;
+    for (std::size_t i = 0; i < column.size(); ++i) concerns &= column[i] == 0 || rows[i];
+    if (!concerns) continue;
+    shapes.push_back(u);
+    part.unnamed.push_back(whole.unnamed[u]);
+  }
+  return part;
+}
+
 /// The search in one part.
 class PartSearch {
  public:
-  PartSearch(const SelectionProblem& part_problem, const Groups& groups,
+  PartSearch(const SelectionProblem& whole, const SelectionPart& part,
              const SelectionOptions& options, const SelectionProgress& progress)
-      : problem_(part_problem), record_(part_problem), options_(options), progress_(progress) {
-    for (const std::size_t g : groups) {
+      : problem_(problem_of_rows(whole, part.rows, shape_index_)),
+        record_(problem_),
+        options_(options),
+        progress_(progress) {
+    const std::set<int> blocks(problem_.block.begin(), problem_.block.end());
+    block_ids_.assign(blocks.upper_bound(-1), blocks.end());
+    for (const std::size_t g : part.groups) {
       (problem_.groups[g].fitted ? fitted_ : candidates_).push_back(g);
     }
     const double alpha = options.false_alarm_probability;
@@ -73,7 +98,14 @@ class PartSearch {
   /// Leaves a name of the best model out.
   void take_back(std::size_t g) { best_ = best_without(g); }
 
+  PartSearch(const PartSearch&) = delete;  // the record refers to the problem
+  PartSearch& operator=(const PartSearch&) = delete;
+
   [[nodiscard]] const Record& record() const { return record_; }
+  /// Of the shapes of this part among those of the whole.
+  [[nodiscard]] const Groups& shape_index() const { return shape_index_; }
+  /// Of the blocks of this part in the whole.
+  [[nodiscard]] const std::vector<int>& block_ids() const { return block_ids_; }
   [[nodiscard]] const Model& base() const { return base_; }
   [[nodiscard]] const Model& best() const { return best_; }
   [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
@@ -236,8 +268,10 @@ class PartSearch {
                        [g](const Selection::Aliased& a) { return a.group == g; });
   }
 
-  const SelectionProblem& problem_;
+  Groups shape_index_;
+  SelectionProblem problem_;
   Record record_;
+  std::vector<int> block_ids_;
   const SelectionOptions& options_;
   const SelectionProgress& progress_;
   Groups fitted_;
@@ -279,35 +313,9 @@ void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>
   add_fit(record, fit, block_ids, {}, all);
 }
 
-/// The rows of one part with what concerns them, and the search among them.
-struct Part {
-  SelectionProblem problem;
-  std::vector<std::size_t> shape_index;  ///< of its unnamed regressors among those of the whole
-  std::vector<int> block_ids;            ///< of the whole, in rising order
-  std::optional<PartSearch> search;
-
-  Part(const SelectionProblem& whole, const std::vector<char>& rows) : problem(whole) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!rows[i]) problem.block[i] = -1;
-    }
-    const std::set<int> distinct(problem.block.begin(), problem.block.end());
-    block_ids.assign(distinct.begin(), distinct.end());
-    std::erase(block_ids, -1);
-    problem.unnamed.clear();
-    for (std::size_t u = 0; u < whole.unnamed.size(); ++u) {
-      const std::vector<double>& column = whole.unnamed[u].column;
-      bool concerns = true;
-      for (std::size_t i = 0; i < column.size(); ++i) concerns &= column[i] == 0 || rows[i];
-      if (!concerns) continue;
-      shape_index.push_back(u);
-      problem.unnamed.push_back(whole.unnamed[u]);
-    }
-  }
-};
-
 /// A named effect of a part's best model and what it adds to the names before it there.
 struct Named {
-  Part* part = nullptr;
+  PartSearch* search = nullptr;
   SelectedGroup entry;
   VectorXd before, after;  ///< squared errors of the part's blocks
 
@@ -315,13 +323,13 @@ struct Named {
 };
 
 /// The names of all parts, those that gain most first, with their gains in all of the record.
-std::vector<Named> named_in(std::list<Part>& parts, double base_error, double rows) {
+std::vector<Named> named_in(std::list<PartSearch>& parts, double base_error, double rows) {
   std::vector<Named> named;
-  for (Part& part : parts) {
-    VectorXd before = part.search->base().fit.block_error;
-    for (const auto& [g, fit] : part.search->in_order()) {
+  for (PartSearch& part : parts) {
+    VectorXd before = part.base().fit.block_error;
+    for (const auto& [g, fit] : part.in_order()) {
       Named& n = named.emplace_back();
-      n.part = &part;
+      n.search = &part;
       n.entry.group = g;
       n.before = std::move(before);
       n.after = fit.block_error;
@@ -343,7 +351,7 @@ std::vector<Named> named_in(std::list<Part>& parts, double base_error, double ro
 }
 
 /// The same, without those that gain too little to be worth a name beside all others.
-std::vector<Named> worth_a_name(std::list<Part>& parts, double base_error, double rows,
+std::vector<Named> worth_a_name(std::list<PartSearch>& parts, double base_error, double rows,
                                 double least_gain) {
   while (true) {
     std::vector<Named> named = named_in(parts, base_error, rows);
@@ -351,7 +359,7 @@ std::vector<Named> worth_a_name(std::list<Part>& parts, double base_error, doubl
         named.begin(), named.end(),
         [](const Named& a, const Named& b) { return a.entry.gain_percent < b.entry.gain_percent; });
     if (weakest == named.end() || weakest->entry.gain_percent >= least_gain) return named;
-    weakest->part->search->take_back(weakest->entry.group);
+    weakest->search->take_back(weakest->entry.group);
   }
 }
 
@@ -364,11 +372,10 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
   result.base = result.extended = result.complete =
       neutral_fit(problem, static_cast<std::size_t>(std::max(blocks, 0)));
 
-  std::list<Part> searched;  // searches refer to their problems, which must stay where they are
+  std::list<PartSearch> searches;
   double base_error = 0;
   for (const SelectionPart& part : parts) {
-    Part& own = searched.emplace_back(problem, part.rows);
-    PartSearch& search = own.search.emplace(own.problem, part.groups, options, progress);
+    PartSearch& search = searches.emplace_back(problem, part, options, progress);
     search.run();
     result.rows += static_cast<std::size_t>(search.record().rows());
     result.blocks = std::max(result.blocks, search.record().blocks());
@@ -376,8 +383,8 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
     base_error += search.base().fit.squared_error();
   }
   const auto rows = static_cast<double>(result.rows);
-  for (Named& n : worth_a_name(searched, base_error, rows, options.least_gain_percent)) {
-    const PartSearch& search = *n.part->search;
+  for (Named& n : worth_a_name(searches, base_error, rows, options.least_gain_percent)) {
+    const PartSearch& search = *n.search;
     n.entry.indistinguishable = search.rivals(n.entry.group);
     n.entry.p_value = chi_squared_tail(
         search.best_without(n.entry.group).fit.squared_error() - search.best().fit.squared_error(),
@@ -387,17 +394,16 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
 
   double named_error = 0;
   double complete_error = 0;
-  for (const Part& part : searched) {
-    const PartSearch& search = *part.search;
+  for (const PartSearch& search : searches) {
     const Model& best = search.best();
     const BlockFit named = search.named_alone();
     named_error += named.squared_error();
     complete_error += best.fit.squared_error();
-    merge_fit(search.record(), search.base().fit, part.block_ids, result.base);
-    merge_fit(search.record(), named, part.block_ids, result.extended);
-    merge_fit(search.record(), best.fit, part.block_ids, result.complete);
+    merge_fit(search.record(), search.base().fit, search.block_ids(), result.base);
+    merge_fit(search.record(), named, search.block_ids(), result.extended);
+    merge_fit(search.record(), best.fit, search.block_ids(), result.complete);
     for (std::size_t k = 0; k < best.shapes.size(); ++k) {
-      result.unnamed.regressors.push_back(part.shape_index[best.shapes[k]]);
+      result.unnamed.regressors.push_back(search.shape_index()[best.shapes[k]]);
       result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
     }
   }
