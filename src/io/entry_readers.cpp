@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "tethercalc/io/spec_fields.hpp"
 
