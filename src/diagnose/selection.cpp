@@ -365,18 +365,16 @@ class Search {
   }
 
   void sum_up(const BlockFit& base, Selection& result) const {
-    for (const std::size_t g : selected_) {
-      SelectedGroup entry;
-      entry.group = g;
-      entry.p_value = p_value(g, fit(selected_without(g), &current_), current_);
-      entry.indistinguishable = rivals(g, current_);
-      result.selected.push_back(std::move(entry));
-    }
-    // The named part alone, one finding after the other.
     BlockFit before = base;
     Groups so_far;
-    for (SelectedGroup& entry : result.selected) {
-      so_far.push_back(entry.group);
+    for (const std::size_t g : selected_) {
+      SelectedGroup& entry = result.selected.emplace_back();
+      entry.group = g;
+      const BlockFit without = fit(selected_without(g), &current_);
+      entry.p_value = p_value(g, without, current_);
+      entry.indistinguishable = rivals(g, without);
+      // Gains are those of the named part alone, one finding after the other.
+      so_far.push_back(g);
       BlockFit after = fit(so_far, {}, &before);
       entry.rmse_before = before.rmse();
       entry.rmse_after = after.rmse();
@@ -401,14 +399,13 @@ class Search {
     result.unnamed.share_percent = 100 * std::max(0.0, share);
   }
 
-  [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& all) const {
-    const BlockFit without = fit(selected_without(g), &all);
-    const double earned = without.squared_error() - all.squared_error();
+  [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {
+    const double earned = without.squared_error() - current_.squared_error();
     std::vector<std::pair<double, std::size_t>> found;
     for (std::size_t c = 0; c < record_.problem().groups.size(); ++c) {
       if (!is_open(c) || group(c).replaces == g) continue;
-      const BlockFit rival = fit(with_group(selected_without(g), c), &all);
-      const BlockDifference excess = difference(rival.block_error, all.block_error);
+      const BlockFit rival = fit(with_group(selected_without(g), c), &current_);
+      const BlockDifference excess = difference(rival.block_error, current_.block_error);
       if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
           excess.sum <= student_factor_ * excess.se) {
         found.emplace_back(rival.squared_error(), c);

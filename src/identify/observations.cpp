@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <string_view>
 #include <utility>
 
 #include "identify/series.hpp"
@@ -25,21 +23,6 @@ constexpr double steepest_angle =
     75 * unit::degree;                      // cos is 1/4: expected acceleration amplifies errors
 constexpr double fastest_multirotor = 200;  // m/s: beyond every speed on record
 constexpr double lost_estimates = 0.01;     // of the samples
-
-struct NamedSeries {
-  std::string_view name;
-  const std::vector<double>& values;
-};
-
-std::array<NamedSeries, 7> named_series(const FlightLog& log) {
-  return {{{"time", log.time},
-           {"roll", log.roll},
-           {"pitch", log.pitch},
-           {"yaw", log.yaw},
-           {"north velocity", log.north_velocity},
-           {"east velocity", log.east_velocity},
-           {"down velocity", log.down_velocity}}};
-}
 
 double forward_speed(const FlightLog& log, std::size_t i) {
   return std::cos(log.yaw[i]) * log.north_velocity[i] + std::sin(log.yaw[i]) * log.east_velocity[i];
@@ -105,17 +88,21 @@ void validate(const FlightLog& log) {
         log.other_vehicle));
   }
   const std::size_t size = log.time.size();
-  for (const auto& [name, values] : named_series(log)) {
-    if (values.size() != size) {
+  for (const auto& [name, values] :
+       {std::pair{"time", &log.time}, std::pair{"roll", &log.roll}, std::pair{"pitch", &log.pitch},
+        std::pair{"yaw", &log.yaw}, std::pair{"north velocity", &log.north_velocity},
+        std::pair{"east velocity", &log.east_velocity},
+        std::pair{"down velocity", &log.down_velocity}}) {
+    if (values->size() != size) {
       throw UnsuitableFlight(fmt::format("the flight log has {} values of {} for {} times",
-                                         values.size(), name, size));
+                                         values->size(), name, size));
     }
-    const auto bad = std::find_if_not(values.begin(), values.end(),
+    const auto bad = std::find_if_not(values->begin(), values->end(),
                                       [](double value) { return std::isfinite(value); });
-    if (bad != values.end()) {
+    if (bad != values->end()) {
       throw UnsuitableFlight(
           fmt::format("sample {} of the flight log has a {} that is not a number",
-                      bad - values.begin() + 1, name));
+                      bad - values->begin() + 1, name));
     }
   }
   if (size < 3) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace tethercalc::dataflash {
 namespace {
@@ -90,14 +91,10 @@ constexpr std::array<std::byte, fmt_length> built_in_fmt = make_definition_of_fm
 const std::byte* definition_of_fmt() { return built_in_fmt.data(); }
 
 std::size_t size_of_kind(char kind) {
-  struct Kinds {
-    std::string_view of_size;
-    std::size_t bytes;
-  };
-  static constexpr Kinds all[] = {{"bBM", 1}, {"hHcCg", 2}, {"iIfLeEn", 4},
-                                  {"qQd", 8}, {"N", 16},    {"aZ", 64}};
-  for (const Kinds& kinds : all) {
-    if (kinds.of_size.find(kind) != std::string_view::npos) return kinds.bytes;
+  static constexpr std::pair<std::string_view, std::size_t> all[] = {
+      {"bBM", 1}, {"hHcCg", 2}, {"iIfLeEn", 4}, {"qQd", 8}, {"N", 16}, {"aZ", 64}};
+  for (const auto& [kinds, bytes] : all) {
+    if (kinds.find(kind) != std::string_view::npos) return bytes;
   }
   return 0;
 }

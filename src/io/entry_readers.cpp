@@ -293,6 +293,12 @@ std::vector<Entry> library_entries() {
   return entries;
 }
 
+template std::vector<MotorEntry> library_entries();
+template std::vector<ConductorEntry> library_entries();
+template std::vector<InsulationEntry> library_entries();
+template MotorEntry find_entry(const std::string&, const TextLoader&, const std::string&);
+template ConductorEntry find_entry(const std::string&, const TextLoader&, const std::string&);
+template InsulationEntry find_entry(const std::string&, const TextLoader&, const std::string&);
 template std::optional<MotorEntry> entry_at(const JsonPlace&, const TextLoader&, Problems&);
 template std::optional<ConductorEntry> entry_at(const JsonPlace&, const TextLoader&, Problems&);
 template std::optional<InsulationEntry> entry_at(const JsonPlace&, const TextLoader&, Problems&);

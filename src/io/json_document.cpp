@@ -49,17 +49,6 @@ class CountingIterator {
   std::size_t* consumed_ = nullptr;
 };
 
-struct Position {
-  std::size_t line = 1;
-  std::size_t column = 1;
-};
-
-Position position_at(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, offset);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  return {static_cast<std::size_t>(line), offset - before.rfind('\n')};  // of none, −1
-}
-
 /// The line around `offset` with a caret below it.
 std::string excerpt_at(std::string_view text, std::size_t offset) {
   std::size_t begin = text.substr(0, offset).rfind('\n') + 1;
@@ -233,10 +222,11 @@ class Builder {
     if (in_string && consumed_ > fault.offset) fault.offset = consumed_ - 1;
     fault.offset = std::min(fault.offset, text_.size());
     if (skip_space(fault.offset) == text_.size()) fault.offset = end_of_content();
-    const Position position = position_at(text_, fault.offset);
-    failure_ = {
-        fmt::format("{}:{}", document_.name, position.line),
-        fmt::format("column {}: {}{}", position.column, text, excerpt_at(text_, fault.offset))};
+    const std::string_view before = text_.substr(0, fault.offset);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = fault.offset - (before.rfind('\n') + 1) + 1;
+    failure_ = {fmt::format("{}:{}", document_.name, line),
+                fmt::format("column {}: {}{}", column, text, excerpt_at(text_, fault.offset))};
   }
 
   [[nodiscard]] std::string reason(const Fault& fault, const std::string& what) const {

@@ -148,16 +148,13 @@ class AxisReader {
   }
 
   std::optional<SweepAxis> number_axis(const SpecField& field, std::string_view text) {
-    SweepAxis axis;
-    axis.name = dot_path(field.pointer);
-    axis.apply = [field](Design& design, double value) { set_field(design, field, value); };
     Values values = text.find('~') != text.npos    ? read_normal(field, text)
                     : text.find("..") != text.npos ? read_uniform(field, text)
                     : text.find(':') != text.npos  ? read_range(field, text)
                                                    : read_list(field, text);
     if (!values) return std::nullopt;
-    axis.values = std::move(*values);
-    return axis;
+    return SweepAxis{dot_path(field.pointer), std::move(*values),
+                     [field](Design& design, double value) { set_field(design, field, value); }};
   }
 
   Values read_list(const SpecField& field, std::string_view text) {
