@@ -132,10 +132,9 @@ Definitions::Change Definitions::take(const std::byte* message) {
     // Every log begins with the definition of FMT itself, so here one may begin behind another, and
     // its numbers may mean other messages.
     if (name_in(message) == "FMT" && format_in(message) == "BBnNZ") {
-      ++beginnings_;
       settled_.fill(false);
       settled_[fmt_type] = true;
-      return {};
+      return {Outcome::begun, type};
     }
     return {Outcome::rejected, type, "that number is FMT's own"};
   }

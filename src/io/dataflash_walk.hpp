@@ -70,7 +70,8 @@ class Definitions {
     return std::nullopt;
   }
 
-  enum class Outcome { unchanged, defined, rejected };
+  /// A log has begun anew where FMT defined itself.
+  enum class Outcome { unchanged, defined, rejected, begun };
   struct Change {
     Outcome outcome = Outcome::unchanged;
     std::uint8_t type = 0;
@@ -78,8 +79,6 @@ class Definitions {
   };
   /// Takes over what the FMT message starting at `message` defines.
   Change take(const std::byte* message);
-  /// How often a log began anew: at FMT's definition of itself.
-  [[nodiscard]] std::size_t beginnings() const { return beginnings_; }
 
  private:
   [[nodiscard]] std::optional<std::uint8_t> settled_type_called(std::uint32_t name) const;
@@ -88,8 +87,7 @@ class Definitions {
   std::array<std::uint8_t, 256> length_{};
   enum class TimeKind : std::uint8_t { none, microseconds, milliseconds };
   std::array<TimeKind, 256> time_{};
-  std::array<std::uint32_t, 256> name_{};  // its four characters, 0 where none is in force
-  std::size_t beginnings_ = 0;
+  std::array<std::uint32_t, 256> name_{};           // its four characters, 0 where none is in force
   std::array<const std::byte*, 256> definition_{};  // the FMT message in force, nullptr if none
   std::array<bool, 256> settled_{};                 // defined since the log began anew
 };
@@ -210,18 +208,21 @@ class Framing {
 /// The FMT message that defines FMT itself: what a reader knows before it has read anything.
 const std::byte* definition_of_fmt();
 
-/// Tells the visitor of a message, and of what it defines.
+/// Tells the visitor of a message, and of what it defines. True where a log begins with it.
 template <class Visitor>
-void tell(const std::byte* message, Definitions& known, Visitor& visitor) {
+bool tell(const std::byte* message, Definitions& known, Visitor& visitor) {
   const auto type = std::to_integer<std::uint8_t>(message[2]);
+  bool begun = false;
   if (type == fmt_type) {
     const Definitions::Change change = known.take(message);
+    begun = change.outcome == Definitions::Outcome::begun;
     if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
     if (change.outcome == Definitions::Outcome::rejected) {
       visitor.on_rejected(change.type, message, change.reason);
     }
   }
   visitor.on_message(type, message);
+  return begun;
 }
 
 /// Walks through the log. The visitor is told, beginning with the definition of FMT, in the log's
@@ -251,9 +252,7 @@ void walk(std::span<const std::byte> log, Visitor& visitor) {
       at = next;
       continue;
     }
-    const std::size_t beginnings = known.beginnings();
-    tell(log.data() + at, known, visitor);
-    if (known.beginnings() != beginnings) guard = TimeGuard();
+    if (tell(log.data() + at, known, visitor)) guard = TimeGuard();
     at += length;
   }
 }
