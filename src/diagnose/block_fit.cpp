@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "identify/series.hpp"
@@ -225,7 +224,32 @@ MatrixXd steps_without_blocks(const BlockFit& fit, const Record& record) {
   return steps;
 }
 
+/// The values of `near` for what is free in both, elsewhere the parameters' own first ones.
+std::vector<double> first_values(const Record& record, const Freed& freed, const BlockFit* near) {
+  std::vector<double> values;
+  for (const ModelParameter& p : record.parameters()) values.push_back(p.neutral);
+  for (const std::size_t g : freed.groups) {
+    const bool known = near != nullptr && contains(near->freed.groups, g);
+    for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
+      const std::size_t index = record.first_parameter(g) + k;
+      values[index] = known ? near->values[index] : record.parameters()[index].start;
+    }
+  }
+  return values;
+}
+
 }  // namespace
+
+Groups with_group(Groups groups, std::size_t group) {
+  groups.push_back(group);
+  std::sort(groups.begin(), groups.end());
+  return groups;
+}
+
+Groups without_group(Groups groups, std::size_t group) {
+  std::erase(groups, group);
+  return groups;
+}
 
 Record::Record(const SelectionProblem& problem)
     : problem_(problem), predicted_(problem.measured.size()) {
@@ -292,8 +316,9 @@ VectorXd Record::scaled_column(const std::vector<double>& column) const {
   return out;
 }
 
-BlockFit fit_blocks(const Record& record, const Freed& freed, std::vector<double> start) {
-  WeightedMinimum minimum = minimise(FreedModel(record, freed, std::move(start)), record);
+BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near) {
+  WeightedMinimum minimum =
+      minimise(FreedModel(record, freed, first_values(record, freed, near)), record);
   const FreedModel& model = minimum.model;
 
   BlockFit fit;
@@ -325,21 +350,6 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, std::vector<double
     fit.block_error[static_cast<Index>(b)] = held_out.squaredNorm();
   }
   return fit;
-}
-
-BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near) {
-  std::vector<double> start;
-  for (const ModelParameter& p : record.parameters()) start.push_back(p.neutral);
-  for (const std::size_t g : freed.groups) {
-    const bool known =
-        near != nullptr && std::find(near->freed.groups.begin(), near->freed.groups.end(), g) !=
-                               near->freed.groups.end();
-    for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
-      const std::size_t index = record.first_parameter(g) + k;
-      start[index] = known ? near->values[index] : record.parameters()[index].start;
-    }
-  }
-  return fit_blocks(record, freed, std::move(start));
 }
 
 MatrixXd group_slopes(const Record& record, std::size_t group, const std::vector<double>& values) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -47,10 +48,18 @@ class Record {
   mutable std::vector<double> predicted_;
 };
 
+/// Indices of groups, or of regressors.
+using Groups = std::vector<std::size_t>;
+
+/// `groups` with one more, by rising index.
+[[nodiscard]] Groups with_group(Groups groups, std::size_t group);
+/// `groups` without one of them.
+[[nodiscard]] Groups without_group(Groups groups, std::size_t group);
+
 /// What is free in a fit.
 struct Freed {
-  std::vector<std::size_t> groups;   ///< indices into SelectionProblem::groups
-  std::vector<std::size_t> unnamed;  ///< regressors with a free coefficient each
+  Groups groups;   ///< indices into SelectionProblem::groups
+  Groups unnamed;  ///< regressors with a free coefficient each
 };
 
 /// A fit with everything that the selection asks of it. Columns of `jacobian` are the parameters
@@ -68,15 +77,14 @@ struct BlockFit {
   Eigen::VectorXd block_error;  ///< held-out sum of squares, one a block
 
   [[nodiscard]] double squared_error() const { return block_error.sum(); }
+  [[nodiscard]] double rmse() const {
+    return std::sqrt(squared_error() / static_cast<double>(residual.size()));
+  }
 };
 
-/// Levenberg–Marquardt on Huber's loss from `start` (all parameters; those not freed must be
-/// neutral), then one Gauss–Newton step a block for the fits without it.
-[[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed,
-                                  std::vector<double> start);
-
-/// The same, started from the values of `near` for what is free in both, elsewhere from the
-/// parameters' own first values.
+/// Levenberg–Marquardt on Huber's loss, then one Gauss–Newton step a block for the fits without it.
+/// Starts from the values of `near`, which may be null, for what is free in both, elsewhere from
+/// the parameters' own first values.
 [[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near);
 
 /// Slopes of the prediction by the parameters of `group` over their scales, at `values`.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/least_squares.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -87,9 +88,7 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   std::sort(nearness.begin(), nearness.end());
   Selection::Aliased aliased{group, {}};
   for (const auto& [cosine, owner] : nearness) {
-    if (std::find(aliased.with.begin(), aliased.with.end(), owner) == aliased.with.end()) {
-      aliased.with.push_back(owner);
-    }
+    if (!contains(aliased.with, owner)) aliased.with.push_back(owner);
   }
   return aliased;
 }
@@ -146,10 +145,7 @@ void add_fit(const Record& record, const BlockFit& fit, const std::vector<int>& 
 void name_channels(const SelectionProblem& problem, UnnamedStructure& unnamed) {
   for (const std::size_t u : unnamed.regressors) {
     const std::string& channel = problem.unnamed[u].channel;
-    if (std::find(unnamed.channels.begin(), unnamed.channels.end(), channel) ==
-        unnamed.channels.end()) {
-      unnamed.channels.push_back(channel);
-    }
+    if (!contains(unnamed.channels, channel)) unnamed.channels.push_back(channel);
   }
 }
 

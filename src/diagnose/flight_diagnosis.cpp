@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "diagnose/channels.hpp"
@@ -35,6 +34,7 @@ constexpr double step_tolerance = 1.5;
 constexpr double time_stamp_uncertainty = 0.05;
 
 constexpr const char* unit_of_flights = "m/s²";
+constexpr const char* quantity_of_flights = "forward acceleration";
 /// A yaw that stays within this never turned; its noise would only be a regressor of noise.
 constexpr double steady_yaw = 0.1;  // rad
 
@@ -95,9 +95,7 @@ FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosi
 }
 
 bool testable(const Effect& effect, const LogFaults& faults) {
-  const bool needs_height =
-      std::find(effect.needs.begin(), effect.needs.end(), "vd_m_s") != effect.needs.end();
-  return !(needs_height && faults.height_unknown);
+  return !(faults.height_unknown && contains(effect.needs, "vd_m_s"));
 }
 
 /// What every flight fits beside its effects, in the order of `FlightBase`.
@@ -149,7 +147,7 @@ class FlightModel : public LogModel {
     for (const Effect& effect : base_) add(effect, design, true);
     for (const Effect& effect : effect_catalogue()) {
       if (effect.log != LogKind::flight || !testable(effect, data.faults)) continue;
-      add(effect, design, std::find(base.begin(), base.end(), effect.id) != base.end());
+      add(effect, design, contains(base, effect.id));
     }
     problem.measured = data.observations.forward_acceleration;
     problem.noise.assign(problem.measured.size(), 1.0);
@@ -199,13 +197,13 @@ struct Preliminary {
 Preliminary preliminary_fit(const Design& design, const FlightData& data) {
   const FlightModel model(design, data, {"linear_drag", "wind"});
   const SelectionProblem& problem = model.problem;
-  const std::size_t delay = model.first_parameter("attitude_delay");
+  const std::size_t delay = model.index_of("attitude_delay_s").value();
   SelectionOptions nothing;
   nothing.most_findings = 0;
   std::vector<double> values = select_effects(problem, nothing).base.values;
 
   Preliminary result;
-  result.wind = values[model.first_parameter("wind")];
+  result.wind = values[model.index_of("wind_m_s").value()];
   result.time_stamp_error.resize(problem.measured.size());
   std::vector<double> early(problem.measured.size());
   values[delay] = time_stamp_uncertainty * data.step;
@@ -218,108 +216,101 @@ Preliminary preliminary_fit(const Design& design, const FlightData& data) {
   return result;
 }
 
-class Report {
- public:
-  Report(const FlightData& data, const FlightModel& model, const Selection& selection)
-      : data_(data), model_(model), selection_(selection) {}
+void size_up(const Selection& selection, Unexplained& unexplained) {
+  if (!unexplained.detected) return;
+  unexplained.size = selection.extended.holdout_rmse * std::sqrt(unexplained.share_percent / 100);
+  unexplained.size_unit = unit_of_flights;
+  unexplained.shape = fmt::format(
+      "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
+      "stays unnamed",
+      unexplained.regressor);
+}
 
-  void write(const FlightDiagnosisOptions& options, Diagnosis& d) const {
-    d.not_identifiable.push_back(
-        {"extra_mass",
-         "a wrong mass only rescales the drag areas, since both enter as force over mass"});
-    tell(model_, selection_, d);
-    d.samples = selection_.rows;
-    d.effective_samples = effective_samples();
-    d.compared.push_back(compared());
-    size_up(d.unexplained);
-    d.spec_changes = spec_changes();
-    for (const Selection::TooSmall& small : selection_.too_small) {
-      d.notes.push_back(fmt::format(
-          "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",
-          model_.effect(small.group).id, small.gain_percent, options.selection.least_gain_percent));
+std::vector<SpecChange> spec_changes(const FlightModel& model, const ModelFit& fit) {
+  std::vector<SpecChange> out{{"drone.drag.front_area_m2", fit.values[0]},
+                              {"drone.drag.top_area_m2", fit.values[1]}};
+  for (std::size_t g = 0; g < model.effects().size(); ++g) {
+    for (std::size_t k = 0; k < model.effect(g).parameters.size(); ++k) {
+      const EffectParameter& p = model.effect(g).parameters[k];
+      // Also where neutral: the fitted areas belong to a drag law without it.
+      if (p.spec_field.empty()) continue;
+      out.push_back({p.spec_field, fit.values[model.first_parameter(g) + k] / p.unit_SI});
     }
-    d.further.push_back(
-        {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
-         "m/s", speed_rmse(selection_.base, options.speed_window),
-         speed_rmse(selection_.extended, options.speed_window)});
   }
+  return out;
+}
 
- private:
-  void size_up(Unexplained& unexplained) const {
-    if (!unexplained.detected) return;
-    unexplained.size =
-        selection_.extended.holdout_rmse * std::sqrt(unexplained.share_percent / 100);
-    unexplained.size_unit = unit_of_flights;
-    unexplained.shape = fmt::format(
-        "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
-        "stays unnamed",
-        unexplained.regressor);
-  }
-
-  [[nodiscard]] std::vector<SpecChange> spec_changes() const {
-    const ModelFit& fit = selection_.complete;
-    std::vector<SpecChange> out{{"drone.drag.front_area_m2", fit.values[0]},
-                                {"drone.drag.top_area_m2", fit.values[1]}};
-    for (std::size_t g = 0; g < model_.effects().size(); ++g) {
-      for (std::size_t k = 0; k < model_.effect(g).parameters.size(); ++k) {
-        const EffectParameter& p = model_.effect(g).parameters[k];
-        // Also where neutral: the fitted areas belong to a drag law without it.
-        if (p.spec_field.empty()) continue;
-        out.push_back({p.spec_field, fit.values[model_.first_parameter(g) + k] / p.unit_SI});
+/// Each block is simulated with the parameters fitted without it.
+double speed_rmse(const FlightData& data, const FlightModel& model, const ModelFit& fit,
+                  double window) {
+  double sum = 0;
+  std::size_t count = 0;
+  const FlightRecord& record = data.record;
+  for (std::size_t first = 0; first < record.size();) {
+    const int block = data.block[first];
+    std::size_t last = first + 1;
+    while (last < record.size() && data.block[last] == block) ++last;
+    if (block >= 0) {
+      const FlightRecord part = part_of(record, first, last);
+      const auto& values = fit.without_block[static_cast<std::size_t>(block)];
+      const std::vector<double> speed = simulate_speed(
+          part, flight_base(values), model.freed(values), window, step_tolerance * data.step);
+      for (std::size_t i = 0; i < speed.size(); ++i) {
+        sum += std::pow(speed[i] - part.forward_speed[i], 2);
       }
+      count += speed.size();
     }
-    return out;
+    first = last;
   }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+}
 
-  /// Each block is simulated with the parameters fitted without it.
-  [[nodiscard]] double speed_rmse(const ModelFit& fit, double window) const {
-    double sum = 0;
-    std::size_t count = 0;
-    const FlightRecord& record = data_.record;
-    for (std::size_t first = 0; first < record.size();) {
-      const int block = data_.block[first];
-      std::size_t last = first + 1;
-      while (last < record.size() && data_.block[last] == block) ++last;
-      if (block >= 0) {
-        const FlightRecord part = part_of(record, first, last);
-        const auto& values = fit.without_block[static_cast<std::size_t>(block)];
-        const std::vector<double> speed = simulate_speed(
-            part, flight_base(values), model_.freed(values), window, step_tolerance * data_.step);
-        for (std::size_t i = 0; i < speed.size(); ++i) {
-          sum += std::pow(speed[i] - part.forward_speed[i], 2);
-        }
-        count += speed.size();
-      }
-      first = last;
-    }
-    return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+double effective_samples(const FlightData& data, const ModelFit& fit) {
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < data.block.size(); ++i) {
+    if (data.block[i] >= 0) residuals.push_back(fit.holdout_residual[i]);
   }
+  return effective_sample_size(residuals);
+}
 
-  [[nodiscard]] double effective_samples() const {
-    std::vector<double> residuals;
-    for (std::size_t i = 0; i < data_.block.size(); ++i) {
-      if (data_.block[i] >= 0) residuals.push_back(selection_.complete.holdout_residual[i]);
-    }
-    return effective_sample_size(residuals);
+ComparedSeries compared(const FlightData& data, const FlightModel& model,
+                        const Selection& selection) {
+  ComparedSeries series{quantity_of_flights,
+                        unit_of_flights,
+                        std::string(to_string(Stage::airframe)),
+                        data.record.time,
+                        model.problem.measured,
+                        {},
+                        {}};
+  for (std::size_t i = 0; i < series.time.size(); ++i) {
+    const double used = data.block[i] < 0 ? nan : series.measured[i];
+    series.before.push_back(used - selection.base.holdout_residual[i]);
+    series.after.push_back(used - selection.extended.holdout_residual[i]);
   }
+  return series;
+}
 
-  [[nodiscard]] ComparedSeries compared() const {
-    ComparedSeries series;
-    series.time = data_.record.time;
-    series.measured = model_.problem.measured;
-    for (std::size_t i = 0; i < series.time.size(); ++i) {
-      const double used = data_.block[i] < 0 ? nan : series.measured[i];
-      series.before.push_back(used - selection_.base.holdout_residual[i]);
-      series.after.push_back(used - selection_.extended.holdout_residual[i]);
-    }
-    series.stage = to_string(Stage::airframe);
-    return series;
+void report(const FlightData& data, const FlightModel& model, const Selection& selection,
+            const FlightDiagnosisOptions& options, Diagnosis& d) {
+  d.not_identifiable.push_back(
+      {"extra_mass",
+       "a wrong mass only rescales the drag areas, since both enter as force over mass"});
+  tell(model, selection, d);
+  d.samples = selection.rows;
+  d.effective_samples = effective_samples(data, selection.complete);
+  d.compared.push_back(compared(data, model, selection));
+  size_up(selection, d.unexplained);
+  d.spec_changes = spec_changes(model, selection.complete);
+  for (const Selection::TooSmall& small : selection.too_small) {
+    d.notes.push_back(fmt::format(
+        "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",
+        model.effect(small.group).id, small.gain_percent, options.selection.least_gain_percent));
   }
-
-  const FlightData& data_;
-  const FlightModel& model_;
-  const Selection& selection_;
-};
+  d.further.push_back(
+      {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
+       "m/s", speed_rmse(data, model, selection.base, options.speed_window),
+       speed_rmse(data, model, selection.extended, options.speed_window)});
+}
 
 Diagnosis too_short(const FlightData& data) {
   Diagnosis d;
@@ -362,7 +353,7 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
     model.problem.unnamed = flight_structure(data.observations, preliminary.wind);
     model.problem.systematic.push_back(std::move(preliminary.time_stamp_error));
     const Selection selection = select_effects(model.problem, options.selection, progress);
-    Report(data, model, selection).write(options, d);
+    report(data, model, selection, options, d);
     for (const Effect& effect : effect_catalogue()) {
       if (effect.log == LogKind::flight && !testable(effect, data.faults)) {
         d.not_testable.push_back({effect.id, "a down velocity that moves (vd_m_s)"});
@@ -371,11 +362,7 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
   }
   d.kind = "flight";
   d.unit = unit_of_flights;
-  d.quantity = "forward acceleration";
-  for (ComparedSeries& series : d.compared) {
-    series.quantity = d.quantity;
-    series.unit = d.unit;
-  }
+  d.quantity = quantity_of_flights;
   d.notes.insert(d.notes.begin(), data.faults.notes.begin(), data.faults.notes.end());
   if (data.faults.level_assumed) d.notes.push_back("the roll never moves; it is taken as logged");
   return d;

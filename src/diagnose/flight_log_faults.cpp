@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "identify/series.hpp"
 
@@ -40,9 +41,8 @@ std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
 }
 
 bool constant(const std::vector<double>& series, const SampleRange& range) {
-  const auto begin = series.begin() + static_cast<std::ptrdiff_t>(range.first);
-  const auto end = series.begin() + static_cast<std::ptrdiff_t>(range.last);
-  return std::all_of(begin, end, [begin](double value) { return value == *begin; });
+  const auto part = std::span(series).subspan(range.first, range.size());
+  return std::all_of(part.begin(), part.end(), [part](double value) { return value == part[0]; });
 }
 
 /// Seconds for which the series repeats itself for `stuck_after` or longer at a time.
@@ -71,26 +71,20 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
   faults.level_assumed = constant(log.roll, range);
   faults.height_unknown = constant(log.down_velocity, range);
 
-  struct LoggedChannel {
-    const char* name;
-    std::vector<double>& series;
-  };
-  const std::array<LoggedChannel, 5> channels{{{"roll", log.roll},
-                                               {"pitch", log.pitch},
-                                               {"north velocity", log.north_velocity},
-                                               {"east velocity", log.east_velocity},
-                                               {"down velocity", log.down_velocity}}};
-  for (const LoggedChannel& channel : channels) {
-    if (constant(channel.series, range)) continue;
-    if (const std::size_t spikes = repair_spikes(channel.series, range, faults.sample)) {
-      faults.notes.push_back(fmt::format("{} of {} samples left out: spikes in the {}", spikes,
-                                         range.size(), channel.name));
+  for (const auto& [name, series] : {std::pair{"roll", &log.roll}, std::pair{"pitch", &log.pitch},
+                                     std::pair{"north velocity", &log.north_velocity},
+                                     std::pair{"east velocity", &log.east_velocity},
+                                     std::pair{"down velocity", &log.down_velocity}}) {
+    if (constant(*series, range)) continue;
+    if (const std::size_t spikes = repair_spikes(*series, range, faults.sample)) {
+      faults.notes.push_back(
+          fmt::format("{} of {} samples left out: spikes in the {}", spikes, range.size(), name));
     }
-    const double stuck = mark_stuck(channel.series, log.time, range, faults.sample);
+    const double stuck = mark_stuck(*series, log.time, range, faults.sample);
     if (stuck > 0) {
       faults.notes.push_back(fmt::format(
           "{:.1f} s left out: the {} repeats one value there, as if its sensor were stuck", stuck,
-          channel.name));
+          name));
     }
   }
   return faults;

@@ -2,24 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <string>
 #include <utility>
 
+#include "diagnose/unnamed_structure.hpp"
+
 namespace tethercalc {
 namespace {
-
-using Series = Eigen::ArrayXd;
-
-struct Shape {
-  std::string channel;
-  std::string words;
-  Series values;
-};
-
-Series series(const std::vector<double>& x) {
-  return Series::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-}
 
 bool varies(const Series& x) { return (x != x[0]).any(); }
 
@@ -63,23 +52,23 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
 
 std::vector<UnnamedRegressor> flight_structure(const Observations& o, double wind) {
   std::vector<Shape> shapes;
-  add_powers(shapes, "roll_deg", "roll", series(o.roll));
-  add_powers(shapes, "pitch_deg", "pitch", series(o.tilt));
-  add_powers(shapes, "lateral_speed_m_s", "lateral speed", series(o.right_speed));
-  add_powers(shapes, "vd_m_s", "vertical speed", series(o.down_speed));
-  if (varies(series(o.down_speed))) {
+  add_powers(shapes, "roll_deg", "roll", as_series(o.roll));
+  add_powers(shapes, "pitch_deg", "pitch", as_series(o.tilt));
+  add_powers(shapes, "lateral_speed_m_s", "lateral speed", as_series(o.right_speed));
+  add_powers(shapes, "vd_m_s", "vertical speed", as_series(o.down_speed));
+  if (varies(as_series(o.down_speed))) {
     Series height = height_gained(o);
     height -= height.mean();
     shapes.push_back({"height_m", "height", height});
     shapes.push_back({"height_m", "the square of the height from its mean", height.square()});
   }
-  if (const Series yaw = series(o.yaw); varies(yaw)) {
+  if (const Series yaw = as_series(o.yaw); varies(yaw)) {
     shapes.push_back({"yaw_deg", "the cosine of the yaw", yaw.cos()});
     shapes.push_back({"yaw_deg", "the sine of the yaw", yaw.sin()});
   }
-  add_time(shapes, series(o.time));
+  add_time(shapes, as_series(o.time));
 
-  const Series u = series(o.forward_speed) - wind;
+  const Series u = as_series(o.forward_speed) - wind;
   const std::pair<const char*, Series> carriers[] = {
       {"", Series::Ones(u.size())},
       {", times the airspeed", u},

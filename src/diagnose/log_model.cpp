@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -82,7 +83,7 @@ std::vector<ParameterEstimate> parameters(const LogModel& log, const Selection& 
   std::vector<ParameterEstimate> result;
   for (std::size_t g = 0; g < log.effects().size(); ++g) {
     const std::size_t first = log.first_parameter(g);
-    bool freed = log.problem.groups[g].role == ParameterGroup::Role::fitted;
+    bool freed = log.problem.groups[g].fitted;
     for (std::size_t k = 0; k < log.effect(g).parameters.size(); ++k) {
       freed = freed || fit.standard_error[first + k] > 0 ||
               fit.values[first + k] != log.problem.groups[g].parameters[k].neutral;
@@ -166,7 +167,7 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
   first_.push_back(effects_.empty() ? 0 : first_.back() + effects_.back()->parameters.size());
   ParameterGroup group;
   group.id = effect.id.empty() ? effect.title : effect.id;
-  group.role = fitted ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
+  group.fitted = fitted;
   for (const EffectParameter& p : effect.parameters) {
     group.parameters.push_back(in_SI(p, design));
     group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
@@ -177,12 +178,6 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
   }
   effects_.push_back(&effect);
   problem.groups.push_back(std::move(group));
-}
-
-std::size_t LogModel::first_parameter(std::string_view id) const {
-  const auto found = std::find_if(effects_.begin(), effects_.end(),
-                                  [id](const Effect* effect) { return effect->id == id; });
-  return first_[static_cast<std::size_t>(found - effects_.begin())];
 }
 
 std::optional<std::size_t> LogModel::index_of(std::string_view parameter) const {
@@ -208,7 +203,7 @@ void check_base_effects(LogKind kind, std::span<const std::string> ids) {
     if (effect.log == kind) known.push_back(effect.id);
   }
   for (const std::string& id : ids) {
-    if (std::find(known.begin(), known.end(), id) == known.end()) unknown.push_back(id);
+    if (!contains(known, id)) unknown.push_back(id);
   }
   if (unknown.empty()) return;
   throw std::invalid_argument(fmt::format("no effect of a {} is called {}; there are {}",

@@ -26,8 +26,6 @@ class LogModel {
   [[nodiscard]] const Effect& effect(std::size_t group) const { return *effects_[group]; }
   [[nodiscard]] std::span<const Effect* const> effects() const { return effects_; }
   [[nodiscard]] std::size_t first_parameter(std::size_t group) const { return first_[group]; }
-  /// First parameter of an effect that was added.
-  [[nodiscard]] std::size_t first_parameter(std::string_view id) const;
   /// Index of a parameter by its name, over all groups added; nothing where there is none.
   [[nodiscard]] std::optional<std::size_t> index_of(std::string_view parameter) const;
   /// The part of all parameters that belongs to `group`.

@@ -18,6 +18,7 @@
 #include "diagnose/power_shapes.hpp"
 #include "diagnose/subset_selection.hpp"
 #include "diagnose/unit_checks.hpp"
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/model/flight_state.hpp"
 
@@ -50,23 +51,17 @@ void check_lengths(const PowerLog& log) {
 std::string lacking(const Effect& effect, const PowerLog& log) {
   std::vector<std::string_view> names;
   for (const PowerChannel& channel : power_channels) {
-    if (!(log.*channel.values).empty()) continue;
-    if (std::find(effect.needs.begin(), effect.needs.end(), channel.name) != effect.needs.end()) {
-      names.push_back(channel.name);
-    }
+    const bool missing = (log.*channel.values).empty();
+    if (missing && contains(effect.needs, channel.name)) names.push_back(channel.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Equal stretches of time.
-std::size_t block_count(double duration) {
-  return std::clamp<std::size_t>(static_cast<std::size_t>(duration / shortest_power_block),
-                                 fewest_blocks, most_power_blocks);
-}
-
+/// Blocks are equal stretches of time.
 int block_at(const PowerLog& log, std::size_t sample) {
   const double duration = log.time.back() - log.time.front();
-  const std::size_t blocks = block_count(duration);
+  const std::size_t blocks = std::clamp(static_cast<std::size_t>(duration / shortest_power_block),
+                                        fewest_blocks, most_power_blocks);
   const double share = (log.time[sample] - log.time.front()) / duration;
   return static_cast<int>(
       std::min(blocks - 1, static_cast<std::size_t>(share * static_cast<double>(blocks))));
@@ -75,20 +70,17 @@ int block_at(const PowerLog& log, std::size_t sample) {
 /// Takes away the stages that too few healthy stretches are left of, with what each would need.
 std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
   std::map<Stage, std::string> dropped;
-  for (const auto& [stage, usable] : {std::pair{Stage::tether, &screened.tether_usable},
-                                      std::pair{Stage::converter, &screened.converter_usable},
-                                      std::pair{Stage::motors, &screened.motors_usable}}) {
-    if (usable->empty()) continue;
+  for (const auto& [stage, usable] : screened.usable) {
     std::set<int> blocks;
-    for (std::size_t i = 0; i < usable->size(); ++i) {
-      if ((*usable)[i]) blocks.insert(block_at(screened.log, i));
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+      if (usable[i]) blocks.insert(block_at(screened.log, i));
     }
-    const auto healthy = std::count(usable->begin(), usable->end(), char{1});
+    const auto healthy = std::count(usable.begin(), usable.end(), char{1});
     if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) continue;
     dropped[stage] = fmt::format("instruments that work for longer: of {} samples {} are healthy",
-                                 usable->size(), healthy);
-    usable->clear();
+                                 usable.size(), healthy);
   }
+  for (const auto& [stage, reason] : dropped) screened.usable.erase(stage);
   return dropped;
 }
 
@@ -122,20 +114,11 @@ bool acts_on(const Effect& effect, Stage compared) {
 
 /// What the stage compares, as its instruments show it.
 std::vector<double> measured_in(const PowerStage& stage, const PowerLog& log) {
-  std::vector<double> out(log.time.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    switch (stage.stage) {
-      case Stage::tether:
-        out[i] = log.supply_voltage[i] - log.drone_voltage[i];
-        break;
-      case Stage::converter:
-        out[i] = log.drone_voltage[i] * log.supply_current[i];
-        break;
-      default:
-        out[i] = log.bus_voltage[i] * log.bus_current[i];
-    }
-  }
-  return out;
+  if (stage.stage == Stage::converter) return product(log.drone_voltage, log.supply_current);
+  if (stage.stage == Stage::motors) return product(log.bus_voltage, log.bus_current);
+  std::vector<double> lost(log.supply_voltage);
+  for (std::size_t i = 0; i < lost.size(); ++i) lost[i] -= log.drone_voltage[i];
+  return lost;
 }
 
 /// What the model predicts where the residual over the noise is `standardised`. The motors'
@@ -156,11 +139,10 @@ class PowerLogModel : public LogModel {
  public:
   PowerLogModel(const PowerModel& base, const PowerResiduals& residuals,
                 const std::vector<const Effect*>& effects,
-                std::span<const std::string> base_effects)
+                const std::vector<std::string>& base_effects)
       : base_(base), residuals_(residuals), cache_(residuals.stages().size()) {
     for (const Effect* effect : effects) {
-      add(*effect, base.design,
-          std::find(base_effects.begin(), base_effects.end(), effect->id) != base_effects.end());
+      add(*effect, base.design, contains(base_effects, effect->id));
     }
     problem.predict = [this](std::span<const double> values, std::span<double> out) {
       predict(values, out);
@@ -265,8 +247,8 @@ std::vector<SelectionPart> parts_of(const PowerResiduals& residuals, const LogMo
   SelectionPart line{std::vector<char>(residuals.rows(), 0), {}};
   for (const PowerStage& stage : residuals.stages()) {
     SelectionPart& part = stage.stage == Stage::motors ? motors : line;
-    const auto first = part.rows.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
-    std::fill(first, first + static_cast<std::ptrdiff_t>(stage.rows), char{1});
+    const auto rows = std::span(part.rows).subspan(stage.first_row, stage.rows);
+    std::fill(rows.begin(), rows.end(), char{1});
   }
   for (std::size_t g = 0; g < view.effects().size(); ++g) {
     (acts_on(view.effect(g), Stage::motors) ? motors : line).groups.push_back(g);
@@ -305,12 +287,8 @@ bool refine_noise(PowerResiduals& residuals, const PowerModel& found,
     const PowerStage& stage = residuals.stages()[k];
     if (stage.stage != Stage::motors) continue;
     for (const std::size_t u : selection.unnamed.regressors) {
-      const auto first =
-          problem.unnamed[u].column.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
-      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(stage.rows),
-                      [](double x) { return x != 0; })) {
-        return false;
-      }
+      const auto rows = std::span(problem.unnamed[u].column).subspan(stage.first_row, stage.rows);
+      if (std::any_of(rows.begin(), rows.end(), [](double x) { return x != 0; })) return false;
     }
     residuals.refine_noise(k, found);
     return true;
@@ -446,7 +424,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
       testable_effects(catalogue, residuals.log(), unusable, diagnosis);
   if (residuals.stages().empty()) return result;
 
-  PowerLogModel view(base, residuals, effects, base_effects);
+  PowerLogModel view(base, residuals, effects, {base_effects.begin(), base_effects.end()});
   Selection selection = search(residuals, view, progress);
   if (refine_noise(residuals, view.model(selection.extended.values), view.problem, selection)) {
     view.forget();

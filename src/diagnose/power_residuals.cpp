@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include "diagnose/least_squares.hpp"
+#include "diagnose/unnamed_structure.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
@@ -68,28 +68,25 @@ Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
   constexpr int waves = 6;
   const auto n = static_cast<Eigen::Index>(log.time.size());
   std::vector<Eigen::VectorXd> columns;
-  const auto values = [n](const std::vector<double>& x) {
-    return Eigen::Map<const Eigen::ArrayXd>(x.data(), n);
-  };
-  const Eigen::ArrayXd height = values(log.height) / 10;
-  const Eigen::ArrayXd speed = values(log.airspeed) / 5;
-  const Eigen::ArrayXd elapsed = values(log.time) - log.time.front();
-  for (const Eigen::ArrayXd& x : std::initializer_list<Eigen::ArrayXd>{
-           Eigen::ArrayXd::Ones(n), height, height.square(), speed, speed.square(), speed.cube(),
-           height * speed, height * speed.square()}) {
+  const Series height = as_series(log.height) / 10;
+  const Series speed = as_series(log.airspeed) / 5;
+  const Series elapsed = as_series(log.time) - log.time.front();
+  for (const Series& x : std::initializer_list<Series>{Series::Ones(n), height, height.square(),
+                                                       speed, speed.square(), speed.cube(),
+                                                       height * speed, height * speed.square()}) {
     columns.emplace_back(x.matrix());
   }
   for (int k = 1; k <= waves; ++k) {
-    const Eigen::ArrayXd wave = (std::numbers::pi * k * elapsed / elapsed[n - 1]).cos();
+    const Series wave = (std::numbers::pi * k * elapsed / elapsed[n - 1]).cos();
     columns.emplace_back(wave.matrix());
     if (stage == Stage::tether) columns.emplace_back((wave * height).matrix());
   }
   if (stage == Stage::tether) {
-    for (Eigen::VectorXd& column : columns) column.array() *= values(log.supply_current);
+    for (Eigen::VectorXd& column : columns) column.array() *= as_series(log.supply_current);
   }
   if (stage == Stage::converter) {
-    columns.emplace_back((values(bus_power) / 300).matrix());
-    columns.emplace_back((values(bus_power) / 300).square().matrix());
+    columns.emplace_back((as_series(bus_power) / 300).matrix());
+    columns.emplace_back((as_series(bus_power) / 300).square().matrix());
   }
   Eigen::MatrixXd shapes(n, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -168,11 +165,10 @@ constexpr double motor_averaging = 8;  // s
 void set_usable_rows(PowerStage& stage) {
   stage.usable_rows.assign(stage.rows, 0);
   for (std::size_t row = 0; row < stage.rows; ++row) {
-    const auto first =
-        stage.usable.begin() + static_cast<std::ptrdiff_t>(row * stage.samples_per_row);
-    const auto usable = static_cast<std::size_t>(
-        std::count(first, first + static_cast<std::ptrdiff_t>(stage.samples_per_row), char{1}));
-    stage.usable_rows[row] = 2 * usable >= stage.samples_per_row;
+    const auto samples =
+        std::span(stage.usable).subspan(row * stage.samples_per_row, stage.samples_per_row);
+    const auto usable = std::count(samples.begin(), samples.end(), char{1});
+    stage.usable_rows[row] = 2 * static_cast<std::size_t>(usable) >= stage.samples_per_row;
   }
 }
 
@@ -219,25 +215,22 @@ void set_noise(std::vector<double> noise, double parameters, PowerStage& stage) 
 
 PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened)
     : screened_(std::move(screened)) {
-  if (!base.design.tether.cross_section) {
-    throw std::invalid_argument("a power log needs the cross-section of the cable that flew");
-  }
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
   if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
-    bus_power_.resize(n);
-    log_bus_power_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      bus_power_[i] = log.bus_voltage[i] * log.bus_current[i];
-      log_bus_power_[i] = std::log(std::max(bus_power_[i], 1e-3));
-    }
+    bus_power_ = product(log.bus_voltage, log.bus_current);
+    for (const double power : bus_power_) log_bus_power_.push_back(std::log(std::max(power, 1e-3)));
   }
 
   screened_.log.height = steadied(log.height);
 
-  const auto add = [&](PowerStage s, const std::vector<char>& usable) {
-    if (usable.empty()) return;
-    s.usable = usable;
+  for (PowerStage s :
+       {PowerStage{Stage::tether, "voltage lost in the tether", "V", "tether resistance", "ohm"},
+        {Stage::converter, "power at the converter's input", "W", "converter input power", "W"},
+        {Stage::motors, "power at the motors' bus", "%", "motor power", "%"}}) {
+    const auto usable = screened_.usable.find(s.stage);
+    if (usable == screened_.usable.end()) continue;
+    s.usable = usable->second;
     if (s.stage == Stage::motors) {
       const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
       s.samples_per_row = std::max<std::size_t>(
@@ -247,13 +240,7 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
     s.rows = n / s.samples_per_row;
     rows_ += s.rows;
     stages_.push_back(std::move(s));
-  };
-  add({Stage::tether, "voltage lost in the tether", "V", "tether resistance", "ohm"},
-      screened_.tether_usable);
-  add({Stage::converter, "power at the converter's input", "W", "converter input power", "W"},
-      screened_.converter_usable);
-  add({Stage::motors, "power at the motors' bus", "%", "motor power", "%"},
-      screened_.motors_usable);
+  }
   for (std::size_t k = 0; k < stages_.size(); ++k) estimate_noise(base, stages_[k], k);
 }
 
@@ -263,13 +250,12 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
   if (stage.stage == Stage::converter) {
     // Input and output share the true power and have noise of their own, so the covariance of their
     // fast changes holds the former and what exceeds it the latter.
-    std::vector<double> input(n);
-    for (std::size_t i = 0; i < n; ++i) input[i] = log.drone_voltage[i] * log.supply_current[i];
+    const std::vector<double> input = product(log.drone_voltage, log.supply_current);
     double in = 0, out = 0, both = 0, slope = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < n; ++i) {
-      const auto first = stage.usable.begin() + static_cast<std::ptrdiff_t>(i);
-      if (!std::all_of(first, first + 4, [](char ok) { return ok; })) continue;
+      const auto four = std::span(stage.usable).subspan(i, 4);
+      if (std::count(four.begin(), four.end(), char{1}) < 4) continue;
       const double a = third_difference(input, i);
       const double b = third_difference(bus_power_, i);
       in += a * a;

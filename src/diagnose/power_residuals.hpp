@@ -47,8 +47,7 @@ struct PowerStage {
 /// airspeed leaves of the base model's residuals, so that what is hidden does not pass for noise.
 class PowerResiduals {
  public:
-  /// Stages whose channels are missing do not appear. Throws std::invalid_argument where the
-  /// design has no cable cross-section.
+  /// Stages whose channels are missing do not appear. The design must have a cable cross-section.
   PowerResiduals(const PowerModel& base, ScreenedPowerLog screened);
 
   /// The log after screening.

@@ -249,22 +249,22 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
     fill_in(log.time, bad[c], x);
   }
 
-  const auto usable = [&](std::initializer_list<std::vector<double> PowerLog::*> needed) {
+  const auto set_usable = [&](Stage stage,
+                              const std::vector<std::vector<double> PowerLog::*>& needed) {
     std::vector<char> all(n, 1);
     for (std::size_t c = 0; c < bad.size(); ++c) {
-      if (std::find(needed.begin(), needed.end(), power_channels[c].values) == needed.end())
-        continue;
-      if (bad[c].empty()) return std::vector<char>{};
+      if (!contains(needed, power_channels[c].values)) continue;
+      if (bad[c].empty()) return;
       for (std::size_t i = 0; i < n; ++i) all[i] = all[i] && !bad[c][i];
     }
-    return all;
+    screened.usable[stage] = std::move(all);
   };
-  screened.tether_usable = usable({&PowerLog::supply_voltage, &PowerLog::supply_current,
-                                   &PowerLog::drone_voltage, &PowerLog::height});
-  screened.converter_usable = usable({&PowerLog::supply_current, &PowerLog::drone_voltage,
-                                      &PowerLog::bus_voltage, &PowerLog::bus_current});
-  screened.motors_usable = usable(
-      {&PowerLog::bus_voltage, &PowerLog::bus_current, &PowerLog::height, &PowerLog::airspeed});
+  set_usable(Stage::tether, {&PowerLog::supply_voltage, &PowerLog::supply_current,
+                             &PowerLog::drone_voltage, &PowerLog::height});
+  set_usable(Stage::converter, {&PowerLog::supply_current, &PowerLog::drone_voltage,
+                                &PowerLog::bus_voltage, &PowerLog::bus_current});
+  set_usable(Stage::motors, {&PowerLog::bus_voltage, &PowerLog::bus_current, &PowerLog::height,
+                             &PowerLog::airspeed});
 
   std::vector<char> healthy(n, 1);
   for (const auto& marks : bad) {

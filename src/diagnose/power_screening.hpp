@@ -2,10 +2,12 @@
 // found and dealt with before any physics is judged.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "diagnose/power_chain.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 
 namespace tethercalc {
@@ -15,12 +17,12 @@ namespace tethercalc {
 struct ScreenedPowerLog {
   PowerLog log;  ///< marked samples are interpolated; an optional channel that hangs for more than
                  ///< half of the log is gone
-  /// Whether every channel that a stage compares was healthy in a sample. Empty where the log lacks
-  /// a channel of that stage.
-  std::vector<char> tether_usable;     ///< supply pair, drone voltage, height
-  std::vector<char> converter_usable;  ///< supply current, drone voltage, bus pair
-  std::vector<char> motors_usable;     ///< bus pair, height, airspeed
-  std::vector<std::string> notes;      ///< what was found, one sentence each, with channel names
+  /// Whether every channel that a stage compares was healthy in a sample: for the tether the supply
+  /// pair, drone voltage and height; for the converter the supply current, drone voltage and bus
+  /// pair; for the motors the bus pair, height and airspeed. Without stages that the log lacks a
+  /// channel of.
+  std::map<Stage, std::vector<char>> usable;
+  std::vector<std::string> notes;  ///< what was found, one sentence each, with channel names
 };
 
 /// Screens a log.

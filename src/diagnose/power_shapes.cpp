@@ -2,38 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <numbers>
 #include <string>
 
+#include "diagnose/unnamed_structure.hpp"
+
 namespace tethercalc {
 namespace {
-
-using Series = Eigen::ArrayXd;
-
-struct PowerShape {
-  std::string channel;
-  std::string words;
-  Series values;  ///< one a sample
-};
 
 /// Steps that are tried throughout the log.
 constexpr int coarse_steps = 40;
 
-Series of_log(const std::vector<double>& x) {
-  return Series::Map(x.data(), static_cast<Eigen::Index>(x.size()));
-}
-
-PowerShape step_at(const PowerLog& log, double share) {
+Shape step_at(const PowerLog& log, double share) {
   const double at = log.time.front() + share * (log.time.back() - log.time.front());
-  return {"time_s", fmt::format("a step at {:.0f} s", at), (of_log(log.time) >= at).cast<double>()};
+  return {"time_s", fmt::format("a step at {:.0f} s", at),
+          (as_series(log.time) >= at).cast<double>()};
 }
 
-std::vector<PowerShape> shapes_of(const PowerLog& log) {
+std::vector<Shape> shapes_of(const PowerLog& log) {
   const double duration = log.time.back() - log.time.front();
-  const Series share = (of_log(log.time) - log.time.front()) / duration;
-  std::vector<PowerShape> shapes;
+  const Series share = (as_series(log.time) - log.time.front()) / duration;
+  std::vector<Shape> shapes;
   for (int k = 1; k < coarse_steps; ++k) {
     shapes.push_back(step_at(log, static_cast<double>(k) / coarse_steps));
   }
@@ -48,7 +38,7 @@ std::vector<PowerShape> shapes_of(const PowerLog& log) {
   const auto powers = [&shapes](const char* channel, const char* word,
                                 const std::vector<double>& values, bool bends) {
     if (values.empty()) return;
-    const Series x = of_log(values);
+    const Series x = as_series(values);
     const double half = 0.5 * (x.maxCoeff() - x.minCoeff());
     if (!(half > 0)) return;
     const Series z = (x - 0.5 * (x.maxCoeff() + x.minCoeff())) / half;
@@ -67,11 +57,10 @@ std::vector<PowerShape> shapes_of(const PowerLog& log) {
 }
 
 /// `shape` in stage `k` as rows.
-UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k,
-                           const PowerShape& shape) {
+UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const Shape& shape) {
   const PowerStage& stage = residuals.stages()[k];
   Series column = shape.values;
-  if (stage.stage == Stage::tether) column *= of_log(residuals.log().supply_current);
+  if (stage.stage == Stage::tether) column *= as_series(residuals.log().supply_current);
   UnnamedRegressor result{shape.channel, fmt::format("{}: {}", stage.shaped, shape.words),
                           std::vector<double>(residuals.rows(), 0),
                           stage.noise * (stage.stage == Stage::motors ? 100 : 1),
@@ -85,9 +74,9 @@ UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k,
 
 std::vector<UnnamedRegressor> power_shapes(const PowerResiduals& residuals) {
   std::vector<UnnamedRegressor> regressors;
-  const std::vector<PowerShape> shapes = shapes_of(residuals.log());
+  const std::vector<Shape> shapes = shapes_of(residuals.log());
   for (std::size_t k = 0; k < residuals.stages().size(); ++k) {
-    for (const PowerShape& shape : shapes) regressors.push_back(regressor(residuals, k, shape));
+    for (const Shape& shape : shapes) regressors.push_back(regressor(residuals, k, shape));
   }
   return regressors;
 }

@@ -9,6 +9,7 @@
 #include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
 #include "identify/distributions.hpp"
+#include "identify/series.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -116,23 +117,25 @@ class Search {
     return record_.problem().groups[g];
   }
 
-  [[nodiscard]] Freed freed(const std::vector<std::size_t>& selected) const {
-    std::set<std::size_t> replaced;
-    for (const std::size_t g : selected) {
-      if (group(g).replaces) replaced.insert(*group(g).replaces);
-    }
-    Freed result;
-    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      const bool wanted = group(g).role == ParameterGroup::Role::fitted ||
-                          std::find(selected.begin(), selected.end(), g) != selected.end();
-      if (wanted && !replaced.contains(g)) result.groups.push_back(g);
-    }
-    result.unnamed = unnamed_;
-    return result;
+  /// Whether one of `selected` describes in more detail what the group does.
+  [[nodiscard]] bool is_replaced(std::size_t g, const Groups& selected) const {
+    return std::any_of(selected.begin(), selected.end(),
+                       [&](std::size_t by) { return group(by).replaces == g; });
   }
 
-  [[nodiscard]] BlockFit fit(const std::vector<std::size_t>& selected, const BlockFit* near) const {
-    return fit_blocks(record_, freed(selected), near);
+  /// The fit of what is always free, `selected`, and `shapes` without a name.
+  [[nodiscard]] BlockFit fit(const Groups& selected, const Groups& shapes,
+                             const BlockFit* near) const {
+    Freed freed{{}, shapes};
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      const bool wanted = group(g).fitted || contains(selected, g);
+      if (wanted && !is_replaced(g, selected)) freed.groups.push_back(g);
+    }
+    return fit_blocks(record_, freed, near);
+  }
+  /// The same with the shapes that were found.
+  [[nodiscard]] BlockFit fit(const Groups& selected, const BlockFit* near) const {
+    return fit(selected, unnamed_, near);
   }
 
   /// Of the hypothesis that the group is neutral. A group that replaces another has no neutral
@@ -140,13 +143,11 @@ class Search {
   /// other alone (the encompassing test of non-nested models: Davidson and MacKinnon, Econometrica
   /// 49, 1981).
   [[nodiscard]] double p_value(std::size_t g, const BlockFit& without, const BlockFit& with) const {
-    if (!group(g).replaces) return wald_p_value(g, without, with);
-    Freed both = with.freed;
-    const auto replaced =
-        std::find(without.freed.groups.begin(), without.freed.groups.end(), *group(g).replaces);
-    if (replaced == without.freed.groups.end()) return wald_p_value(g, without, with);
-    both.groups.insert(std::upper_bound(both.groups.begin(), both.groups.end(), *replaced),
-                       *replaced);
+    const std::optional<std::size_t> replaced = group(g).replaces;
+    if (!replaced || !contains(without.freed.groups, *replaced)) {
+      return wald_p_value(g, without, with);
+    }
+    const Freed both{with_group(with.freed.groups, *replaced), with.freed.unnamed};
     return wald_p_value(g, without, fit_blocks(record_, both, &with));
   }
 
@@ -198,10 +199,8 @@ class Search {
   /// only beside an unnamed shape mends the shape, not the model.
   [[nodiscard]] bool earns_without_shapes(std::size_t g) const {
     if (unnamed_.empty()) return true;
-    Search named = *this;
-    named.unnamed_.clear();
-    const BlockFit without = named.fit(selected_, &current_);
-    const BlockFit with = named.fit(selected_with(g), &without);
+    const BlockFit without = fit(selected_, {}, &current_);
+    const BlockFit with = fit(selected_with(g), {}, &without);
     return gain_percent(without.squared_error(), with.squared_error()) >=
            options_.least_gain_percent;
   }
@@ -213,7 +212,7 @@ class Search {
     trial.p_value = p_value(g, without, with);
     const double gain = gain_percent(without.squared_error(), with.squared_error());
     const double least_gain =
-        options_.least_gain_percent * (unnamed_.empty() ? 1 : gain_beside_unnamed);
+        options_.least_gain_percent * (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed);
     trial.worth_a_name =
         gain >= least_gain && gain > 2 * gain_se_percent(without.block_error, with.block_error) &&
         trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
@@ -221,17 +220,15 @@ class Search {
     return trial;
   }
 
-  [[nodiscard]] std::vector<std::size_t> candidates() const {
-    std::set<std::size_t> taken(selected_.begin(), selected_.end());
-    for (const std::size_t g : selected_) {
-      if (group(g).replaces) taken.insert(*group(g).replaces);
-    }
-    std::vector<std::size_t> result;
+  /// Whether the group may be freed beside the selected ones.
+  [[nodiscard]] bool is_open(std::size_t g) const {
+    return !group(g).fitted && !contains(selected_, g) && !aliased_.contains(g);
+  }
+
+  [[nodiscard]] Groups candidates() const {
+    Groups result;
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      if (group(g).role == ParameterGroup::Role::candidate && !taken.contains(g) &&
-          !aliased_.contains(g) && !rejected_.contains(g)) {
-        result.push_back(g);
-      }
+      if (is_open(g) && !is_replaced(g, selected_) && !rejected_.contains(g)) result.push_back(g);
     }
     return result;
   }
@@ -240,7 +237,7 @@ class Search {
   /// one with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical
   /// Learning, 2nd ed., section 7.10).
   [[nodiscard]] std::optional<Trial> best_step() const {
-    const std::vector<std::size_t> open = candidates();
+    const Groups open = candidates();
     std::vector<Trial> worthy;
     for (const std::size_t g : open) {
       tell("trying " + group(g).id);
@@ -264,17 +261,8 @@ class Search {
     return *chosen;
   }
 
-  [[nodiscard]] std::vector<std::size_t> selected_with(std::size_t g) const {
-    std::vector<std::size_t> more = selected_;
-    more.push_back(g);
-    return more;
-  }
-
-  [[nodiscard]] std::vector<std::size_t> selected_without(std::size_t g) const {
-    std::vector<std::size_t> rest = selected_;
-    std::erase(rest, g);
-    return rest;
-  }
+  [[nodiscard]] Groups selected_with(std::size_t g) const { return with_group(selected_, g); }
+  [[nodiscard]] Groups selected_without(std::size_t g) const { return without_group(selected_, g); }
 
   void step_forward() {
     while (selected_.size() < options_.most_findings) {
@@ -326,13 +314,12 @@ class Search {
       if (better.sum <= student_factor_ * better.se || better.sum <= outdone_gain * earned)
         continue;
 
-      Search beside = *this;
-      beside.unnamed_.push_back(best->regressor);
-      BlockFit name_and_shape = beside.fit(selected_, &current_);
-      const BlockFit shape = beside.fit(selected_without(g), &name_and_shape);
-      if (beside.judge(g, shape, std::move(name_and_shape), candidates().size() + 1).worth_a_name) {
-        continue;
-      }
+      Groups shapes = unnamed_;
+      shapes.push_back(best->regressor);
+      BlockFit beside = fit(selected_, shapes, &current_);
+      const BlockFit instead = fit(selected_without(g), shapes, &beside);
+      const std::size_t tested = candidates().size() + 1;
+      if (judge(g, instead, std::move(beside), tested).worth_a_name) continue;
       tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
            " explains more");
       selected_ = selected_without(g);
@@ -355,9 +342,7 @@ class Search {
     unnamed_ = certain.unnamed_;
     too_small_.clear();
     for (const std::size_t g : certain.selected_) {
-      if (std::find(selected_.begin(), selected_.end(), g) == selected_.end()) {
-        too_small_.push_back(g);
-      }
+      if (!contains(selected_, g)) too_small_.push_back(g);
     }
     current_ = fit(selected_, &current_);
   }
@@ -380,33 +365,26 @@ class Search {
   }
 
   void sum_up(const BlockFit& base, Selection& result) const {
-    const auto rmse = [this](const BlockFit& f) {
-      return std::sqrt(f.squared_error() / static_cast<double>(record_.rows()));
-    };
-    for (const std::size_t g : selected_) {
-      SelectedGroup entry;
-      entry.group = g;
-      entry.p_value = p_value(g, fit(selected_without(g), &current_), current_);
-      entry.indistinguishable = rivals(g, current_);
-      result.selected.push_back(std::move(entry));
-    }
-    // The named part alone, one finding after the other.
-    Search named = *this;
-    named.unnamed_.clear();
     BlockFit before = base;
-    std::vector<std::size_t> so_far;
-    for (SelectedGroup& entry : result.selected) {
-      so_far.push_back(entry.group);
-      BlockFit after = named.fit(so_far, &before);
-      entry.rmse_before = rmse(before);
-      entry.rmse_after = rmse(after);
+    Groups so_far;
+    for (const std::size_t g : selected_) {
+      SelectedGroup& entry = result.selected.emplace_back();
+      entry.group = g;
+      const BlockFit without = fit(selected_without(g), &current_);
+      entry.p_value = p_value(g, without, current_);
+      entry.indistinguishable = rivals(g, without);
+      // Gains are those of the named part alone, one finding after the other.
+      so_far.push_back(g);
+      BlockFit after = fit(so_far, {}, &before);
+      entry.rmse_before = before.rmse();
+      entry.rmse_after = after.rmse();
       entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
       entry.gain_se_percent = gain_se_percent(before.block_error, after.block_error);
       before = std::move(after);
     }
     result.extended = model_fit(before);
     for (const std::size_t g : too_small_) {
-      const BlockFit with = named.fit(selected_with(g), &before);
+      const BlockFit with = fit(selected_with(g), {}, &before);
       result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
     }
     const double share = 1 - current_.squared_error() / before.squared_error();
@@ -421,18 +399,13 @@ class Search {
     result.unnamed.share_percent = 100 * std::max(0.0, share);
   }
 
-  [[nodiscard]] std::vector<std::size_t> rivals(std::size_t g, const BlockFit& all) const {
-    const BlockFit without = fit(selected_without(g), &all);
-    const double earned = without.squared_error() - all.squared_error();
+  [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {
+    const double earned = without.squared_error() - current_.squared_error();
     std::vector<std::pair<double, std::size_t>> found;
     for (std::size_t c = 0; c < record_.problem().groups.size(); ++c) {
-      const bool open = group(c).role == ParameterGroup::Role::candidate && !aliased_.contains(c) &&
-                        std::find(selected_.begin(), selected_.end(), c) == selected_.end();
-      if (!open || group(c).replaces == g) continue;
-      std::vector<std::size_t> instead = selected_without(g);
-      instead.push_back(c);
-      const BlockFit rival = fit(instead, &all);
-      const BlockDifference excess = difference(rival.block_error, all.block_error);
+      if (!is_open(c) || group(c).replaces == g) continue;
+      const BlockFit rival = fit(with_group(selected_without(g), c), &current_);
+      const BlockDifference excess = difference(rival.block_error, current_.block_error);
       if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
           excess.sum <= student_factor_ * excess.se) {
         found.emplace_back(rival.squared_error(), c);
@@ -446,7 +419,7 @@ class Search {
     std::vector<int> block_ids(record_.blocks());
     std::iota(block_ids.begin(), block_ids.end(), 0);
     add_fit(record_, fit, block_ids, systematic_variance(record_, fit), result);
-    result.holdout_rmse = std::sqrt(fit.squared_error() / static_cast<double>(record_.rows()));
+    result.holdout_rmse = fit.rmse();
     result.holdout_residual.assign(record_.problem().measured.size(), 0);
     for (Index i = 0; i < record_.rows(); ++i) {
       const std::size_t row = record_.row_in_problem(i);
@@ -460,11 +433,11 @@ class Search {
   const SelectionProgress& progress_;
   double degrees_ = 0;
   double student_factor_ = 0;
-  std::vector<std::size_t> selected_;
-  std::vector<std::size_t> unnamed_;
+  Groups selected_;
+  Groups unnamed_;
   std::set<std::size_t> aliased_;
-  std::vector<std::size_t> too_small_;  ///< certain beside the selected, but not worth a name
-  std::set<std::size_t> rejected_;      ///< taken back once; never tried again, so the search ends
+  Groups too_small_;                ///< certain beside the selected, but not worth a name
+  std::set<std::size_t> rejected_;  ///< taken back once; never tried again, so the search ends
   BlockFit current_;
 };
 

@@ -31,13 +31,10 @@ struct ModelParameter {
 
 /// Parameters that are freed together.
 struct ParameterGroup {
-  /// Whether the search decides about the group.
-  enum class Role {
-    fitted,     ///< always free and never reported: drag areas, instrument gains, base effects
-    candidate,  ///< at its neutral values until the record demands otherwise
-  };
-  std::string id{};                          ///< for messages
-  Role role = Role::candidate;               ///< see above
+  std::string id{};  ///< for messages
+  /// Always free and never reported: drag areas, instrument gains, base effects. Else a candidate,
+  /// at its neutral values until the record demands otherwise.
+  bool fitted = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
   /// Index of a group that goes back to neutral when this one is freed, since this one describes
   /// the same thing in more detail; none by default.

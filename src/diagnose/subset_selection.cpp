@@ -13,6 +13,7 @@
 #include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
 #include "identify/distributions.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Groups = std::vector<std::size_t>;
 
 /// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
 /// likelihood.
@@ -42,15 +42,39 @@ struct Model {
   double length = 0;  ///< description length, in units of squared noise
 };
 
+/// `whole` with the rows of one part and the shapes that concern them, whose indices in `whole` go
+/// to `shapes`.
+SelectionProblem problem_of_rows(const SelectionProblem& whole, const std::vector<char>& rows,
+                                 Groups& shapes) {
+  SelectionProblem part = whole;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i]) part.block[i] = -1;
+  }
+  part.unnamed.clear();
+  for (std::size_t u = 0; u < whole.unnamed.size(); ++u) {
+    const std::vector<double>& column = whole.unnamed[u].column;
+    bool concerns = true;
+    for (std::size_t i = 0; i < column.size(); ++i) concerns &= column[i] == 0 || rows[i];
+    if (!concerns) continue;
+    shapes.push_back(u);
+    part.unnamed.push_back(whole.unnamed[u]);
+  }
+  return part;
+}
+
 /// The search in one part.
 class PartSearch {
  public:
-  PartSearch(const SelectionProblem& part_problem, const Groups& groups,
+  PartSearch(const SelectionProblem& whole, const SelectionPart& part,
              const SelectionOptions& options, const SelectionProgress& progress)
-      : problem_(part_problem), record_(part_problem), options_(options), progress_(progress) {
-    for (const std::size_t g : groups) {
-      (problem_.groups[g].role == ParameterGroup::Role::fitted ? fitted_ : candidates_)
-          .push_back(g);
+      : problem_(problem_of_rows(whole, part.rows, shape_index_)),
+        record_(problem_),
+        options_(options),
+        progress_(progress) {
+    const std::set<int> blocks(problem_.block.begin(), problem_.block.end());
+    block_ids_.assign(blocks.upper_bound(-1), blocks.end());
+    for (const std::size_t g : part.groups) {
+      (problem_.groups[g].fitted ? fitted_ : candidates_).push_back(g);
     }
     const double alpha = options.false_alarm_probability;
     const auto price = [alpha](std::size_t choices) {
@@ -72,11 +96,16 @@ class PartSearch {
   }
 
   /// Leaves a name of the best model out.
-  void take_back(std::size_t g) {
-    best_ = model(without(best_.named, g), best_.shapes, &best_.fit);
-  }
+  void take_back(std::size_t g) { best_ = best_without(g); }
+
+  PartSearch(const PartSearch&) = delete;  // the record refers to the problem
+  PartSearch& operator=(const PartSearch&) = delete;
 
   [[nodiscard]] const Record& record() const { return record_; }
+  /// Of the shapes of this part among those of the whole.
+  [[nodiscard]] const Groups& shape_index() const { return shape_index_; }
+  /// Of the blocks of this part in the whole.
+  [[nodiscard]] const std::vector<int>& block_ids() const { return block_ids_; }
   [[nodiscard]] const Model& base() const { return base_; }
   [[nodiscard]] const Model& best() const { return best_; }
   [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
@@ -89,11 +118,11 @@ class PartSearch {
     while (so_far.size() < best_.named.size()) {
       std::optional<std::pair<std::size_t, BlockFit>> next;
       for (const std::size_t g : best_.named) {
-        if (std::binary_search(so_far.begin(), so_far.end(), g)) continue;
-        BlockFit fit = model(with(so_far, g), {}, near).fit;
+        if (contains(so_far, g)) continue;
+        BlockFit fit = model(with_group(so_far, g), {}, near).fit;
         if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
       }
-      so_far = with(so_far, next->first);
+      so_far = with_group(so_far, next->first);
       order.push_back(std::move(*next));
     }
     return order;
@@ -105,13 +134,13 @@ class PartSearch {
   }
 
   [[nodiscard]] Groups rivals(std::size_t g) const {
-    const Groups rest = without(best_.named, g);
-    const double alone = model(rest, best_.shapes, &best_.fit).fit.squared_error();
+    const Groups rest = without_group(best_.named, g);
+    const double alone = best_without(g).fit.squared_error();
     const double earned = alone - best_.fit.squared_error();
     std::vector<std::pair<double, std::size_t>> found;
     for (const std::size_t c : candidates_) {
-      if (std::binary_search(best_.named.begin(), best_.named.end(), c)) continue;
-      const Model rival = model(with(rest, c), best_.shapes, &best_.fit);
+      if (contains(best_.named, c)) continue;
+      const Model rival = model(with_group(rest, c), best_.shapes, &best_.fit);
       if (rival.length - best_.length <= rival_excess &&
           alone - rival.fit.squared_error() >= rival_gain * earned) {
         found.emplace_back(rival.length, c);
@@ -120,20 +149,12 @@ class PartSearch {
     return nearest_rivals(std::move(found));
   }
 
-  [[nodiscard]] double length_without(std::size_t g) const {
-    return model(without(best_.named, g), best_.shapes, &best_.fit).fit.squared_error();
+  /// The best model, but for one of its names.
+  [[nodiscard]] Model best_without(std::size_t g) const {
+    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
   }
 
  private:
-  static Groups with(Groups named, std::size_t g) {
-    named.insert(std::upper_bound(named.begin(), named.end(), g), g);
-    return named;
-  }
-  static Groups without(Groups named, std::size_t g) {
-    std::erase(named, g);
-    return named;
-  }
-
   [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
     Freed freed;
     freed.groups = fitted_;
@@ -163,8 +184,8 @@ class PartSearch {
       std::map<Groups, Model> next;
       for (const Model& parent : level) {
         for (const std::size_t g : candidates_) {
-          if (std::binary_search(parent.named.begin(), parent.named.end(), g)) continue;
-          const Groups named = with(parent.named, g);
+          if (contains(parent.named, g)) continue;
+          const Groups named = with_group(parent.named, g);
           if (next.contains(named)) continue;
           if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
           next.emplace(named, model(named, {}, &parent.fit));
@@ -191,7 +212,8 @@ class PartSearch {
     if (named.named.empty()) return;
     if (named.named.size() > 1) {
       for (const std::size_t g : named.named) {
-        consider(with_shapes(model(without(named.named, g), {}, &named.fit)), name_preference);
+        consider(with_shapes(model(without_group(named.named, g), {}, &named.fit)),
+                 name_preference);
       }
     }
     consider(with_shapes(base_), name_preference);
@@ -219,19 +241,21 @@ class PartSearch {
       changed = false;
       const Model now = best_;
       for (const std::size_t g : candidates_) {
-        const bool in = std::binary_search(now.named.begin(), now.named.end(), g);
+        const bool in = contains(now.named, g);
         if (!in && now.named.size() >= options_.most_findings) continue;
-        consider(model(in ? without(now.named, g) : with(now.named, g), now.shapes, &now.fit));
+        const Groups named = in ? without_group(now.named, g) : with_group(now.named, g);
+        consider(model(named, now.shapes, &now.fit));
       }
-      for (const std::size_t u : now.shapes)
-        consider(model(now.named, without(now.shapes, u), &now.fit));
+      for (const std::size_t u : now.shapes) {
+        consider(model(now.named, without_group(now.shapes, u), &now.fit));
+      }
       changed = best_.length < now.length - 1e-9;
     }
   }
 
   void find_aliased(const Model& model, bool beside_findings) {
     for (const std::size_t g : candidates_) {
-      if (is_aliased(g) || std::binary_search(model.named.begin(), model.named.end(), g)) continue;
+      if (is_aliased(g) || contains(model.named, g)) continue;
       auto aliased = aliased_in(record_, model.fit, g);
       if (aliased && !(aliased->with.empty() && beside_findings)) {
         aliased_.push_back(std::move(*aliased));
@@ -244,8 +268,10 @@ class PartSearch {
                        [g](const Selection::Aliased& a) { return a.group == g; });
   }
 
-  const SelectionProblem& problem_;
+  Groups shape_index_;
+  SelectionProblem problem_;
   Record record_;
+  std::vector<int> block_ids_;
   const SelectionOptions& options_;
   const SelectionProgress& progress_;
   Groups fitted_;
@@ -257,9 +283,11 @@ class PartSearch {
   std::vector<Selection::Aliased> aliased_;
 };
 
-/// Standard errors from the curvature of the likelihood, by parameter. Unlike the jackknife of the
-/// fit, they count what a parameter that rests on a bound leaves open in the others.
-std::map<std::size_t, double> likelihood_errors(const Record& record, const BlockFit& fit) {
+/// Writes a part's fit into that of all, with standard errors from the curvature of the likelihood.
+/// Unlike the jackknife of the fit, they count what a parameter that rests on a bound leaves open
+/// in the others.
+void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
+               ModelFit& all) {
   std::vector<std::size_t> parameters;
   MatrixXd jacobian(record.rows(), 0);
   for (const std::size_t g : fit.freed.groups) {
@@ -275,53 +303,19 @@ std::map<std::size_t, double> likelihood_errors(const Record& record, const Bloc
   jacobian.conservativeResize(Eigen::NoChange, named + shapes);
   jacobian.rightCols(shapes) = fit.jacobian.rightCols(shapes);
 
-  std::map<std::size_t, double> errors;
-  if (named == 0) return errors;
-  const MatrixXd covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+  MatrixXd covariance;
+  if (named > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
   for (Index k = 0; k < named; ++k) {
     const std::size_t index = parameters[static_cast<std::size_t>(k)];
-    errors[index] = record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
-  }
-  return errors;
-}
-
-void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
-               ModelFit& all) {
-  for (const auto& [index, error] : likelihood_errors(record, fit)) {
-    all.standard_error[index] = error;
+    all.standard_error[index] =
+        record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
   }
   add_fit(record, fit, block_ids, {}, all);
 }
 
-/// The rows of one part with what concerns them, and the search among them.
-struct Part {
-  SelectionProblem problem;
-  std::vector<std::size_t> shape_index;  ///< of its unnamed regressors among those of the whole
-  std::vector<int> block_ids;            ///< of the whole, in rising order
-  std::optional<PartSearch> search;
-
-  Part(const SelectionProblem& whole, const std::vector<char>& rows) : problem(whole) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!rows[i]) problem.block[i] = -1;
-    }
-    const std::set<int> distinct(problem.block.begin(), problem.block.end());
-    block_ids.assign(distinct.begin(), distinct.end());
-    std::erase(block_ids, -1);
-    problem.unnamed.clear();
-    for (std::size_t u = 0; u < whole.unnamed.size(); ++u) {
-      const std::vector<double>& column = whole.unnamed[u].column;
-      bool concerns = true;
-      for (std::size_t i = 0; i < column.size(); ++i) concerns &= column[i] == 0 || rows[i];
-      if (!concerns) continue;
-      shape_index.push_back(u);
-      problem.unnamed.push_back(whole.unnamed[u]);
-    }
-  }
-};
-
 /// A named effect of a part's best model and what it adds to the names before it there.
 struct Named {
-  Part* part = nullptr;
+  PartSearch* search = nullptr;
   SelectedGroup entry;
   VectorXd before, after;  ///< squared errors of the part's blocks
 
@@ -329,13 +323,13 @@ struct Named {
 };
 
 /// The names of all parts, those that gain most first, with their gains in all of the record.
-std::vector<Named> named_in(std::list<Part>& parts, double base_error, double rows) {
+std::vector<Named> named_in(std::list<PartSearch>& parts, double base_error, double rows) {
   std::vector<Named> named;
-  for (Part& part : parts) {
-    VectorXd before = part.search->base().fit.block_error;
-    for (const auto& [g, fit] : part.search->in_order()) {
+  for (PartSearch& part : parts) {
+    VectorXd before = part.base().fit.block_error;
+    for (const auto& [g, fit] : part.in_order()) {
       Named& n = named.emplace_back();
-      n.part = &part;
+      n.search = &part;
       n.entry.group = g;
       n.before = std::move(before);
       n.after = fit.block_error;
@@ -357,7 +351,7 @@ std::vector<Named> named_in(std::list<Part>& parts, double base_error, double ro
 }
 
 /// The same, without those that gain too little to be worth a name beside all others.
-std::vector<Named> worth_a_name(std::list<Part>& parts, double base_error, double rows,
+std::vector<Named> worth_a_name(std::list<PartSearch>& parts, double base_error, double rows,
                                 double least_gain) {
   while (true) {
     std::vector<Named> named = named_in(parts, base_error, rows);
@@ -365,7 +359,7 @@ std::vector<Named> worth_a_name(std::list<Part>& parts, double base_error, doubl
         named.begin(), named.end(),
         [](const Named& a, const Named& b) { return a.entry.gain_percent < b.entry.gain_percent; });
     if (weakest == named.end() || weakest->entry.gain_percent >= least_gain) return named;
-    weakest->part->search->take_back(weakest->entry.group);
+    weakest->search->take_back(weakest->entry.group);
   }
 }
 
@@ -378,11 +372,10 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
   result.base = result.extended = result.complete =
       neutral_fit(problem, static_cast<std::size_t>(std::max(blocks, 0)));
 
-  std::list<Part> searched;  // searches refer to their problems, which must stay where they are
+  std::list<PartSearch> searches;
   double base_error = 0;
   for (const SelectionPart& part : parts) {
-    Part& own = searched.emplace_back(problem, part.rows);
-    PartSearch& search = own.search.emplace(own.problem, part.groups, options, progress);
+    PartSearch& search = searches.emplace_back(problem, part, options, progress);
     search.run();
     result.rows += static_cast<std::size_t>(search.record().rows());
     result.blocks = std::max(result.blocks, search.record().blocks());
@@ -390,28 +383,27 @@ Selection select_subset(const SelectionProblem& problem, const std::vector<Selec
     base_error += search.base().fit.squared_error();
   }
   const auto rows = static_cast<double>(result.rows);
-  for (Named& n : worth_a_name(searched, base_error, rows, options.least_gain_percent)) {
-    const PartSearch& search = *n.part->search;
+  for (Named& n : worth_a_name(searches, base_error, rows, options.least_gain_percent)) {
+    const PartSearch& search = *n.search;
     n.entry.indistinguishable = search.rivals(n.entry.group);
-    n.entry.p_value =
-        chi_squared_tail(search.length_without(n.entry.group) - search.best().fit.squared_error(),
-                         static_cast<double>(problem.groups[n.entry.group].parameters.size()));
+    n.entry.p_value = chi_squared_tail(
+        search.best_without(n.entry.group).fit.squared_error() - search.best().fit.squared_error(),
+        static_cast<double>(problem.groups[n.entry.group].parameters.size()));
     result.selected.push_back(std::move(n.entry));
   }
 
   double named_error = 0;
   double complete_error = 0;
-  for (const Part& part : searched) {
-    const PartSearch& search = *part.search;
+  for (const PartSearch& search : searches) {
     const Model& best = search.best();
     const BlockFit named = search.named_alone();
     named_error += named.squared_error();
     complete_error += best.fit.squared_error();
-    merge_fit(search.record(), search.base().fit, part.block_ids, result.base);
-    merge_fit(search.record(), named, part.block_ids, result.extended);
-    merge_fit(search.record(), best.fit, part.block_ids, result.complete);
+    merge_fit(search.record(), search.base().fit, search.block_ids(), result.base);
+    merge_fit(search.record(), named, search.block_ids(), result.extended);
+    merge_fit(search.record(), best.fit, search.block_ids(), result.complete);
     for (std::size_t k = 0; k < best.shapes.size(); ++k) {
-      result.unnamed.regressors.push_back(part.shape_index[best.shapes[k]]);
+      result.unnamed.regressors.push_back(search.shape_index()[best.shapes[k]]);
       result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
     }
   }

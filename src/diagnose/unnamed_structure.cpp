@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "identify/distributions.hpp"
+#include "identify/series.hpp"
 
 namespace tethercalc {
 namespace {
@@ -116,10 +117,7 @@ std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& f
       -student_quantile(degrees, false_alarm_probability / 2 / static_cast<double>(count));
   std::optional<Index> best;
   for (Index k = 0; k < count; ++k) {
-    const bool passed_over =
-        own_part[k] < least_own_part ||
-        std::find(taken.begin(), taken.end(), static_cast<std::size_t>(k)) != taken.end();
-    if (passed_over) continue;
+    if (own_part[k] < least_own_part || contains(taken, static_cast<std::size_t>(k))) continue;
     const VectorXd values = coefficient.col(k);
     const double mean = values.mean();
     const double se =

@@ -5,11 +5,26 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "diagnose/block_fit.hpp"
 
 namespace tethercalc {
+
+using Series = Eigen::ArrayXd;
+
+/// For arithmetic.
+[[nodiscard]] inline Series as_series(const std::vector<double>& x) {
+  return Series::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// A course that a log may take without any effect of the catalogue.
+struct Shape {
+  std::string channel;  ///< as in `UnnamedRegressor`
+  std::string words;    ///< likewise
+  Series values;        ///< one a sample
+};
 
 struct UnnamedTrial {
   std::size_t regressor = 0;    ///< index into SelectionProblem::unnamed

@@ -9,10 +9,10 @@
 namespace tethercalc {
 namespace {
 
-using Vector = Eigen::Map<const Eigen::VectorXd>;
-
-Vector as_vector(std::span<const double> series) {
-  return {series.data(), static_cast<Eigen::Index>(series.size())};
+/// The series less its mean.
+Eigen::VectorXd centred(std::span<const double> series) {
+  const auto x = Eigen::VectorXd::Map(series.data(), static_cast<Eigen::Index>(series.size()));
+  return x.array() - x.mean();
 }
 
 /// Σ x_t·x_{t+lag}.
@@ -24,7 +24,7 @@ double lagged_product(const Eigen::VectorXd& x, Eigen::Index lag) {
 
 double autocorrelation(std::span<const double> series, std::size_t lag) {
   if (series.size() <= lag) return 0;
-  const Eigen::VectorXd x = as_vector(series).array() - as_vector(series).mean();
+  const Eigen::VectorXd x = centred(series);
   const double variance = x.squaredNorm();
   return variance > 0 ? lagged_product(x, static_cast<Eigen::Index>(lag)) / variance : 0;
 }
@@ -32,7 +32,7 @@ double autocorrelation(std::span<const double> series, std::size_t lag) {
 double effective_sample_size(std::span<const double> series) {
   const auto size = static_cast<double>(series.size());
   if (series.size() < 2) return size;
-  const Eigen::VectorXd x = as_vector(series).array() - as_vector(series).mean();
+  const Eigen::VectorXd x = centred(series);
   const double variance = x.squaredNorm();
   if (!(variance > 0)) return size;
   double correlation_time = -1;  // −1 + 2·Σ of the pairs, the first of which holds ρ_0 = 1

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -529,30 +528,10 @@ VectorXd differentiation_correction(std::span<const Observations> flights,
   return inverse * pull;
 }
 
-/// Variance and degrees of freedom of the combination `a` of the parameters. Flights are
-/// independent, so variances add, and degrees of freedom combine after Satterthwaite (1946).
-struct Variance {
-  double value = 0;
-  double degrees_of_freedom = 0;
-};
-
 double quadratic_form(std::span<const double> a, std::span<const double> matrix) {
   const auto size = static_cast<Index>(a.size());
   const Eigen::Map<const VectorXd> x(a.data(), size);
   return x.dot(Eigen::Map<const MatrixXd>(matrix.data(), size, size) * x);
-}
-
-Variance variance(const DragFit& fit, std::span<const double> a) {
-  double total = 0;
-  double spread = 0;
-  for (std::size_t f = 0; f < fit.covariance_by_flight.size(); ++f) {
-    const double part = quadratic_form(a, fit.covariance_by_flight[f]);
-    total += part;
-    spread += part * part / fit.degrees_of_freedom_by_flight[f];
-  }
-  const double correction =
-      std::inner_product(a.begin(), a.end(), fit.differentiation_correction.begin(), 0.0);
-  return {total + correction * correction, spread > 0 ? total * total / spread : 0};
 }
 
 }  // namespace
@@ -572,15 +551,25 @@ double DragFit::correlation(std::size_t i, std::size_t j) const {
 }
 
 Estimate propagate(const DragFit& fit, double value, std::span<const double> gradient) {
-  const Variance honest = variance(fit, gradient);
+  // Flights are independent, so variances add, and degrees of freedom combine after Satterthwaite
+  // (1946).
+  double variance = 0;
+  double spread = 0;
+  for (std::size_t f = 0; f < fit.covariance_by_flight.size(); ++f) {
+    const double part = quadratic_form(gradient, fit.covariance_by_flight[f]);
+    variance += part;
+    spread += part * part / fit.degrees_of_freedom_by_flight[f];
+  }
+  const double correction = std::inner_product(gradient.begin(), gradient.end(),
+                                               fit.differentiation_correction.begin(), 0.0);
   Estimate out;
   out.value = value;
   out.standard_error_independent = std::sqrt(quadratic_form(gradient, fit.covariance_independent));
-  out.standard_error = std::sqrt(honest.value);
-  out.degrees_of_freedom = honest.degrees_of_freedom;
+  out.standard_error = std::sqrt(variance + correction * correction);
   double half_width = 0;  // without variance the value is exact
-  if (honest.degrees_of_freedom > 0) {
-    half_width = student_quantile(honest.degrees_of_freedom, 0.975) * out.standard_error;
+  if (spread > 0) {
+    out.degrees_of_freedom = variance * variance / spread;
+    half_width = student_quantile(out.degrees_of_freedom, 0.975) * out.standard_error;
   }
   out.lower = value - half_width;
   out.upper = value + half_width;

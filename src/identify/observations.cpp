@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <string_view>
 #include <utility>
 
 #include "identify/series.hpp"
@@ -26,30 +24,8 @@ constexpr double steepest_angle =
 constexpr double fastest_multirotor = 200;  // m/s: beyond every speed on record
 constexpr double lost_estimates = 0.01;     // of the samples
 
-struct NamedSeries {
-  std::string_view name;
-  const std::vector<double>& values;
-};
-
-std::array<NamedSeries, 7> named_series(const FlightLog& log) {
-  return {{{"time", log.time},
-           {"roll", log.roll},
-           {"pitch", log.pitch},
-           {"yaw", log.yaw},
-           {"north velocity", log.north_velocity},
-           {"east velocity", log.east_velocity},
-           {"down velocity", log.down_velocity}}};
-}
-
 double forward_speed(const FlightLog& log, std::size_t i) {
   return std::cos(log.yaw[i]) * log.north_velocity[i] + std::sin(log.yaw[i]) * log.east_velocity[i];
-}
-
-/// Derivative at the middle of three points, exact for a parabola.
-double central_difference(double t0, double t1, double t2, double x0, double x1, double x2) {
-  const double before = t1 - t0;
-  const double after = t2 - t1;
-  return ((x1 - x0) / before * after + (x2 - x1) / after * before) / (before + after);
 }
 
 /// Which neighbours of a sample may be used for its derivative.
@@ -58,13 +34,15 @@ struct Neighbours {
   bool after = false;
 };
 
+/// One-sided, or at the middle of three points exact for a parabola.
 double derivative(const std::vector<double>& time, const std::vector<double>& x, std::size_t i,
                   Neighbours use) {
-  if (use.before && use.after) {
-    return central_difference(time[i - 1], time[i], time[i + 1], x[i - 1], x[i], x[i + 1]);
-  }
-  const std::size_t a = use.before ? i - 1 : i;
-  return (x[a + 1] - x[a]) / (time[a + 1] - time[a]);
+  const auto step = [&time](std::size_t k) { return time[k + 1] - time[k]; };
+  const auto slope = [&](std::size_t k) { return (x[k + 1] - x[k]) / step(k); };
+  if (!use.before || !use.after) return slope(use.before ? i - 1 : i);
+  const double before = step(i - 1);
+  const double after = step(i);
+  return (slope(i - 1) * after + slope(i) * before) / (before + after);
 }
 
 void demand_carrying_thrust(double time, double tilt, double roll) {
@@ -110,17 +88,21 @@ void validate(const FlightLog& log) {
         log.other_vehicle));
   }
   const std::size_t size = log.time.size();
-  for (const auto& [name, values] : named_series(log)) {
-    if (values.size() != size) {
+  for (const auto& [name, values] :
+       {std::pair{"time", &log.time}, std::pair{"roll", &log.roll}, std::pair{"pitch", &log.pitch},
+        std::pair{"yaw", &log.yaw}, std::pair{"north velocity", &log.north_velocity},
+        std::pair{"east velocity", &log.east_velocity},
+        std::pair{"down velocity", &log.down_velocity}}) {
+    if (values->size() != size) {
       throw UnsuitableFlight(fmt::format("the flight log has {} values of {} for {} times",
-                                         values.size(), name, size));
+                                         values->size(), name, size));
     }
-    const auto bad = std::find_if_not(values.begin(), values.end(),
+    const auto bad = std::find_if_not(values->begin(), values->end(),
                                       [](double value) { return std::isfinite(value); });
-    if (bad != values.end()) {
+    if (bad != values->end()) {
       throw UnsuitableFlight(
           fmt::format("sample {} of the flight log has a {} that is not a number",
-                      bad - values.begin() + 1, name));
+                      bad - values->begin() + 1, name));
     }
   }
   if (size < 3) {

@@ -32,6 +32,12 @@ inline constexpr double mad_to_sigma = 1.4826;
   return ordered(std::move(values), place);
 }
 
+/// Whether `value` is among `values`.
+template <typename T, typename Value>
+[[nodiscard]] bool contains(const std::vector<T>& values, const Value& value) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
 /// Element by element.
 [[nodiscard]] inline std::vector<double> product(std::vector<double> a,
                                                  const std::vector<double>& b) {

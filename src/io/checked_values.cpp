@@ -14,15 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view last_key(std::string_view pointer) {
-  return pointer.substr(pointer.rfind('/') + 1);
-}
-
-bool is_below(std::string_view pointer, std::string_view group) {
-  return pointer.size() > group.size() && pointer.starts_with(group) &&
-         pointer[group.size()] == '/';
-}
-
 /// Walks an object and the groups in it.
 class FieldFinder {
  public:
@@ -164,13 +155,6 @@ std::vector<JsonPlace> field_places(const JsonPlace& object, std::span<const Spe
   return FieldFinder(object, fields, problems).find();
 }
 
-const JsonPlace& place_of(std::string_view pointer, std::span<const SpecField> fields,
-                          std::span<const JsonPlace> places) {
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [&](const SpecField& field) { return field.pointer == pointer; });
-  return places[static_cast<std::size_t>(found - fields.begin())];
-}
-
 std::optional<double> checked_number(const JsonPlace& place, const SpecField& field,
                                      Problems& problems) {
   if (!place.given()) return std::nullopt;
@@ -204,6 +188,16 @@ std::optional<double> parsed_number(std::string_view text) {
   const auto [stopped, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
 }
 
 std::string checked_text(const JsonPlace& place, Problems& problems) {

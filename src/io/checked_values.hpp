@@ -27,6 +27,18 @@ class Problems {
   void add(std::string where, std::string message);
   void add(std::vector<InputProblem> problems);
 
+  /// Calls `step`; false where it threw an InputError, whose problems then are among these.
+  template <typename Step>
+  bool succeeds(Step step) {
+    try {
+      step();
+      return true;
+    } catch (const InputError& error) {
+      add(error.problems());
+      return false;
+    }
+  }
+
   [[nodiscard]] bool none() const { return kept_.empty(); }
   [[nodiscard]] std::size_t count() const { return kept_.size() + omitted_; }
 
@@ -56,10 +68,6 @@ struct JsonPlace {
 std::vector<JsonPlace> field_places(const JsonPlace& object, std::span<const SpecField> fields,
                                     Problems& problems);
 
-/// The place of `field`, by its pointer, among what `field_places` found.
-const JsonPlace& place_of(std::string_view pointer, std::span<const SpecField> fields,
-                          std::span<const JsonPlace> places);
-
 /// The number at a place in the field's practical unit; nothing, with the reason among the
 /// problems, where it is none or not allowed. Nothing and no problem where it is not given, or null
 /// where the field is optional.
@@ -68,6 +76,9 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
 
 /// The finite number that the whole of `text` is; nothing where it is none.
 std::optional<double> parsed_number(std::string_view text);
+
+/// The parts of `text` between separators, at least one.
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// The text at a place; empty where it is not given or, with a problem, is no text.
 std::string checked_text(const JsonPlace& place, Problems& problems);

@@ -42,13 +42,9 @@ std::string_view without_blanks(std::string_view cell) {
 
 /// The cells of one line, blanks around each removed.
 std::vector<std::string_view> split_csv_line(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const auto comma = line.find(',');
-    cells.push_back(without_blanks(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
+  std::vector<std::string_view> cells = split(line, ',');
+  for (std::string_view& cell : cells) cell = without_blanks(cell);
+  return cells;
 }
 
 /// Takes the next line, without its end, off the front of `text`.
@@ -114,13 +110,12 @@ std::string allowed_values(const CsvColumn& column) {
   return fmt::format("{} to {}", column.minimum, column.maximum);
 }
 
-/// The number in `cell`, or the reason why it is none that `column` can hold.
-std::optional<double> parse_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
-                                 CellProblems& problems) {
+/// Puts the number in `cell` below those `above` it; a cell that may not stand there is a problem.
+void take_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
+               std::vector<double>& above, CellProblems& problems) {
   const auto reject = [&](const std::string& expected) {
     const std::string found = cell.empty() ? "empty" : "\"" + shown_cell(cell) + "\"";
     problems.add(line, fmt::format("{} is {}, expected {}", column.name, found, expected));
-    return std::nullopt;
   };
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -131,16 +126,12 @@ std::optional<double> parse_cell(std::string_view cell, const CsvColumn& column,
     return reject("a finite number");
   }
   if (value < column.minimum || value > column.maximum) return reject(allowed_values(column));
-  return value;
-}
-
-/// Whether `value` may stand below the column's last; a value that is out of order is told.
-bool in_order(double value, const std::vector<double>& above, const CsvColumn& column,
-              std::size_t line, CellProblems& problems) {
-  if (!column.increasing || above.empty() || value > above.back()) return true;
-  problems.add(line, fmt::format("{} is {}, expected more than the {} before it", column.name,
-                                 value, above.back()));
-  return false;
+  if (column.increasing && !above.empty() && value <= above.back()) {
+    problems.add(line, fmt::format("{} is {}, expected more than the {} before it", column.name,
+                                   value, above.back()));
+    return;
+  }
+  above.push_back(value);
 }
 
 }  // namespace
@@ -173,12 +164,7 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (!meaning[i]) continue;
-      const CsvColumn& column = wanted[*meaning[i]];
-      std::vector<double>& values = columns[*meaning[i]];
-      const auto value = parse_cell(cells[i], column, line_number, problems);
-      if (value && in_order(*value, values, column, line_number, problems)) {
-        values.push_back(*value);
-      }
+      take_cell(cells[i], wanted[*meaning[i]], line_number, columns[*meaning[i]], problems);
     }
   }
   problems.throw_if_any();

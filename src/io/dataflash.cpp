@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <deque>
 #include <utility>
 
@@ -15,19 +13,10 @@
 namespace tethercalc {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "fields are copied out of the log, which is little-endian");
+using dataflash::read;
 
-constexpr std::size_t most_skipped_stretches_told = 100;
-constexpr std::size_t most_rejected_definitions_told = 100;
+constexpr std::size_t most_told = 100;  // stretches skipped, and definitions rejected
 constexpr std::size_t numbers_in_a = 32;
-
-template <class T>
-T read(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
 
 /// IEEE 754 binary16.
 double read_half(const std::byte* at) {
@@ -101,35 +90,27 @@ auto with_reader_of(char kind, Use use) {
   }
 }
 
-std::string text_of(const std::byte* at, std::size_t size) {
-  const std::string_view all(reinterpret_cast<const char*>(at), size);
-  return std::string(all.substr(0, all.find('\0')));
-}
+using MessageVisitor = std::function<void(const DataFlashFormat&, const std::byte*)>;
 
-/// Calls `act(format, message)` for each message, keeping the formats in force.
-template <class Act>
+/// Calls `visit` for each message, keeping the formats in force.
 class FormatKeeper {
  public:
-  explicit FormatKeeper(Act act) : act_(std::move(act)) {
-    on_format(dataflash::fmt_type, dataflash::definition_of_fmt());
-  }
+  explicit FormatKeeper(const MessageVisitor& visit) : visit_(visit) {}
   void on_format(std::uint8_t type, const std::byte* fmt) {
     formats_[type] = &kept_.emplace_back(dataflash::parse_format(fmt));
   }
   void on_rejected(std::uint8_t, const std::byte*, std::string_view) {}
-  void on_message(std::uint8_t type, const std::byte* message) { act_(*formats_[type], message); }
+  void on_message(std::uint8_t type, const std::byte* message) { visit_(*formats_[type], message); }
   void on_skipped(const SkippedBytes&) {}
 
  private:
-  Act act_;
+  const MessageVisitor& visit_;
   std::array<const DataFlashFormat*, 256> formats_{};
   std::deque<DataFlashFormat> kept_;  // also those no longer in force
 };
 
 class ContentsTaker {
  public:
-  ContentsTaker() { on_format(dataflash::fmt_type, dataflash::definition_of_fmt()); }
-
   void on_format(std::uint8_t type, const std::byte* fmt) {
     DataFlashFormat format = dataflash::parse_format(fmt);
     auto& types = contents.types;
@@ -142,7 +123,7 @@ class ContentsTaker {
     if (known == types.end()) types.push_back({std::move(format), 0});
   }
   void on_rejected(std::uint8_t type, const std::byte* fmt, std::string_view reason) {
-    if (contents.rejected_definitions.size() >= most_rejected_definitions_told) return;
+    if (contents.rejected_definitions.size() >= most_told) return;
     contents.rejected_definitions.push_back(
         fmt::format("the definition of message {} (number {}) cannot be used: {}",
                     printable(dataflash::parse_format(fmt).name), type, reason));
@@ -154,7 +135,7 @@ class ContentsTaker {
   void on_skipped(const SkippedBytes& lost) {
     contents.skipped_bytes += lost.bytes;
     contents.skipped_messages += lost.messages;
-    if (contents.skipped.size() < most_skipped_stretches_told) contents.skipped.push_back(lost);
+    if (contents.skipped.size() < most_told) contents.skipped.push_back(lost);
   }
 
   DataFlashContents contents;
@@ -180,18 +161,14 @@ std::optional<Wanted> wanted_from(const DataFlashFormat& format, std::string_vie
                                   std::span<const std::string> fields,
                                   const std::optional<DataFlashInstance>& instance) {
   if (format.name != name) return std::nullopt;
-  const auto number_called = [&format](std::string_view field) -> const DataFlashField* {
-    const DataFlashField* const found = format.find(field);
-    return found != nullptr && found->is_number() ? found : nullptr;
-  };
   Wanted wanted;
   if (instance) {
-    const DataFlashField* const field = number_called(instance->field);
+    const DataFlashField* const field = format.find_number(instance->field);
     if (field == nullptr) return std::nullopt;
     wanted.instance = *field;
   }
   for (const std::string& name_of_field : fields) {
-    const DataFlashField* const field = number_called(name_of_field);
+    const DataFlashField* const field = format.find_number(name_of_field);
     if (field == nullptr) return std::nullopt;
     wanted.fields.push_back(*field);
   }
@@ -204,9 +181,7 @@ class Extractor {
  public:
   Extractor(std::string_view name, std::span<const std::string> fields,
             const std::optional<DataFlashInstance>& instance, Act act)
-      : name_(name), fields_(fields), instance_(instance), act_(std::move(act)) {
-    on_format(dataflash::fmt_type, dataflash::definition_of_fmt());
-  }
+      : name_(name), fields_(fields), instance_(instance), act_(std::move(act)) {}
   void on_format(std::uint8_t type, const std::byte* fmt) {
     auto wanted = wanted_from(dataflash::parse_format(fmt), name_, fields_, instance_);
     wanted_[type] = wanted ? &kept_.emplace_back(std::move(*wanted)) : nullptr;
@@ -289,13 +264,18 @@ const DataFlashField* DataFlashFormat::find(std::string_view field_name) const {
   return found == fields.end() ? nullptr : &*found;
 }
 
+const DataFlashField* DataFlashFormat::find_number(std::string_view field_name) const {
+  const DataFlashField* const found = find(field_name);
+  return found != nullptr && found->is_number() ? found : nullptr;
+}
+
 std::string field_text(const std::byte* message, const DataFlashField& field) {
   const std::byte* const at = message + field.offset;
   switch (field.kind) {
     case 'n':
     case 'N':
     case 'Z':
-      return text_of(at, dataflash::size_of_kind(field.kind));
+      return std::string(dataflash::text_at(at, dataflash::size_of_kind(field.kind)));
     case 'a': {
       std::string numbers;
       for (std::size_t i = 0; i < numbers_in_a; ++i) {
@@ -326,12 +306,10 @@ std::optional<DataFlashTime> time_of(const DataFlashFormat& format) {
     if (format.fields.front().name == "TimeUS") return DataFlashTime{format.fields.front(), 1e6};
     if (format.fields.front().name == "TimeMS") return DataFlashTime{format.fields.front(), 1e3};
   }
-  const DataFlashField* const since_start = format.find("T");
+  const DataFlashField* const since_start = format.find_number("T");
   const bool older_gps = format.name.starts_with("GPS") && format.find("TimeMS") != nullptr;
-  if (older_gps && since_start != nullptr && since_start->is_number()) {
-    return DataFlashTime{*since_start, 1e3};
-  }
-  return std::nullopt;
+  if (!older_gps || since_start == nullptr) return std::nullopt;
+  return DataFlashTime{*since_start, 1e3};
 }
 
 std::size_t DataFlashContents::count(std::string_view name) const {
@@ -355,12 +333,8 @@ DataFlashContents scan_dataflash(std::span<const std::byte> log) {
   return std::move(taker.contents);
 }
 
-void for_each_message(
-    std::span<const std::byte> log,
-    const std::function<void(const DataFlashFormat& format, const std::byte* message)>& visit) {
-  FormatKeeper keeper([&visit](const DataFlashFormat& format, const std::byte* message) {
-    visit(format, message);
-  });
+void for_each_message(std::span<const std::byte> log, const MessageVisitor& visit) {
+  FormatKeeper keeper(visit);
   dataflash::walk(log, keeper);
 }
 

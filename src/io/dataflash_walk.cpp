@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace tethercalc::dataflash {
 namespace {
@@ -16,11 +17,6 @@ constexpr std::size_t format_size = 16;
 constexpr std::size_t labels_at = format_at + format_size;
 constexpr std::size_t labels_size = 64;
 static_assert(labels_at + labels_size == fmt_length);
-
-std::string_view text_at(const std::byte* start, std::size_t size) {
-  const std::string_view all(reinterpret_cast<const char*>(start), size);
-  return all.substr(0, all.find('\0'));
-}
 
 std::string_view name_in(const std::byte* fmt) { return text_at(fmt + name_at, name_size); }
 std::string_view format_in(const std::byte* fmt) { return text_at(fmt + format_at, format_size); }
@@ -95,14 +91,10 @@ constexpr std::array<std::byte, fmt_length> built_in_fmt = make_definition_of_fm
 const std::byte* definition_of_fmt() { return built_in_fmt.data(); }
 
 std::size_t size_of_kind(char kind) {
-  struct Kinds {
-    std::string_view of_size;
-    std::size_t bytes;
-  };
-  static constexpr Kinds all[] = {{"bBM", 1}, {"hHcCg", 2}, {"iIfLeEn", 4},
-                                  {"qQd", 8}, {"N", 16},    {"aZ", 64}};
-  for (const Kinds& kinds : all) {
-    if (kinds.of_size.find(kind) != std::string_view::npos) return kinds.bytes;
+  static constexpr std::pair<std::string_view, std::size_t> all[] = {
+      {"bBM", 1}, {"hHcCg", 2}, {"iIfLeEn", 4}, {"qQd", 8}, {"N", 16}, {"aZ", 64}};
+  for (const auto& [kinds, bytes] : all) {
+    if (kinds.find(kind) != std::string_view::npos) return bytes;
   }
   return 0;
 }
@@ -140,10 +132,9 @@ Definitions::Change Definitions::take(const std::byte* message) {
     // Every log begins with the definition of FMT itself, so here one may begin behind another, and
     // its numbers may mean other messages.
     if (name_in(message) == "FMT" && format_in(message) == "BBnNZ") {
-      ++beginnings_;
       settled_.fill(false);
       settled_[fmt_type] = true;
-      return {};
+      return {Outcome::begun, type};
     }
     return {Outcome::rejected, type, "that number is FMT's own"};
   }
@@ -214,6 +205,13 @@ bool Framing::is_followed(std::size_t message, std::size_t at, const Definitions
   return std::search(begin, end, mark.begin(), mark.end()) == end;
 }
 
+std::size_t Framing::next_mark(std::size_t from, std::size_t end) const {
+  const void* const found =
+      std::memchr(log_.data() + from, std::to_integer<int>(mark_first), end - from);
+  if (found == nullptr) return end;
+  return static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
+}
+
 bool Framing::has_messages_within(std::size_t at, std::size_t length, const Definitions& known,
                                   const TimeGuard& guard) const {
   const std::size_t end = at + length;
@@ -229,28 +227,15 @@ bool Framing::has_messages_within(std::size_t at, std::size_t length, const Defi
     }
     return from == end;
   };
-  std::size_t from = at + header_size;
-  while (from + header_size <= end) {
-    const void* const found =
-        std::memchr(log_.data() + from, std::to_integer<int>(mark_first), end - from);
-    if (found == nullptr) return false;
-    from = static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
-    if (from + header_size <= end && mark_at(from) && leads_to_end(from)) return true;
-    ++from;
-  }
-  return false;
+  std::size_t from = next_mark(at + header_size, end);
+  while (from + header_size <= end && !leads_to_end(from)) from = next_mark(from + 1, end);
+  return from + header_size <= end;
 }
 
 std::size_t Framing::next_message(std::size_t at, const Definitions& known) const {
-  while (at < log_.size()) {
-    const void* const found =
-        std::memchr(log_.data() + at, std::to_integer<int>(mark_first), log_.size() - at);
-    if (found == nullptr) break;
-    at = static_cast<std::size_t>(static_cast<const std::byte*>(found) - log_.data());
-    if (message_at(at, known) != 0) return at;
-    ++at;
-  }
-  return log_.size();
+  at = next_mark(at, log_.size());
+  while (at < log_.size() && message_at(at, known) == 0) at = next_mark(at + 1, log_.size());
+  return at;
 }
 
 SkippedBytes Framing::skipped(std::size_t from, std::size_t to) const {

@@ -1,7 +1,9 @@
 // The one loop over a DataFlash log that every use of a log runs through.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -19,6 +21,23 @@ inline constexpr std::byte mark_second{0x95};
 inline constexpr std::size_t header_size = 3;
 inline constexpr std::uint8_t fmt_type = 128;
 inline constexpr std::size_t fmt_length = 89;
+
+static_assert(std::endian::native == std::endian::little,
+              "numbers are copied out of the log, which is little-endian");
+
+/// The number that the log holds at `at`.
+template <class T>
+T read(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+/// The text at `at`, which ends with the first zero byte or with `size` characters.
+inline std::string_view text_at(const std::byte* at, std::size_t size) {
+  const std::string_view all(reinterpret_cast<const char*>(at), size);
+  return all.substr(0, all.find('\0'));
+}
 
 /// Builds the format that the FMT message starting at `message` defines.
 DataFlashFormat parse_format(const std::byte* message);
@@ -38,24 +57,21 @@ class Definitions {
   [[nodiscard]] std::optional<std::int64_t> time_us(const std::byte* message) const {
     switch (time_[std::to_integer<std::size_t>(message[2])]) {
       case TimeKind::microseconds: {
-        std::uint64_t count = 0;
-        std::memcpy(&count, message + header_size, sizeof count);
         // Differences of times must not overflow; above this, none is plausible anyway.
         constexpr std::uint64_t greatest = std::uint64_t{1} << 62;
-        return static_cast<std::int64_t>(count < greatest ? count : greatest);
+        const auto count = read<std::uint64_t>(message + header_size);
+        return static_cast<std::int64_t>(std::min(count, greatest));
       }
-      case TimeKind::milliseconds: {
-        std::uint32_t count = 0;
-        std::memcpy(&count, message + header_size, sizeof count);
-        return std::int64_t{count} * 1000;
-      }
+      case TimeKind::milliseconds:
+        return std::int64_t{read<std::uint32_t>(message + header_size)} * 1000;
       case TimeKind::none:
         break;
     }
     return std::nullopt;
   }
 
-  enum class Outcome { unchanged, defined, rejected };
+  /// A log has begun anew where FMT defined itself.
+  enum class Outcome { unchanged, defined, rejected, begun };
   struct Change {
     Outcome outcome = Outcome::unchanged;
     std::uint8_t type = 0;
@@ -63,8 +79,6 @@ class Definitions {
   };
   /// Takes over what the FMT message starting at `message` defines.
   Change take(const std::byte* message);
-  /// How often a log began anew: at FMT's definition of itself.
-  [[nodiscard]] std::size_t beginnings() const { return beginnings_; }
 
  private:
   [[nodiscard]] std::optional<std::uint8_t> settled_type_called(std::uint32_t name) const;
@@ -73,8 +87,7 @@ class Definitions {
   std::array<std::uint8_t, 256> length_{};
   enum class TimeKind : std::uint8_t { none, microseconds, milliseconds };
   std::array<TimeKind, 256> time_{};
-  std::array<std::uint32_t, 256> name_{};  // its four characters, 0 where none is in force
-  std::size_t beginnings_ = 0;
+  std::array<std::uint32_t, 256> name_{};           // its four characters, 0 where none is in force
   std::array<const std::byte*, 256> definition_{};  // the FMT message in force, nullptr if none
   std::array<bool, 256> settled_{};                 // defined since the log began anew
 };
@@ -132,15 +145,10 @@ inline bool may_have_mark_within(const std::byte* first, std::size_t size) {
   constexpr std::uint64_t ones = 0x0101'0101'0101'0101;
   constexpr std::uint64_t tops = 0x8080'8080'8080'8080;
   constexpr std::size_t places = sizeof(std::uint64_t);
-  const auto eight_at = [](const std::byte* at) {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, at, sizeof eight);
-    return eight;
-  };
   const auto mark_among = [&](const std::byte* at) {
     const std::uint64_t differs =
-        (eight_at(at) ^ (ones * std::to_integer<std::uint64_t>(mark_first))) |
-        (eight_at(at + 1) ^ (ones * std::to_integer<std::uint64_t>(mark_second)));
+        (read<std::uint64_t>(at) ^ (ones * std::to_integer<std::uint64_t>(mark_first))) |
+        (read<std::uint64_t>(at + 1) ^ (ones * std::to_integer<std::uint64_t>(mark_second)));
     return (differs - ones) & ~differs & tops;
   };
   if (size < places + 1) return true;  // too short for this: the caller looks closer
@@ -185,6 +193,8 @@ class Framing {
   [[nodiscard]] bool mark_at(std::size_t at) const {
     return log_[at] == mark_first && log_[at + 1] == mark_second;
   }
+  /// First place from `from` on that holds the first byte of a mark; `end` where none does.
+  [[nodiscard]] std::size_t next_mark(std::size_t from, std::size_t end) const;
   [[nodiscard]] bool has_messages_within(std::size_t at, std::size_t length,
                                          const Definitions& known, const TimeGuard& guard) const;
   /// Whether the message that begins at `message` may end before `at`, though no mark is there.
@@ -195,7 +205,28 @@ class Framing {
   std::size_t filler_;  // from here to the end, all bytes are the same filler
 };
 
-/// Walks through the log. The visitor is told, in the log's order:
+/// The FMT message that defines FMT itself: what a reader knows before it has read anything.
+const std::byte* definition_of_fmt();
+
+/// Tells the visitor of a message, and of what it defines. True where a log begins with it.
+template <class Visitor>
+bool tell(const std::byte* message, Definitions& known, Visitor& visitor) {
+  const auto type = std::to_integer<std::uint8_t>(message[2]);
+  bool begun = false;
+  if (type == fmt_type) {
+    const Definitions::Change change = known.take(message);
+    begun = change.outcome == Definitions::Outcome::begun;
+    if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
+    if (change.outcome == Definitions::Outcome::rejected) {
+      visitor.on_rejected(change.type, message, change.reason);
+    }
+  }
+  visitor.on_message(type, message);
+  return begun;
+}
+
+/// Walks through the log. The visitor is told, beginning with the definition of FMT, in the log's
+/// order:
 ///   on_format(type, const std::byte* fmt)   the FMT message at `fmt` now defines `type`;
 ///   on_rejected(type, const std::byte* fmt, std::string_view reason)   it could not be used;
 ///   on_message(type, const std::byte* message)   after the above, if it is an FMT message;
@@ -211,6 +242,7 @@ void walk(std::span<const std::byte> log, Visitor& visitor) {
     const auto time = known.time_us(log.data() + at);
     return !time || guard.accept(std::to_integer<std::uint8_t>(log[at + 2]), *time) ? length : 0;
   };
+  visitor.on_format(fmt_type, definition_of_fmt());
   std::size_t at = 0;
   while (at < log.size()) {
     const std::size_t length = believed_length(at);
@@ -220,28 +252,18 @@ void walk(std::span<const std::byte> log, Visitor& visitor) {
       at = next;
       continue;
     }
-    const std::byte* const message = log.data() + at;
-    const auto type = std::to_integer<std::uint8_t>(message[2]);
-    if (type == fmt_type) {
-      const std::size_t beginnings = known.beginnings();
-      const Definitions::Change change = known.take(message);
-      if (known.beginnings() != beginnings) guard = TimeGuard();
-      if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
-      if (change.outcome == Definitions::Outcome::rejected) {
-        visitor.on_rejected(change.type, message, change.reason);
-      }
-    }
-    visitor.on_message(type, message);
+    if (tell(log.data() + at, known, visitor)) guard = TimeGuard();
     at += length;
   }
 }
 
 /// Walks through a log whose damage a first walk has told, without looking for it again. The
-/// visitor is told on_format and on_message as in walk().
+/// visitor is told all the rest as in walk().
 template <class Visitor>
 void walk_again(std::span<const std::byte> log, std::span<const SkippedBytes> skipped,
                 Visitor& visitor) {
   Definitions known;
+  visitor.on_format(fmt_type, definition_of_fmt());
   std::size_t at = 0;
   while (at < log.size()) {
     if (!skipped.empty() && at == skipped.front().offset) {
@@ -249,20 +271,11 @@ void walk_again(std::span<const std::byte> log, std::span<const SkippedBytes> sk
       skipped = skipped.subspan(1);
       continue;
     }
-    const std::byte* const message = log.data() + at;
-    const auto type = std::to_integer<std::uint8_t>(message[2]);
-    const std::size_t length = known.length(message[2]);
-    if (type == fmt_type) {
-      const Definitions::Change change = known.take(message);
-      if (change.outcome == Definitions::Outcome::defined) visitor.on_format(change.type, message);
-    }
-    visitor.on_message(type, message);
+    const std::size_t length = known.length(log[at + 2]);
+    tell(log.data() + at, known, visitor);
     at += length;
   }
 }
-
-/// The FMT message that defines FMT itself: what a reader knows before it has read anything.
-const std::byte* definition_of_fmt();
 
 /// Number of bytes of a field of that kind, 0 where the kind is not known.
 std::size_t size_of_kind(char kind);

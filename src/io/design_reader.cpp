@@ -139,41 +139,34 @@ class SpecReader {
       case FieldKind::strength_material:
         return read_word(place, field, design, problems_);
       case FieldKind::text:
-        read_text(place, field);
+        if (const std::string text = checked_text(place, problems_);
+            field.pointer == "/name" && !text.empty()) {
+          result_.name = text;
+        }
         return;
       case FieldKind::converter_masses:
-        read_converter_masses(place, std::get<Converter& (*)(Design&)>(field.access)(design),
-                              problems_);
-        return;
+        return read_converter_masses(place, design.supply.converter, problems_);
       case FieldKind::efficiency:
-        read_efficiency(place, field, std::get<Converter& (*)(Design&)>(field.access)(design),
-                        problems_);
+        return read_efficiency(place, field, design.supply.converter, problems_);
+      case FieldKind::motor:
+        read_entry(place, result_.motor);
+        result_.warnings = result_.motor.warnings;
         return;
-      default:
-        read_entry(place, field);
+      case FieldKind::conductor:
+        return read_entry(place, result_.conductor);
+      case FieldKind::insulation_material:
+        return read_entry(place, result_.insulation);
+      case FieldKind::motor_points:
+        return;  // no spec has them but in a motor
     }
   }
 
-  void read_text(const JsonPlace& place, const SpecField& field) {
-    const std::string text = checked_text(place, problems_);
-    if (field.pointer == "/name" && !text.empty()) result_.name = text;
-  }
-
-  void read_entry(const JsonPlace& place, const SpecField& field) {
-    const auto take = [&](auto entry, auto& taken) {
-      if (!entry) return;
-      put_entry(result_.design, *entry);
-      taken = std::move(*entry);
-    };
-    if (field.kind == FieldKind::motor) {
-      take(read_motor(place, result_.load, problems_), result_.motor);
-      result_.warnings.insert(result_.warnings.end(), result_.motor.warnings.begin(),
-                              result_.motor.warnings.end());
-    } else if (field.kind == FieldKind::conductor) {
-      take(read_conductor(place, result_.load, problems_), result_.conductor);
-    } else if (field.kind == FieldKind::insulation_material) {
-      take(read_insulation(place, result_.load, problems_), result_.insulation);
-    }
+  template <typename Entry>
+  void read_entry(const JsonPlace& place, Entry& taken) {
+    std::optional<Entry> entry = entry_at<Entry>(place, result_.load, problems_);
+    if (!entry) return;
+    put_entry(result_.design, *entry);
+    taken = std::move(*entry);
   }
 
   const JsonDocument& document_;
@@ -205,7 +198,7 @@ DesignFile parse_design(std::string_view text, const std::string& file, const Te
 
 DesignFile read_design_document(nlohmann::ordered_json document, const std::string& file,
                                 const TextLoader& load) {
-  return design_of(document_of(std::move(document), file), load, {});
+  return design_of({file, std::move(document), {}, {}, {}}, load, {});
 }
 
 }  // namespace tethercalc

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -53,14 +52,15 @@ class RequestReader {
   DesignQuestion read() {
     DesignProblem& problem = question_.problem;
     problem.base = file_.design;
-    attempt([&] { problem.free = read_axes(request_.free, file_, AxisUse::searched); });
-    attempt([&] { read_standard(problem.free); });
-    attempt([&] {
+    problems_.succeeds([&] { problem.free = read_axes(request_.free, file_, AxisUse::searched); });
+    problems_.succeeds([&] { read_standard(problem.free); });
+    problems_.succeeds([&] {
       problem.objective = candidate_quantity(request_.minimize, "--minimize " + request_.minimize);
     });
-    for (const std::string& text : request_.subject_to) attempt([&] { read_limit(text); });
-    attempt([&] { read_front(); });
-    if (!problems_.empty()) throw InputError(std::move(problems_));
+    for (const std::string& text : request_.subject_to)
+      problems_.succeeds([&] { read_limit(text); });
+    problems_.succeeds([&] { read_front(); });
+    problems_.throw_if_any();
     if (problem.free.empty()) {
       throw InputError("--free", "is needed: which fields may the search change?");
     }
@@ -70,15 +70,6 @@ class RequestReader {
   }
 
  private:
-  template <typename Step>
-  void attempt(Step step) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
-    }
-  }
-
   /// Sizes in which the cross-section comes take the place of its range.
   void read_standard(std::vector<SweepAxis>& axes) {
     if (request_.standard.empty()) return;
@@ -133,7 +124,7 @@ class RequestReader {
   const DesignFile& file_;
   const DesignRequest& request_;
   DesignQuestion question_;
-  std::vector<InputProblem> problems_;
+  Problems problems_;
 };
 
 }  // namespace

@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -58,19 +55,60 @@ bool set_curve(MotorEntry& entry, const std::vector<BenchPoint>& measured, const
   return true;
 }
 
+/// An object of a file or spec, held against its fields.
+class EntryObject {
+ public:
+  EntryObject(const JsonPlace& object, std::span<const SpecField> fields, Problems& problems)
+      : fields_(fields),
+        problems_(problems),
+        before_(problems.count()),
+        places_(field_places(object, fields, problems)) {}
+
+  [[nodiscard]] const JsonPlace& at(std::string_view pointer) const {
+    return places_[index_of(pointer)];
+  }
+  /// In its practical unit.
+  std::optional<double> number(std::string_view pointer) {
+    return checked_number(at(pointer), fields_[index_of(pointer)], problems_);
+  }
+  /// All numbers of a material, in a design that has no others.
+  Design numbers() {
+    Design design;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (!is_numeric(fields_[i])) continue;
+      const auto value = checked_number(places_[i], fields_[i], problems_);
+      if (value) set_field(design, fields_[i], *value);
+    }
+    return design;
+  }
+  template <typename Entry>
+  void set_texts(Entry& entry) {
+    entry.id = checked_text(at("/id"), problems_);
+    entry.name = checked_text(at("/name"), problems_);
+    entry.source = checked_text(at("/source"), problems_);
+  }
+  [[nodiscard]] bool faulty() const { return problems_.count() > before_; }
+
+ private:
+  [[nodiscard]] std::size_t index_of(std::string_view pointer) const {
+    std::size_t i = 0;
+    while (fields_[i].pointer != pointer) ++i;
+    return i;
+  }
+
+  std::span<const SpecField> fields_;
+  Problems& problems_;
+  std::size_t before_;
+  std::vector<JsonPlace> places_;
+};
+
 std::optional<MotorPoint> read_motor_point(const JsonPlace& place, Problems& problems) {
-  const auto fields = object_fields(FieldKind::motor_points);
-  const std::size_t before = problems.count();
-  const std::vector<JsonPlace> places = field_places(place, fields, problems);
-  const auto number = [&](std::string_view pointer) {
-    const JsonPlace& at = place_of(pointer, fields, places);
-    return checked_number(at, fields[static_cast<std::size_t>(&at - places.data())], problems);
-  };
-  number("/throttle_percent");
-  const std::optional<double> thrust = number("/thrust_g");
-  const std::optional<double> efficiency = number("/efficiency_g_per_W");
-  const std::optional<double> power = number("/power_W");
-  if (problems.count() > before) return std::nullopt;
+  EntryObject point(place, object_fields(FieldKind::motor_points), problems);
+  point.number("/throttle_percent");
+  const std::optional<double> thrust = point.number("/thrust_g");
+  const std::optional<double> efficiency = point.number("/efficiency_g_per_W");
+  const std::optional<double> power = point.number("/power_W");
+  if (point.faulty()) return std::nullopt;
   if (efficiency.has_value() == power.has_value()) {
     problems.add(place.where(), fmt::format("give either efficiency_g_per_W or power_W, found {}",
                                             power ? "both" : "neither"));
@@ -102,50 +140,6 @@ std::optional<std::vector<BenchPoint>> read_motor_points(const JsonPlace& place,
   return points;
 }
 
-/// The fields that all entries have, and those of one kind.
-class EntryObject {
- public:
-  EntryObject(const JsonPlace& object, std::span<const SpecField> fields, Problems& problems)
-      : fields_(fields),
-        problems_(problems),
-        before_(problems.count()),
-        places_(field_places(object, fields, problems)) {}
-
-  [[nodiscard]] const JsonPlace& at(std::string_view pointer) const {
-    return place_of(pointer, fields_, places_);
-  }
-  /// In SI.
-  std::optional<double> number(std::string_view pointer) {
-    const JsonPlace& place = at(pointer);
-    const SpecField& field = fields_[static_cast<std::size_t>(&place - places_.data())];
-    const std::optional<double> value = checked_number(place, field, problems_);
-    return value ? std::optional(*value * field.si_factor) : std::nullopt;
-  }
-  /// All numbers of a material, in a design that has no others.
-  Design numbers() {
-    Design design;
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (!is_numeric(fields_[i])) continue;
-      const auto value = checked_number(places_[i], fields_[i], problems_);
-      if (value) set_field(design, fields_[i], *value);
-    }
-    return design;
-  }
-  template <typename Entry>
-  void set_texts(Entry& entry) {
-    entry.id = checked_text(at("/id"), problems_);
-    entry.name = checked_text(at("/name"), problems_);
-    entry.source = checked_text(at("/source"), problems_);
-  }
-  [[nodiscard]] bool faulty() const { return problems_.count() > before_; }
-
- private:
-  std::span<const SpecField> fields_;
-  Problems& problems_;
-  std::size_t before_;
-  std::vector<JsonPlace> places_;
-};
-
 std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& problems) {
   EntryObject entry_object(object, object_fields(FieldKind::motor), problems);
   MotorEntry entry;
@@ -159,19 +153,13 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
   return entry;
 }
 
-std::optional<ConductorEntry> conductor_from_object(const JsonPlace& object, Problems& problems) {
-  EntryObject entry_object(object, object_fields(FieldKind::conductor), problems);
-  ConductorEntry entry;
+/// A conductor or an insulation material, whose numbers are those of `member` in a tether.
+template <typename Entry, FieldKind kind, auto numbers, auto member>
+std::optional<Entry> material_from_object(const JsonPlace& object, Problems& problems) {
+  EntryObject entry_object(object, object_fields(kind), problems);
+  Entry entry;
   entry_object.set_texts(entry);
-  entry.conductor = entry_object.numbers().tether.conductor;
-  return entry_object.faulty() ? std::nullopt : std::optional(std::move(entry));
-}
-
-std::optional<InsulationEntry> insulation_from_object(const JsonPlace& object, Problems& problems) {
-  EntryObject entry_object(object, object_fields(FieldKind::insulation_material), problems);
-  InsulationEntry entry;
-  entry_object.set_texts(entry);
-  entry.insulation = entry_object.numbers().tether.insulation;
+  entry.*numbers = entry_object.numbers().tether.*member;
   return entry_object.faulty() ? std::nullopt : std::optional(std::move(entry));
 }
 
@@ -184,11 +172,20 @@ struct EntryKind {
   std::optional<Entry> (*from_object)(const JsonPlace&, Problems&);
 };
 
-constexpr EntryKind<MotorEntry> motor_kind{"motors", "motor", true, &motor_from_object};
-constexpr EntryKind<ConductorEntry> conductor_kind{"conductors", "conductor", false,
-                                                   &conductor_from_object};
-constexpr EntryKind<InsulationEntry> insulation_kind{"insulation", "insulation material", false,
-                                                     &insulation_from_object};
+template <typename Entry>
+constexpr EntryKind<Entry> kind_of{};
+template <>
+constexpr EntryKind<MotorEntry> kind_of<MotorEntry>{"motors", "motor", true, &motor_from_object};
+template <>
+constexpr EntryKind<ConductorEntry> kind_of<ConductorEntry>{
+    "conductors", "conductor", false,
+    &material_from_object<ConductorEntry, FieldKind::conductor, &ConductorEntry::conductor,
+                          &Tether::conductor>};
+template <>
+constexpr EntryKind<InsulationEntry> kind_of<InsulationEntry>{
+    "insulation", "insulation material", false,
+    &material_from_object<InsulationEntry, FieldKind::insulation_material,
+                          &InsulationEntry::insulation, &Tether::insulation>};
 
 constexpr std::string_view json_suffix = ".json";
 
@@ -203,23 +200,25 @@ std::optional<std::string> id_in_folder(std::string_view file, std::string_view 
 }
 
 template <typename Entry>
-std::optional<Entry> entry_from_text(const EntryKind<Entry>& kind, std::string_view text,
-                                     const std::string& name, Problems& problems) {
+std::optional<Entry> entry_from_text(std::string_view text, const std::string& name,
+                                     Problems& problems) {
   const JsonDocument document = parse_json(text, name);
   const std::size_t before = problems.count();
   problems.add(document.problems);
-  std::optional<Entry> entry = kind.from_object({&document, &document.root, ""}, problems);
+  std::optional<Entry> entry =
+      kind_of<Entry>.from_object({&document, &document.root, ""}, problems);
   return problems.count() == before ? std::move(entry) : std::nullopt;
 }
 
 template <typename Entry>
-std::optional<Entry> entry_from_library(const EntryKind<Entry>& kind, const std::string& id,
-                                        const std::string& where, Problems& problems) {
+std::optional<Entry> entry_from_library(const std::string& id, const std::string& where,
+                                        Problems& problems) {
+  constexpr EntryKind<Entry> kind = kind_of<Entry>;
   std::vector<std::string> ids;
   for (const EmbeddedFile& file : embedded_files()) {
     const auto found = id_in_folder(file.name, kind.folder);
     if (!found) continue;
-    if (*found == id) return entry_from_text(kind, file.content, std::string(file.name), problems);
+    if (*found == id) return entry_from_text<Entry>(file.content, std::string(file.name), problems);
     ids.push_back(*found);
   }
   problems.add(where, fmt::format("no {} {} in the library{} (`tethercalc list {}` shows all; the "
@@ -230,9 +229,8 @@ std::optional<Entry> entry_from_library(const EntryKind<Entry>& kind, const std:
 }
 
 template <typename Entry>
-std::optional<Entry> entry_from_file(const EntryKind<Entry>& kind, const std::string& reference,
-                                     const TextLoader& load, const std::string& where,
-                                     Problems& problems) {
+std::optional<Entry> entry_from_file(const std::string& reference, const TextLoader& load,
+                                     const std::string& where, Problems& problems) {
   LoadedText file;
   try {
     if (!load) throw InputError(reference, "is a file, and there are none here");
@@ -246,76 +244,64 @@ std::optional<Entry> entry_from_file(const EntryKind<Entry>& kind, const std::st
   if constexpr (std::is_same_v<Entry, MotorEntry>) {
     if (reference.ends_with(".csv")) return motor_from_bench_csv(file.text, file.name, problems);
   }
-  try {
-    return entry_from_text(kind, file.text, file.name, problems);
-  } catch (const InputError& error) {
-    problems.add(error.problems());
-    return std::nullopt;
-  }
+  std::optional<Entry> entry;
+  problems.succeeds([&] { entry = entry_from_text<Entry>(file.text, file.name, problems); });
+  return entry;
 }
 
 template <typename Entry>
-std::optional<Entry> entry_named(const EntryKind<Entry>& kind, const std::string& reference,
-                                 const TextLoader& load, const std::string& where,
-                                 Problems& problems) {
+std::optional<Entry> entry_named(const std::string& reference, const TextLoader& load,
+                                 const std::string& where, Problems& problems) {
   // No entry's id ends like a file.
   const bool is_file = reference.find('/') != std::string::npos ||
                        reference.ends_with(json_suffix) || reference.ends_with(".csv");
-  return is_file ? entry_from_file(kind, reference, load, where, problems)
-                 : entry_from_library(kind, reference, where, problems);
+  return is_file ? entry_from_file<Entry>(reference, load, where, problems)
+                 : entry_from_library<Entry>(reference, where, problems);
 }
 
-template <typename Entry>
-std::optional<Entry> entry_at(const EntryKind<Entry>& kind, const JsonPlace& place,
-                              const TextLoader& load, Problems& problems) {
-  if (!place.given()) return std::nullopt;
-  if (place.value->is_object()) return kind.from_object(place, problems);
-  if (place.value->is_string()) {
-    return entry_named(kind, place.value->template get<std::string>(), load, place.where(),
-                       problems);
-  }
-  problems.add(place.where(),
-               fmt::format("expected the name of a {}, the path of a file or an object, found {}",
-                           kind.noun, type_name(*place.value)));
-  return std::nullopt;
-}
+}  // namespace
 
 template <typename Entry>
-Entry entry_or_throw(const EntryKind<Entry>& kind, const std::string& reference,
-                     const TextLoader& load, const std::string& where) {
+Entry find_entry(const std::string& reference, const TextLoader& load, const std::string& where) {
   Problems problems;
-  std::optional<Entry> entry = entry_named(kind, reference, load, where, problems);
+  std::optional<Entry> entry = entry_named<Entry>(reference, load, where, problems);
   problems.throw_if_any();
   return std::move(*entry);
 }
 
 template <typename Entry>
-std::vector<Entry> all_entries(const EntryKind<Entry>& kind) {
+std::optional<Entry> entry_at(const JsonPlace& place, const TextLoader& load, Problems& problems) {
+  if (!place.given()) return std::nullopt;
+  if (place.value->is_object()) return kind_of<Entry>.from_object(place, problems);
+  if (place.value->is_string()) {
+    return entry_named<Entry>(place.value->get<std::string>(), load, place.where(), problems);
+  }
+  problems.add(place.where(),
+               fmt::format("expected the name of a {}, the path of a file or an object, found {}",
+                           kind_of<Entry>.noun, type_name(*place.value)));
+  return std::nullopt;
+}
+
+template <typename Entry>
+std::vector<Entry> library_entries() {
   std::vector<Entry> entries;
   for (const EmbeddedFile& file : embedded_files()) {
-    if (const auto id = id_in_folder(file.name, kind.folder)) {
-      entries.push_back(entry_or_throw(kind, *id, {}, std::string(kind.noun)));
+    if (const auto id = id_in_folder(file.name, kind_of<Entry>.folder)) {
+      entries.push_back(find_entry<Entry>(*id, {}, std::string(kind_of<Entry>.noun)));
     }
   }
   return entries;
 }
 
-}  // namespace
-
-std::optional<MotorEntry> read_motor(const JsonPlace& place, const TextLoader& load,
-                                     Problems& problems) {
-  return entry_at(motor_kind, place, load, problems);
-}
-
-std::optional<ConductorEntry> read_conductor(const JsonPlace& place, const TextLoader& load,
-                                             Problems& problems) {
-  return entry_at(conductor_kind, place, load, problems);
-}
-
-std::optional<InsulationEntry> read_insulation(const JsonPlace& place, const TextLoader& load,
-                                               Problems& problems) {
-  return entry_at(insulation_kind, place, load, problems);
-}
+template std::vector<MotorEntry> library_entries();
+template std::vector<ConductorEntry> library_entries();
+template std::vector<InsulationEntry> library_entries();
+template MotorEntry find_entry(const std::string&, const TextLoader&, const std::string&);
+template ConductorEntry find_entry(const std::string&, const TextLoader&, const std::string&);
+template InsulationEntry find_entry(const std::string&, const TextLoader&, const std::string&);
+template std::optional<MotorEntry> entry_at(const JsonPlace&, const TextLoader&, Problems&);
+template std::optional<ConductorEntry> entry_at(const JsonPlace&, const TextLoader&, Problems&);
+template std::optional<InsulationEntry> entry_at(const JsonPlace&, const TextLoader&, Problems&);
 
 std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const std::string& name,
                                                Problems& problems) {
@@ -323,12 +309,9 @@ std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const st
   const std::array columns{CsvColumn{.name = "thrust_g", .minimum = -largest, .maximum = largest},
                            CsvColumn{.name = "power_W", .minimum = -largest, .maximum = largest}};
   std::vector<std::vector<double>> values;
-  try {
-    values = read_csv_columns(text, name, columns, OtherCsvColumns::ignored);
-  } catch (const InputError& error) {
-    problems.add(error.problems());
-    return std::nullopt;
-  }
+  const bool read = problems.succeeds(
+      [&] { values = read_csv_columns(text, name, columns, OtherCsvColumns::ignored); });
+  if (!read) return std::nullopt;
   MotorEntry entry;
   entry.name = as_utf8(file_stem(name));
   entry.source = as_utf8(name);
@@ -367,23 +350,23 @@ void put_entry(Design& design, const InsulationEntry& entry) {
   design.tether.insulation = sheath;
 }
 
-std::vector<MotorEntry> library_motors() { return all_entries(motor_kind); }
-std::vector<ConductorEntry> library_conductors() { return all_entries(conductor_kind); }
-std::vector<InsulationEntry> library_insulation() { return all_entries(insulation_kind); }
+std::vector<MotorEntry> library_motors() { return library_entries<MotorEntry>(); }
+std::vector<ConductorEntry> library_conductors() { return library_entries<ConductorEntry>(); }
+std::vector<InsulationEntry> library_insulation() { return library_entries<InsulationEntry>(); }
 
 MotorEntry find_motor(const std::string& reference, const TextLoader& load,
                       const std::string& where) {
-  return entry_or_throw(motor_kind, reference, load, where);
+  return find_entry<MotorEntry>(reference, load, where);
 }
 
 ConductorEntry find_conductor(const std::string& reference, const TextLoader& load,
                               const std::string& where) {
-  return entry_or_throw(conductor_kind, reference, load, where);
+  return find_entry<ConductorEntry>(reference, load, where);
 }
 
 InsulationEntry find_insulation(const std::string& reference, const TextLoader& load,
                                 const std::string& where) {
-  return entry_or_throw(insulation_kind, reference, load, where);
+  return find_entry<InsulationEntry>(reference, load, where);
 }
 
 }  // namespace tethercalc

@@ -8,14 +8,20 @@
 
 namespace tethercalc {
 
-/// Reads what a spec has at `place`: an object, or a text that names a library entry or a file
-/// that `load` reads. Nothing, with the reasons among the problems, where that fails.
-std::optional<MotorEntry> read_motor(const JsonPlace& place, const TextLoader& load,
-                                     Problems& problems);
-std::optional<ConductorEntry> read_conductor(const JsonPlace& place, const TextLoader& load,
-                                             Problems& problems);
-std::optional<InsulationEntry> read_insulation(const JsonPlace& place, const TextLoader& load,
-                                               Problems& problems);
+// Of an `Entry` that is a MotorEntry, a ConductorEntry or an InsulationEntry:
+
+/// All of the library, by id.
+template <typename Entry>
+std::vector<Entry> library_entries();
+
+/// The one that `reference` names, see `find_motor`.
+template <typename Entry>
+Entry find_entry(const std::string& reference, const TextLoader& load, const std::string& where);
+
+/// The one that a spec has at `place`: an object, or a text that names one. Nothing, with the
+/// reasons among the problems, where that fails.
+template <typename Entry>
+std::optional<Entry> entry_at(const JsonPlace& place, const TextLoader& load, Problems& problems);
 
 /// A motor from the text of a test-bench CSV; `name` is the file's. See `find_motor`.
 std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const std::string& name,

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -42,32 +41,28 @@ bool is_plausible(const Samples& samples, std::size_t i) {
          within(vn, fastest_m_s) && within(ve, fastest_m_s) && within(vd, fastest_m_s);
 }
 
-void keep(Samples& samples, std::span<const std::size_t> kept) {
+/// Returns the number of samples removed.
+std::size_t keep(Samples& samples, std::span<const std::size_t> kept) {
+  const std::size_t before = samples[time_s].size();
   for (auto& channel : samples) {
     for (std::size_t i = 0; i < kept.size(); ++i) channel[i] = channel[kept[i]];
     channel.resize(kept.size());
   }
+  return before - kept.size();
 }
 
-/// Returns the number of samples removed.
 std::size_t remove_implausible(Samples& samples) {
-  const std::size_t before = samples[time_s].size();
   std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < before; ++i) {
+  for (std::size_t i = 0; i < samples[time_s].size(); ++i) {
     if (is_plausible(samples, i)) kept.push_back(i);
   }
-  if (kept.size() < before) keep(samples, kept);
-  return before - kept.size();
+  return keep(samples, kept);
 }
 
-/// Returns the number of samples removed.
 std::size_t remove_out_of_order(Samples& samples) {
   const std::vector<double>& time = samples[time_s];
-  const std::size_t before = time.size();
   if (std::adjacent_find(time.begin(), time.end(), std::greater_equal<>()) == time.end()) return 0;
-  const auto kept = longest_increasing(time);
-  keep(samples, kept);
-  return before - kept.size();
+  return keep(samples, longest_increasing(time));
 }
 
 std::vector<double> in_radians(std::vector<double> degrees) {
@@ -107,12 +102,6 @@ struct EstimatorMessage {
   std::string description;
 };
 
-/// The field that tells the cores apart, or nullptr in logs from before there was one.
-const DataFlashField* core_field(const DataFlashFormat& format) {
-  const DataFlashField* const field = format.find("C");
-  return field != nullptr && field->is_number() ? field : nullptr;
-}
-
 [[noreturn]] void fail(const std::string& name, std::string message) {
   throw InputError({{name, std::move(message)}});
 }
@@ -148,7 +137,8 @@ EstimatorMessage find_estimator(std::span<const std::byte> content,
   for (const std::string_view message : {"XKF1", "NKF1", "EKF1"}) {
     if (contents.count(message) == 0) continue;
     const DataFlashFormat* const format = contents.find(message);
-    if (core_field(*format) != nullptr) {
+    // Logs from before there were several cores have no field that tells them apart.
+    if (format->find_number("C") != nullptr) {
       return {format, DataFlashInstance{"C", static_cast<double>(core)},
               fmt::format("{} of EKF core {}", message, core)};
     }
@@ -192,8 +182,7 @@ Samples read_samples(std::span<const std::byte> content, const EstimatorMessage&
   const std::vector<std::string> fields = {
       time->field.name, "Roll", "Pitch", "Yaw", "VN", "VE", "VD"};
   for (const std::string& field : fields) {
-    const DataFlashField* const found = from.format->find(field);
-    if (found == nullptr || !found->is_number()) {
+    if (from.format->find_number(field) == nullptr) {
       fail(name, fmt::format("{} messages have no number {}; their fields are {}",
                              from.format->name, field, from.format->labels));
     }
@@ -204,8 +193,6 @@ Samples read_samples(std::span<const std::byte> content, const EstimatorMessage&
 }
 
 void note_damage(FlightLogReading& reading, const DataFlashContents& contents) {
-  reading.skipped_bytes = contents.skipped_bytes;
-  reading.skipped_messages = contents.skipped_messages;
   if (contents.skipped_bytes > 0) {
     reading.notes.push_back(
         fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",

@@ -49,25 +49,9 @@ class CountingIterator {
   std::size_t* consumed_ = nullptr;
 };
 
-struct Position {
-  std::size_t line = 1;
-  std::size_t column = 1;
-};
-
-Position position_at(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, offset);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::size_t line_start = before.rfind('\n');
-  const std::size_t column =
-      line_start == std::string_view::npos ? offset : offset - line_start - 1;
-  return {static_cast<std::size_t>(line), column + 1};
-}
-
 /// The line around `offset` with a caret below it.
 std::string excerpt_at(std::string_view text, std::size_t offset) {
-  const std::string_view before = text.substr(0, offset);
-  const std::size_t newline = before.rfind('\n');
-  std::size_t begin = newline == std::string_view::npos ? 0 : newline + 1;
+  std::size_t begin = text.substr(0, offset).rfind('\n') + 1;
   if (offset - begin > excerpt_width / 2) begin = offset - excerpt_width / 2;
   const std::size_t end = std::min(text.find('\n', offset), begin + excerpt_width);
   std::string line(text.substr(begin, end == std::string_view::npos ? end : end - begin));
@@ -106,8 +90,6 @@ class Builder {
 
   bool key(string_t& name) {
     key_ = std::move(name);
-    last_event_ = Event::key;
-    last_end_ = consumed_;
     const std::string pointer = child_pointer(levels_.back().pointer, key_);
     const std::size_t line = current_line();
     key_repeated_ = !levels_.back().keys.insert(key_).second;
@@ -116,10 +98,10 @@ class Builder {
           {fmt::format("{}:{} {}", document_.name, line, pointer),
            fmt::format("the key {} stands here and in line {}; give it once", shown(key_),
                        document_.lines[pointer])});
-      return true;
+    } else {
+      document_.lines[pointer] = line;
     }
-    document_.lines[pointer] = line;
-    return true;
+    return seen(Event::key);
   }
 
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) {
@@ -138,6 +120,12 @@ class Builder {
     std::string pointer;
     std::set<std::string> keys;
   };
+
+  bool seen(Event event) {
+    last_event_ = event;
+    last_end_ = consumed_;
+    return true;
+  }
 
   // The parser has consumed a token, and one character more after a number.
   std::size_t current_line() {
@@ -178,9 +166,7 @@ class Builder {
   template <typename Value>
   bool add(Value&& value) {
     place(Json(std::forward<Value>(value)));
-    last_event_ = Event::value;
-    last_end_ = consumed_;
-    return true;
+    return seen(Event::value);
   }
 
   template <typename Number>
@@ -198,16 +184,12 @@ class Builder {
     }
     auto [value, pointer] = place(std::move(empty));
     levels_.push_back({value, std::move(pointer), {}});
-    last_event_ = Event::opened;
-    last_end_ = consumed_;
-    return true;
+    return seen(Event::opened);
   }
 
   bool close() {
     levels_.pop_back();
-    last_event_ = Event::value;
-    last_end_ = consumed_;
-    return true;
+    return seen(Event::value);
   }
 
   /// Where the token stands that the parser refused, and whether a comma precedes it.
@@ -240,10 +222,11 @@ class Builder {
     if (in_string && consumed_ > fault.offset) fault.offset = consumed_ - 1;
     fault.offset = std::min(fault.offset, text_.size());
     if (skip_space(fault.offset) == text_.size()) fault.offset = end_of_content();
-    const Position position = position_at(text_, fault.offset);
-    failure_ = {
-        fmt::format("{}:{}", document_.name, position.line),
-        fmt::format("column {}: {}{}", position.column, text, excerpt_at(text_, fault.offset))};
+    const std::string_view before = text_.substr(0, fault.offset);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t column = fault.offset - (before.rfind('\n') + 1) + 1;
+    failure_ = {fmt::format("{}:{}", document_.name, line),
+                fmt::format("column {}: {}{}", column, text, excerpt_at(text_, fault.offset))};
   }
 
   [[nodiscard]] std::string reason(const Fault& fault, const std::string& what) const {
@@ -318,12 +301,6 @@ class Builder {
 
 std::string_view parent(std::string_view pointer) { return pointer.substr(0, pointer.rfind('/')); }
 
-void refuse_utf16(std::string_view text, const std::string& name) {
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-    throw InputError({{name + ":1", "is UTF-16; save it as UTF-8"}});
-  }
-}
-
 }  // namespace
 
 std::string JsonDocument::where(std::string_view pointer) const {
@@ -337,9 +314,10 @@ std::string JsonDocument::where(std::string_view pointer) const {
 }
 
 JsonDocument parse_json(std::string_view text, std::string name) {
-  refuse_utf16(text, name);
-  JsonDocument document;
-  document.name = std::move(name);
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
+    throw InputError(name + ":1", "is UTF-16; save it as UTF-8");
+  }
+  JsonDocument document{std::move(name), {}, {}, {}, {}};
   std::size_t consumed = 0;
   const char* begin = text.data();
   Builder builder(document, text, consumed);
@@ -347,33 +325,22 @@ JsonDocument parse_json(std::string_view text, std::string name) {
       Json::sax_parse(CountingIterator(begin, begin, &consumed),
                       CountingIterator(begin + text.size(), begin, &consumed), &builder);
   if (!parsed) {
-    std::vector<InputProblem> problems = std::move(document.problems);
-    problems.push_back(builder.failure());
-    throw InputError(std::move(problems));
+    document.problems.push_back(builder.failure());
+    throw InputError(std::move(document.problems));
   }
-  return document;
-}
-
-JsonDocument document_of(nlohmann::ordered_json root, std::string name) {
-  JsonDocument document;
-  document.name = std::move(name);
-  document.root = std::move(root);
   return document;
 }
 
 std::string child_pointer(std::string_view pointer, std::string_view key) {
-  std::string child(pointer);
-  child += '/';
-  for (const char c : key) {
-    if (c == '~') {
-      child += "~0";
-    } else if (c == '/') {
-      child += "~1";
-    } else {
-      child += c;
-    }
-  }
-  return child;
+  return (Json::json_pointer(std::string(pointer)) / std::string(key)).to_string();
+}
+
+std::string_view last_key(std::string_view pointer) {
+  return pointer.substr(pointer.rfind('/') + 1);
+}
+
+bool is_below(std::string_view pointer, std::string_view top) {
+  return pointer.size() > top.size() && pointer.starts_with(top) && pointer[top.size()] == '/';
 }
 
 std::string shown(const nlohmann::ordered_json& value) {

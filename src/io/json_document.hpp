@@ -31,11 +31,14 @@ struct JsonDocument {
 /// than 32 levels.
 JsonDocument parse_json(std::string_view text, std::string name);
 
-/// A document without a text, whose values have no lines.
-JsonDocument document_of(nlohmann::ordered_json root, std::string name);
-
 /// `pointer` with one more key, escaped as RFC 6901 asks.
 std::string child_pointer(std::string_view pointer, std::string_view key);
+
+/// The last key of `pointer`, as escaped there.
+std::string_view last_key(std::string_view pointer);
+
+/// Whether `pointer` leads to something within what `top` leads to.
+bool is_below(std::string_view pointer, std::string_view top);
 
 /// A value as a message shows it: compact, on one line, no longer than about 60 characters, safe
 /// to print whatever bytes it holds.

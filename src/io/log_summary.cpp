@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -34,7 +33,7 @@ struct TimesOfMessage {
 class Clock {
  public:
   void take(const std::string& message, double time) {
-    if (std::abs(time - now_) <= believed_step && started_) {
+    if (first && std::abs(time - now_) <= believed_step) {
       disbelieve_waiting();
       believe(message, time);
     } else if (waiting_ && std::abs(time - waiting_->second) <= believed_step) {
@@ -48,7 +47,7 @@ class Clock {
   }
 
   void finish() {
-    if (!started_ && waiting_) {
+    if (!first && waiting_) {
       believe(waiting_->first, waiting_->second);
       waiting_.reset();
     }
@@ -56,7 +55,6 @@ class Clock {
   }
 
   [[nodiscard]] double now() const { return now_; }
-  [[nodiscard]] bool started() const { return started_; }
 
   std::map<std::string, TimesOfMessage, std::less<>> times;
   std::optional<double> first;
@@ -72,20 +70,17 @@ class Clock {
   }
 
   void believe(const std::string& message, double time) {
-    if (started_ && time - now_ > shortest_gap) {
+    if (first && time - now_ > shortest_gap) {
       ++gap_count;
       if (gaps.size() < most_gaps_told) gaps.push_back({now_, time - now_});
     }
     // Messages are written a little out of order; only a restart sets the clock back.
-    now_ = !started_ || now_ - time > believed_step ? time : std::max(now_, time);
-    started_ = true;
+    now_ = !first || now_ - time > believed_step ? time : std::max(now_, time);
     first = first ? std::min(*first, time) : time;
     last = last ? std::max(*last, time) : time;
 
-    TimesOfMessage& own = times[message];
-    if (own.count == 0) {
-      own.first = own.last = own.latest_seen = time;
-    }
+    TimesOfMessage& own =
+        times.try_emplace(message, TimesOfMessage{0, time, time, time, 0}).first->second;
     ++own.count;
     own.first = std::min(own.first, time);
     own.last = std::max(own.last, time);
@@ -94,7 +89,6 @@ class Clock {
   }
 
   double now_ = 0;
-  bool started_ = false;
   std::optional<std::pair<std::string, double>> waiting_;
 };
 
@@ -162,23 +156,14 @@ std::optional<LogSummary::Flying> flying_by_speed(std::span<const std::byte> con
 /// What the summary of a message needs of its format.
 struct FieldsInUse {
   std::optional<DataFlashTime> time;
-  std::optional<DataFlashField> event;
+  const DataFlashField* event = nullptr;
 };
-
-FieldsInUse fields_in_use(const DataFlashFormat& format) {
-  FieldsInUse fields{time_of(format), std::nullopt};
-  const DataFlashField* const id = format.name == "EV" ? format.find("Id") : nullptr;
-  if (id != nullptr && id->is_number()) fields.event = *id;
-  return fields;
-}
 
 std::vector<LogSummary::Message> message_table(const DataFlashContents& contents,
                                                const Clock& clock) {
   std::map<std::string, LogSummary::Message> by_name;
   for (const auto& type : contents.types) {
-    if (type.count == 0) continue;
-    LogSummary::Message& message = by_name[type.format.name];
-    message.count += type.count;
+    if (type.count > 0) by_name[type.format.name].count += type.count;
   }
   std::vector<LogSummary::Message> table;
   for (auto& [name, message] : by_name) {
@@ -201,28 +186,29 @@ std::vector<LogSummary::Message> message_table(const DataFlashContents& contents
 }  // namespace
 
 LogSummary summarize_log(std::span<const std::byte> log) {
-  DataFlashContents contents = scan_dataflash(log);
+  const DataFlashContents contents = scan_dataflash(log);
   LogSummary summary;
+  static_cast<DataFlashTotals&>(summary) = contents;
   Clock clock;
   FlyingByEvents events;
   std::map<const DataFlashFormat*, FieldsInUse> fields_of;
   for_each_message(log, [&](const DataFlashFormat& format, const std::byte* message) {
     const auto [entry, is_new] = fields_of.try_emplace(&format);
-    if (is_new) entry->second = fields_in_use(format);
-    const FieldsInUse& fields = entry->second;
+    FieldsInUse& fields = entry->second;
+    if (is_new) {
+      fields = {time_of(format), format.name == "EV" ? format.find_number("Id") : nullptr};
+    }
     if (fields.time) {
       clock.take(format.name,
                  field_value(message, fields.time->field) / fields.time->counts_per_second);
     }
-    if (fields.event && clock.started()) {
+    if (fields.event != nullptr && clock.first) {
       events.take(field_value(message, *fields.event), clock.now(), *clock.first);
     }
     if (summary.firmware.empty()) summary.firmware = message_words(format, message);
   });
   clock.finish();
 
-  summary.bytes = contents.bytes;
-  summary.messages = contents.messages;
   summary.types = message_table(contents, clock);
   summary.first_time = clock.first;
   summary.last_time = clock.last;
@@ -231,10 +217,6 @@ LogSummary summarize_log(std::span<const std::byte> log) {
   summary.implausible_times = clock.disbelieved;
   if (clock.last) summary.flying = events.finish(*clock.last);
   if (!summary.flying) summary.flying = flying_by_speed(log);
-  summary.skipped_bytes = contents.skipped_bytes;
-  summary.skipped_messages = contents.skipped_messages;
-  summary.skipped = std::move(contents.skipped);
-  summary.rejected_definitions = std::move(contents.rejected_definitions);
   return summary;
 }
 

@@ -297,10 +297,6 @@ const std::array all_converter_mass_fields{
     SpecField{"/mass_g", number, "g", between(0, 1e6), "", "Mass of such a converter.",
               unit::gram}};
 
-std::string_view last_part(std::string_view path, char separator) {
-  return path.substr(path.rfind(separator) + 1);
-}
-
 /// The fields of a spec, each followed by the numbers of the material that it holds.
 std::span<const SpecField> fields_and_material_numbers() {
   static std::deque<std::string> pointers;  // what the fields' views look at
@@ -318,6 +314,29 @@ std::span<const SpecField> fields_and_material_numbers() {
     return fields;
   }();
   return all;
+}
+
+/// The dot path of the field that somebody who wrote `path` probably meant, also where only its
+/// last part was given ("voltage"); nothing where none is near.
+std::optional<std::string> closest_field_path(std::string_view path) {
+  const std::string wanted = dot_path(path);
+  std::vector<std::string> paths;
+  std::vector<std::string> keys;
+  for (const SpecField& field : fields_and_material_numbers()) {
+    paths.push_back(dot_path(field.pointer));
+    keys.emplace_back(last_key(field.pointer));
+  }
+  // "supply.length_m": the key decides where it is a known one, whatever stands before it.
+  const std::string key = wanted.substr(wanted.rfind('.') + 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i] == key) return paths[i];
+  }
+  if (const auto near_path = closest_name(wanted, paths)) return near_path;
+  const auto near_key = closest_name(key, keys);
+  for (std::size_t i = 0; near_key && i < keys.size(); ++i) {
+    if (keys[i] == *near_key) return paths[i];
+  }
+  return std::nullopt;
 }
 
 template <typename T>
@@ -372,27 +391,6 @@ std::string no_such_field(std::string_view path) {
                      closest ? "; did you mean \"" + *closest + "\"?" : "");
 }
 
-std::optional<std::string> closest_field_path(std::string_view path) {
-  const std::string wanted = dot_path(path);
-  std::vector<std::string> paths;
-  std::vector<std::string> keys;
-  for (const SpecField& field : fields_and_material_numbers()) {
-    paths.push_back(dot_path(field.pointer));
-    keys.emplace_back(last_part(field.pointer, '/'));
-  }
-  // "supply.length_m": the key decides where it is a known one, whatever stands before it.
-  const std::string_view key = last_part(wanted, '.');
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (keys[i] == key) return paths[i];
-  }
-  if (const auto near_path = closest_name(wanted, paths)) return near_path;
-  const auto near_key = closest_name(key, keys);
-  for (std::size_t i = 0; near_key && i < keys.size(); ++i) {
-    if (keys[i] == *near_key) return paths[i];
-  }
-  return std::nullopt;
-}
-
 std::string describe_range(const SpecField& field) {
   const FieldRange& range = field.range;
   std::string text;
@@ -421,18 +419,17 @@ void set_field(Design& design, const SpecField& field, double value) {
                                             dot_path(field.pointer), value, describe_range(field)));
   }
   const double si = value * field.si_factor;
-  if (const auto* number = std::get_if<double& (*)(Design&)>(&field.access)) {
+  if (const auto* number = std::get_if<Access<double>>(&field.access)) {
     (*number)(design) = si;
-  } else if (const auto* optional =
-                 std::get_if<std::optional<double>& (*)(Design&)>(&field.access)) {
+  } else if (const auto* optional = std::get_if<Access<std::optional<double>>>(&field.access)) {
     (*optional)(design) = si;
-  } else if (const auto* integer = std::get_if<int& (*)(Design&)>(&field.access)) {
+  } else if (const auto* integer = std::get_if<Access<int>>(&field.access)) {
     if (value != std::floor(value)) {
       throw std::invalid_argument(fmt::format("{} = {} is not allowed: it must be a whole number",
                                               dot_path(field.pointer), value));
     }
     (*integer)(design) = static_cast<int>(value);
-  } else if (const auto* converter = std::get_if<Converter& (*)(Design&)>(&field.access)) {
+  } else if (const auto* converter = std::get_if<Access<Converter>>(&field.access)) {
     (*converter)(design).efficiency = {{0.0, value}};
   }
 }

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "tethercalc/io/spec_fields.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool is_at_or_below(std::string_view pointer, std::string_view top) {
-  return pointer.starts_with(top) && (pointer.size() == top.size() || pointer[top.size()] == '/');
+  return pointer == top || is_below(pointer, top);
 }
 
 std::string pointer_of(std::string_view dotted) {
@@ -48,17 +47,6 @@ bool may_exist(std::string_view pointer, std::span<const SpecField> fields) {
   });
 }
 
-std::vector<std::string> keys_of(std::string_view pointer) {
-  std::vector<std::string> keys;
-  while (!pointer.empty()) {
-    pointer.remove_prefix(1);
-    const std::size_t end = std::min(pointer.find('/'), pointer.size());
-    keys.emplace_back(pointer.substr(0, end));
-    pointer.remove_prefix(end);
-  }
-  return keys;
-}
-
 /// The value at `key` of `parent`, made where an object lacks it; null where there can be none.
 Json* member_of(Json& parent, const std::string& key) {
   if (parent.is_object()) return &parent[key];
@@ -82,10 +70,9 @@ Json value_of(const std::string& text, const std::string& option) {
 }
 
 void forget_lines(JsonDocument& document, std::string_view pointer) {
-  std::erase_if(document.lines,
-                [&](const auto& line) { return is_at_or_below(line.first, pointer); });
-  std::erase_if(document.options,
-                [&](const auto& option) { return is_at_or_below(option.first, pointer); });
+  const auto replaced = [&](const auto& entry) { return is_at_or_below(entry.first, pointer); };
+  std::erase_if(document.lines, replaced);
+  std::erase_if(document.options, replaced);
 }
 
 void apply_override(JsonDocument& document, const std::string& override_text, Problems& problems) {
@@ -106,15 +93,13 @@ void apply_override(JsonDocument& document, const std::string& override_text, Pr
     return;
   }
   Json new_value;
-  try {
-    new_value = value_of(override_text.substr(equals + 1), option);
-  } catch (const InputError& error) {
-    problems.add(error.problems());
-    return;
-  }
+  const bool read =
+      problems.succeeds([&] { new_value = value_of(override_text.substr(equals + 1), option); });
+  if (!read) return;
   Json* value = &document.root;
   std::string walked;
-  for (const std::string& key : keys_of(pointer)) {
+  for (const std::string_view part : split(std::string_view(pointer).substr(1), '/')) {
+    const std::string key(part);
     if (value->is_null()) *value = Json::object();
     Json* member = member_of(*value, key);
     if (member == nullptr) {

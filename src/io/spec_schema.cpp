@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/checked_values.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
 namespace tethercalc {
@@ -96,18 +97,17 @@ Json schema_of_object(std::span<const SpecField> fields) {
   Json schema = empty_object();
   for (const SpecField& field : fields) {
     Json* object = &schema;
-    std::string_view rest = field.pointer.substr(1);
-    for (std::size_t slash = rest.find('/'); slash != std::string_view::npos;
-         slash = rest.find('/')) {
-      const std::string group(rest.substr(0, slash));
+    std::vector<std::string_view> groups = split(field.pointer.substr(1), '/');
+    const std::string_view key = groups.back();
+    groups.pop_back();
+    for (const std::string_view group : groups) {
       if (field.required()) require(*object, group);
       Json& properties = (*object)["properties"];
-      if (!properties.contains(group)) properties[group] = empty_object();
-      object = &properties[group];
-      rest.remove_prefix(slash + 1);
+      if (!properties.contains(group)) properties[std::string(group)] = empty_object();
+      object = &properties[std::string(group)];
     }
-    if (field.required()) require(*object, rest);
-    (*object)["properties"][std::string(rest)] = schema_of_field(field);
+    if (field.required()) require(*object, key);
+    (*object)["properties"][std::string(key)] = schema_of_field(field);
   }
   return schema;
 }

@@ -4,12 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <utility>
 
+#include "io/entry_readers.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
 namespace tethercalc {
@@ -80,19 +79,19 @@ Json entry_numbers(const Design& design, FieldKind kind) {
 }
 
 /// Writes a changed motor or material.
-template <class Entry, class Library, class Find>
+template <class Entry>
 Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
-                const SpecField& field, const std::string& reference, const Library& library,
-                const Find& find) {
+                const SpecField& field, const std::string& reference) {
   const Json numbers = entry_numbers(design, field.kind);
   const auto is = [&](const Entry& entry) {
     Design other;
     put_entry(other, entry);
     return entry_numbers(other, field.kind) == numbers;
   };
-  const Entry& base = reference.empty() ? old : find(reference, file.load, dot_path(field.pointer));
+  const Entry base =
+      reference.empty() ? old : find_entry<Entry>(reference, file.load, dot_path(field.pointer));
   if (!reference.empty() && is(base)) return reference;
-  for (const Entry& entry : library()) {
+  for (const Entry& entry : library_entries<Entry>()) {
     if (is(entry)) return entry.id;
   }
   Json changed{{"name", (base.name.empty() ? base.id : base.name) + ", changed"},
@@ -129,13 +128,11 @@ Json spec_with(const DesignFile& file, const Design& design,
       case FieldKind::conductor:
       case FieldKind::insulation_material:
         if (entry_numbers(design, field.kind) == entry_numbers(file.design, field.kind)) break;
-        write(field.kind == FieldKind::motor ? entry_json(file, file.motor, design, field,
-                                                          reference, library_motors, find_motor)
+        write(field.kind == FieldKind::motor
+                  ? entry_json(file, file.motor, design, field, reference)
               : field.kind == FieldKind::conductor
-                  ? entry_json(file, file.conductor, design, field, reference, library_conductors,
-                               find_conductor)
-                  : entry_json(file, file.insulation, design, field, reference, library_insulation,
-                               find_insulation));
+                  ? entry_json(file, file.conductor, design, field, reference)
+                  : entry_json(file, file.insulation, design, field, reference));
         break;
       default:
         if (Json value = plain_json(design, field); value != plain_json(file.design, field)) {

@@ -17,6 +17,7 @@
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "io/entry_readers.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
@@ -69,17 +70,10 @@ std::optional<std::int64_t> scaled(Decimal decimal, int places) {
   return value;
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 // --- One axis ----------------------------------------------------------------------------------
+
+constexpr const char* only_drawn =
+    "can only be drawn, not enumerated: add --sample N, or write from:to:step";
 
 /// Reads one "path=values".
 class AxisReader {
@@ -114,11 +108,11 @@ class AxisReader {
       case FieldKind::strength_material:
         return word_axis(*field, values);
       case FieldKind::motor:
-        return entry_axis<MotorEntry>(*field, values, library_motors, find_motor);
+        return entry_axis<MotorEntry>(*field, values);
       case FieldKind::conductor:
-        return entry_axis<ConductorEntry>(*field, values, library_conductors, find_conductor);
+        return entry_axis<ConductorEntry>(*field, values);
       case FieldKind::insulation_material:
-        return entry_axis<InsulationEntry>(*field, values, library_insulation, find_insulation);
+        return entry_axis<InsulationEntry>(*field, values);
       case FieldKind::converter_masses:
         return refuse(use_ == AxisUse::searched ? "a search cannot free this field"
                                                 : "a sweep cannot vary this field");
@@ -128,7 +122,9 @@ class AxisReader {
   }
 
  private:
-  std::optional<SweepAxis> refuse(std::string message) {
+  using Values = std::optional<decltype(SweepAxis::values)>;
+
+  std::nullopt_t refuse(std::string message) {
     problems_.add(option_, std::move(message));
     return std::nullopt;
   }
@@ -152,18 +148,16 @@ class AxisReader {
   }
 
   std::optional<SweepAxis> number_axis(const SpecField& field, std::string_view text) {
-    SweepAxis axis;
-    axis.name = dot_path(field.pointer);
-    axis.apply = [field](Design& design, double value) { set_field(design, field, value); };
-    const bool read = text.find('~') != text.npos    ? read_normal(axis, field, text)
-                      : text.find("..") != text.npos ? read_uniform(axis, field, text)
-                      : text.find(':') != text.npos  ? read_range(axis, field, text)
-                                                     : read_list(axis, field, text);
-    if (!read) return std::nullopt;
-    return axis;
+    Values values = text.find('~') != text.npos    ? read_normal(field, text)
+                    : text.find("..") != text.npos ? read_uniform(field, text)
+                    : text.find(':') != text.npos  ? read_range(field, text)
+                                                   : read_list(field, text);
+    if (!values) return std::nullopt;
+    return SweepAxis{dot_path(field.pointer), std::move(*values),
+                     [field](Design& design, double value) { set_field(design, field, value); }};
   }
 
-  bool read_list(SweepAxis& axis, const SpecField& field, std::string_view text) {
+  Values read_list(const SpecField& field, std::string_view text) {
     std::vector<double> list;
     bool good = true;
     for (const std::string_view part : split(text, ',')) {
@@ -171,19 +165,15 @@ class AxisReader {
       good = value && allowed(field, *value) && whole(field, *value) && good;
       if (value) list.push_back(*value);
     }
-    axis.values = std::move(list);
-    return good;
+    return good ? Values(std::move(list)) : std::nullopt;
   }
 
-  bool read_range(SweepAxis& axis, const SpecField& field, std::string_view text) {
+  Values read_range(const SpecField& field, std::string_view text) {
     const auto parts = split(text, ':');
-    if (parts.size() != 3) {
-      refuse("a range is from:to:step, such as 40:100:5");
-      return false;
-    }
+    if (parts.size() != 3) return refuse("a range is from:to:step, such as 40:100:5");
     std::array<Decimal, 3> written;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!number(parts[i])) return false;
+      if (!number(parts[i])) return std::nullopt;
       const auto decimal = parsed_decimal(parts[i]);
       if (!decimal) return too_many_digits(parts[i]);
       written[i] = *decimal;
@@ -198,67 +188,55 @@ class AxisReader {
     }
     const auto [from, to, step] = numbers;
     if (step == 0 || (to > from && step < 0) || (to < from && step > 0)) {
-      refuse(fmt::format("steps of {} do not lead from {} to {}", parts[2], parts[0], parts[1]));
-      return false;
+      return refuse(
+          fmt::format("steps of {} do not lead from {} to {}", parts[2], parts[0], parts[1]));
     }
     const auto count = static_cast<std::uint64_t>((to - from) / step) + 1;
-    axis.values = DecimalRange{from, step, count, places};
+    const SweepAxis axis{{}, DecimalRange{from, step, count, places}, {}};
     const double first = value_at(axis, 0);
     const double last = value_at(axis, count - 1);
     // Equal steps between whole ends need not be whole, but then the second value is not.
-    return allowed(field, first) && (count == 1 || allowed(field, last)) && whole(field, first) &&
-           (count == 1 || whole(field, value_at(axis, 1)));
+    const bool good = allowed(field, first) && (count == 1 || allowed(field, last)) &&
+                      whole(field, first) && (count == 1 || whole(field, value_at(axis, 1)));
+    return good ? Values(axis.values) : std::nullopt;
   }
 
-  bool too_many_digits(std::string_view text) {
-    refuse(fmt::format("{} has more digits than can be stepped through exactly", text));
-    return false;
+  std::nullopt_t too_many_digits(std::string_view text) {
+    return refuse(fmt::format("{} has more digits than can be stepped through exactly", text));
   }
 
-  bool read_uniform(SweepAxis& axis, const SpecField& field, std::string_view text) {
+  Values read_uniform(const SpecField& field, std::string_view text) {
     const std::size_t dots = text.find("..");
     const auto lo = number(text.substr(0, dots));
     const auto hi = number(text.substr(dots + 2));
-    if (!lo || !hi) return false;
-    if (use_ == AxisUse::enumerated) {
-      refuse("can only be drawn, not enumerated: add --sample N, or write from:to:step");
-      return false;
-    }
+    if (!lo || !hi) return std::nullopt;
+    if (use_ == AxisUse::enumerated) return refuse(only_drawn);
     if (!(*lo < *hi) && !(use_ == AxisUse::searched && *lo == *hi)) {
-      refuse(fmt::format("the lower end {} must be below the upper end {}", *lo, *hi));
-      return false;
+      return refuse(fmt::format("the lower end {} must be below the upper end {}", *lo, *hi));
     }
-    if (field.kind == FieldKind::integer) {
-      if (!whole(field, *lo) || !whole(field, *hi)) return false;
-      axis.values = UniformInteger{static_cast<std::int64_t>(*lo), static_cast<std::int64_t>(*hi)};
-    } else {
-      axis.values = Uniform{*lo, *hi};
-    }
+    if (!whole(field, *lo) || !whole(field, *hi)) return std::nullopt;
     const bool lo_allowed = allowed(field, *lo);
-    return allowed(field, *hi) && lo_allowed;
+    if (!allowed(field, *hi) || !lo_allowed) return std::nullopt;
+    if (field.kind != FieldKind::integer) return Uniform{*lo, *hi};
+    return UniformInteger{static_cast<std::int64_t>(*lo), static_cast<std::int64_t>(*hi)};
   }
 
-  bool read_normal(SweepAxis& axis, const SpecField& field, std::string_view text) {
+  Values read_normal(const SpecField& field, std::string_view text) {
     const std::size_t tilde = text.find('~');
     const auto mean = number(text.substr(0, tilde));
     const auto deviation = number(text.substr(tilde + 1));
-    if (!mean || !deviation) return false;
-    if (use_ != AxisUse::sampled) {
-      refuse(use_ == AxisUse::searched
-                 ? "nothing is drawn in a search: write lo..hi, from:to:step or a list"
-                 : "can only be drawn, not enumerated: add --sample N, or write from:to:step");
-      return false;
+    if (!mean || !deviation) return std::nullopt;
+    if (use_ == AxisUse::enumerated) return refuse(only_drawn);
+    if (use_ == AxisUse::searched) {
+      return refuse("nothing is drawn in a search: write lo..hi, from:to:step or a list");
     }
     if (!(*deviation > 0)) {
-      refuse(fmt::format("the standard deviation {} must be positive", *deviation));
-      return false;
+      return refuse(fmt::format("the standard deviation {} must be positive", *deviation));
     }
     if (field.kind == FieldKind::integer) {
-      refuse("whole numbers have no normal distribution: write lo..hi or a list");
-      return false;
+      return refuse("whole numbers have no normal distribution: write lo..hi or a list");
     }
-    axis.values = Normal{*mean, *deviation};
-    return allowed(field, *mean);
+    return allowed(field, *mean) ? Values(Normal{*mean, *deviation}) : std::nullopt;
   }
 
   /// What "all" stands for, or the names in a list.
@@ -288,22 +266,18 @@ class AxisReader {
                      }};
   }
 
-  template <class Entry, class List, class Find>
-  std::optional<SweepAxis> entry_axis(const SpecField& field, std::string_view text,
-                                      const List& library, const Find& find) {
+  template <class Entry>
+  std::optional<SweepAxis> entry_axis(const SpecField& field, std::string_view text) {
     NamedChoices choices;
     std::vector<Entry> entries;
     if (text == "all") {
-      entries = library();
+      entries = library_entries<Entry>();
       for (const Entry& entry : entries) choices.names.push_back(entry.id);
     } else {
       choices.names = names_in(text, {});
       for (const std::string& name : choices.names) {
-        try {
-          entries.push_back(find(name, base_.load, option_));
-        } catch (const InputError& error) {
-          problems_.add(error.problems());
-        }
+        problems_.succeeds(
+            [&] { entries.push_back(find_entry<Entry>(name, base_.load, option_)); });
       }
       if (entries.size() < choices.names.size()) return std::nullopt;
     }

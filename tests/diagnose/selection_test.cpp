@@ -47,7 +47,7 @@ struct LinearRecord {
       }
       ParameterGroup group;
       group.id = "column " + std::to_string(k);
-      group.role = k == 0 ? ParameterGroup::Role::fitted : ParameterGroup::Role::candidate;
+      group.fitted = k == 0;
       group.parameters = {{.neutral = 0, .lower = -100, .upper = 100, .scale = 1, .start = 0}};
       problem.groups.push_back(group);
     }

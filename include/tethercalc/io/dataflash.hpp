@@ -53,6 +53,8 @@ struct DataFlashFormat {
 
   /// The field of that name, or nullptr.
   [[nodiscard]] const DataFlashField* find(std::string_view field_name) const;
+  /// The same, or nullptr where it is no number.
+  [[nodiscard]] const DataFlashField* find_number(std::string_view field_name) const;
 };
 
 /// The number in a field, in the unit that the format implies: hundredths and 1e-7 degrees are
@@ -87,22 +89,26 @@ struct SkippedBytes {
   std::size_t messages = 0;
 };
 
-/// What a log holds, and what of it could not be read.
-struct DataFlashContents {
-  /// Messages of one definition.
-  struct Type {
-    DataFlashFormat format;  ///< its definition
-    std::size_t count = 0;   ///< messages read
-  };
-  std::vector<Type> types;   ///< in the order of their first definition; some may have no messages
-  std::size_t bytes = 0;     ///< size of the log
-  std::size_t messages = 0;  ///< all those read
+/// How much of a log could be read, and what of it could not.
+struct DataFlashTotals {
+  std::size_t bytes = 0;              ///< size of the log
+  std::size_t messages = 0;           ///< all those read, each of them whole
   std::size_t skipped_bytes = 0;      ///< bytes that belong to no message
   std::size_t skipped_messages = 0;   ///< at least; see SkippedBytes
   std::vector<SkippedBytes> skipped;  ///< the first 100 stretches
   /// Sentences about definitions that could not be used: damaged, or contradicting an earlier one.
   /// Messages of such a type are skipped. At most 100.
   std::vector<std::string> rejected_definitions;
+};
+
+/// What a log holds.
+struct DataFlashContents : DataFlashTotals {
+  /// Messages of one definition.
+  struct Type {
+    DataFlashFormat format;  ///< its definition
+    std::size_t count = 0;   ///< messages read
+  };
+  std::vector<Type> types;  ///< in the order of their first definition; some may have no messages
 
   /// Number of messages of that name, of all types that bear it.
   [[nodiscard]] std::size_t count(std::string_view name) const;

@@ -28,9 +28,7 @@ struct FlightLogReading {
   /// Samples left out because a value is not finite, or cannot be: |pitch| above 90°, |roll| above
   /// 360°, a velocity above 500 m/s, which flipped bits produce.
   std::size_t samples_implausible = 0;
-  std::size_t skipped_bytes = 0;     ///< of a damaged DataFlash log
-  std::size_t skipped_messages = 0;  ///< at least
-  /// Sentences for the user about all of the above; empty where nothing was amiss.
+  /// Sentences for the user about these and about damage to the log; empty where nothing was amiss.
   std::vector<std::string> notes;
 };
 

@@ -15,7 +15,7 @@ namespace tethercalc {
 ///
 /// A time more than a minute away from that of the message before it counts only if the next timed
 /// message agrees with it; so a flipped bit does not make a flight last for years.
-struct LogSummary {
+struct LogSummary : DataFlashTotals {
   /// All messages of one name.
   struct Message {
     std::string name;                 ///< as in the log
@@ -38,8 +38,6 @@ struct LogSummary {
     std::string determined_by;  ///< a phrase: from what the duration was told
   };
 
-  std::size_t bytes = 0;             ///< size of the log
-  std::size_t messages = 0;          ///< number of whole messages
   std::vector<Message> types;        ///< in alphabetical order of their names; all with messages
   std::optional<double> first_time;  ///< s; nothing where no message carries a time
   std::optional<double> last_time;   ///< s
@@ -48,12 +46,6 @@ struct LogSummary {
   std::size_t implausible_times = 0;  ///< messages whose time was not believed
   std::optional<Flying> flying;       ///< nothing where the log does not tell
   std::string firmware;  ///< first text message, which names it in most logs; may be empty
-
-  std::size_t skipped_bytes = 0;      ///< bytes that belong to no message
-  std::size_t skipped_messages = 0;   ///< at least
-  std::vector<SkippedBytes> skipped;  ///< where they lie
-  std::vector<std::string>
-      rejected_definitions;  ///< definitions that contradict themselves or others
 };
 
 /// Reads the whole log. Nothing is thrown: any bytes are a log, if only an empty one.

@@ -77,15 +77,12 @@ struct SpecField {
 /// pointer is that in the spec.
 [[nodiscard]] const SpecField* find_field(std::string_view path);
 
-/// "no field X in a spec; did you mean Y?", Y by `closest_field_path`.
+/// "no field X in a spec; did you mean Y?" for `path`, Y being also told where only its last part
+/// was given ("voltage"), and left out where none is near.
 [[nodiscard]] std::string no_such_field(std::string_view path);
 
 /// "supply.voltage_V" of "/supply/voltage_V": how options name a field.
 [[nodiscard]] std::string dot_path(std::string_view pointer);
-
-/// The dot path of the field that somebody who wrote `path` probably meant, also where only its
-/// last part was given ("voltage"); nothing where none is near.
-[[nodiscard]] std::optional<std::string> closest_field_path(std::string_view path);
 
 /// "at least 1 and at most 1000000 g": the allowed numbers in words, for messages.
 [[nodiscard]] std::string describe_range(const SpecField& field);
