@@ -106,132 +106,6 @@ void demand_speed_spread(std::span<const Observations> flights) {
   }
 }
 
-// ---- the deterministic start ----
-
-/// Normal equations of y/k in the basis (cosθ·u|u|, |sinθ|·u|u|, cosθ·u, |sinθ|·u), in which the
-/// model is linear with coefficients (A_f, A_t, A_f·j, A_t·j).
-struct Gram {
-  Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d b = Eigen::Vector4d::Zero();
-};
-
-struct SharedDrag {
-  double front_area = 0;
-  double top_area = 0;
-  double linear_speed = 0;
-  double explained = 0;  // how much they lower the sum of squares
-};
-
-double explained(const Gram& gram, const SharedDrag& drag) {
-  const Eigen::Vector4d x(drag.front_area, drag.top_area, drag.front_area * drag.linear_speed,
-                          drag.top_area * drag.linear_speed);
-  return x.dot(2 * gram.b - gram.h * x);
-}
-
-/// The areas ≥ 0 that fit best for a given j.
-SharedDrag best_areas(const Gram& gram, double j) {
-  Eigen::Matrix<double, 4, 2> reduce;
-  reduce << 1, 0, 0, 1, j, 0, 0, j;
-  const Eigen::Matrix2d h = reduce.transpose() * gram.h * reduce;
-  const Eigen::Vector2d b = reduce.transpose() * gram.b;
-  const double determinant = h.determinant();
-  if (determinant > 0) {
-    const double f = (h(1, 1) * b(0) - h(0, 1) * b(1)) / determinant;
-    const double t = (h(0, 0) * b(1) - h(0, 1) * b(0)) / determinant;
-    if (f >= 0 && t >= 0) return {f, t, j, f * b(0) + t * b(1)};
-  }
-  // The constrained optimum then lies on an axis.
-  const double f = h(0, 0) > 0 ? std::max(0.0, b(0) / h(0, 0)) : 0;
-  const double t = h(1, 1) > 0 ? std::max(0.0, b(1) / h(1, 1)) : 0;
-  return f * b(0) >= t * b(1) ? SharedDrag{f, 0, j, f * b(0)} : SharedDrag{0, t, j, t * b(1)};
-}
-
-SharedDrag best_shared(const Gram& gram, const std::vector<double>& linear_grid) {
-  SharedDrag best = best_areas(gram, linear_grid.front());
-  for (double j : linear_grid) {
-    const SharedDrag candidate = best_areas(gram, j);
-    if (candidate.explained > best.explained) best = candidate;
-  }
-  return best;
-}
-
-Gram gram_at(const Samples& samples, std::size_t stride, double k, double wind) {
-  Gram gram;
-  for (std::size_t i = 0; i < samples.size(); i += stride) {
-    const Sample& s = samples[i];
-    const double u = s.speed - wind;
-    const double q = u * std::abs(u);
-    const Eigen::Vector4d x(s.cosine * q, s.sine * q, s.cosine * u, s.sine * u);
-    gram.h += x * x.transpose();
-    gram.b += x * (s.observed / k);
-  }
-  return gram;
-}
-
-std::vector<double> linear_speed_grid(double max) {
-  std::vector<double> grid{0};
-  for (double j = 0.5; j < max; j *= 2) grid.push_back(j);
-  grid.push_back(max);
-  return grid;
-}
-
-std::vector<double> wind_grid(double max) {
-  constexpr double widest_step = 2.0;  // m/s, well below the speeds over which the model bends
-  const auto steps = static_cast<int>(std::ceil(max / widest_step));
-  std::vector<double> grid;
-  for (int i = -steps; i <= steps; ++i) grid.push_back(max * i / steps);
-  return grid;
-}
-
-/// The best point of a grid over j and the winds. One flight: the global one. Several: each
-/// flight's own best wind first, then shared drag and winds in turns; every turn is a lookup.
-VectorXd grid_start(const std::vector<Samples>& flights, double k, const DragBounds& bounds) {
-  constexpr std::size_t enough = 500;  // samples: a start need not be precise
-  const std::size_t total =
-      std::accumulate(flights.begin(), flights.end(), std::size_t{0},
-                      [](std::size_t sum, const Samples& flight) { return sum + flight.size(); });
-  const std::size_t stride = std::max<std::size_t>(1, total / enough);
-  const auto winds = wind_grid(bounds.max_wind);
-  const auto linear_speeds = linear_speed_grid(bounds.max_linear_speed);
-
-  std::vector<std::vector<Gram>> grams(flights.size());  // [flight][wind]
-  std::vector<std::size_t> chosen(flights.size(), 0);
-  for (std::size_t f = 0; f < flights.size(); ++f) {
-    double most = -1;
-    for (std::size_t i = 0; i < winds.size(); ++i) {
-      grams[f].push_back(gram_at(flights[f], stride, k, winds[i]));
-      const double now = best_shared(grams[f][i], linear_speeds).explained;
-      if (now > most) most = now, chosen[f] = i;
-    }
-  }
-
-  SharedDrag drag;
-  constexpr int most_turns =
-      20;  // each turn improves the fit, so it settles; in practice in 2 or 3
-  for (int turn = 0; turn < most_turns; ++turn) {
-    Gram sum;
-    for (std::size_t f = 0; f < flights.size(); ++f) {
-      sum.h += grams[f][chosen[f]].h;
-      sum.b += grams[f][chosen[f]].b;
-    }
-    drag = best_shared(sum, linear_speeds);
-    const auto before = chosen;
-    for (std::size_t f = 0; f < flights.size(); ++f) {
-      for (std::size_t i = 0; i < winds.size(); ++i) {
-        if (explained(grams[f][i], drag) > explained(grams[f][chosen[f]], drag)) chosen[f] = i;
-      }
-    }
-    if (chosen == before) break;
-  }
-
-  VectorXd start(shared + static_cast<Index>(flights.size()));
-  start.head<shared>() << drag.front_area, drag.top_area, drag.linear_speed;
-  for (std::size_t f = 0; f < flights.size(); ++f) {
-    start(shared + static_cast<Index>(f)) = winds[chosen[f]];
-  }
-  return start;
-}
-
 // ---- damped Gauss–Newton within bounds ----
 
 // The sum of squares has a long bent valley along A·j = const: at one speed, only the drag there is
@@ -432,6 +306,43 @@ Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& 
   return out;
 }
 
+// ---- the deterministic start ----
+
+/// At most about `count` of them, evenly spread: a start need not be precise.
+Samples thinned(const Samples& samples, std::size_t count) {
+  Samples few;
+  const std::size_t stride = 1 + samples.size() / count;
+  for (std::size_t i = 0; i < samples.size(); i += stride) few.push_back(samples[i]);
+  return few;
+}
+
+/// The best of descents from winds all over their range: in all but the wind the straightened model
+/// is linear or nearly so.
+VectorXd start_of(const Samples& flight, double k, const DragBounds& bounds) {
+  constexpr double widest_step = 4;  // m/s, about half of the speeds over which the model bends
+  const auto steps = static_cast<int>(std::ceil(bounds.max_wind / widest_step));
+  const std::vector<Samples> few{thinned(flight, 200)};
+  Minimum best;
+  for (int i = -steps; i <= steps; ++i) {
+    const VectorXd start{{0, 0, 1, bounds.max_wind * i / steps}};
+    Minimum found = minimise(few, k, start, box(bounds, 1));
+    if (best.x.size() == 0 || found.at.sse < best.at.sse) best = std::move(found);
+  }
+  return best.x;
+}
+
+/// Each flight's own wind, and the mean of what the flights take for what they share.
+VectorXd joint_start(const std::vector<Samples>& flights, double k, const DragBounds& bounds) {
+  const auto count = static_cast<Index>(flights.size());
+  VectorXd start = VectorXd::Zero(shared + count);
+  for (Index f = 0; f < count; ++f) {
+    const VectorXd own = start_of(flights[static_cast<std::size_t>(f)], k, bounds);
+    start.head<shared>() += own.head<shared>() / static_cast<double>(count);
+    start(shared + f) = own(shared);
+  }
+  return start;
+}
+
 // ---- errors and quality ----
 
 std::vector<std::string> parameter_names(std::size_t flights) {
@@ -595,7 +506,7 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
     start.tail(static_cast<Index>(flights.size())) =
         Eigen::Map<const VectorXd>(options.start->wind.data(), static_cast<Index>(flights.size()));
   } else {
-    start = grid_start(samples, k, options.bounds);
+    start = joint_start(samples, k, options.bounds);
   }
   const Minimum minimum = minimise(samples, k, start, within);
   const auto names = parameter_names(flights.size());
