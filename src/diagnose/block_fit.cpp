@@ -1,11 +1,10 @@
 #include "diagnose/block_fit.hpp"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
@@ -51,7 +50,7 @@ MatrixXd normal_matrix(const MatrixXd& jacobian, const VectorXd& weight) {
 VectorXd solve_loaded(MatrixXd normal, const VectorXd& gradient, double damping) {
   normal.diagonal() *= 1 + damping;
   normal.diagonal().array() += 1e-300;  // a column without any effect stays where it is
-  return normal.ldlt().solve(gradient);
+  return solve_symmetric(normal, gradient);
 }
 
 /// Model and unnamed regressors as one function of one vector: the freed parameters, each over its

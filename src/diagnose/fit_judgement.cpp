@@ -1,11 +1,9 @@
 #include "diagnose/fit_judgement.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/least_squares.hpp"
+#include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
@@ -74,7 +72,7 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
     slopes -= others * least_squares(others, slopes);
   }
   const MatrixXd gram = slopes.transpose() * slopes;
-  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(gram).eigenvalues().minCoeff();
+  const double least = least_eigenvalue(gram).value;
   if (std::sqrt(std::max(least, 0.0)) >= aliased_below) return std::nullopt;
 
   std::vector<std::pair<double, std::size_t>> nearness;

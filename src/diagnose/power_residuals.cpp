@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
+#include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "diagnose/fit_judgement.hpp"
-#include "diagnose/least_squares.hpp"
 #include "diagnose/unnamed_structure.hpp"
 #include "identify/distributions.hpp"
+#include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {

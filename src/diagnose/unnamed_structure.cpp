@@ -1,11 +1,10 @@
 #include "diagnose/unnamed_structure.hpp"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 
 #include "identify/distributions.hpp"
+#include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 
 namespace tethercalc {
@@ -95,9 +94,8 @@ std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& f
     MatrixXd along = MatrixXd::Zero(size, count);  // (JᵀJ)⁻¹JᵀZ
     VectorXd step = VectorXd::Zero(size);
     if (size > 0) {
-      const Eigen::LDLT<MatrixXd> factor(rest.normal);
-      along = factor.solve(rest.cross);
-      step = factor.solve(rest.gradient);
+      along = solve_symmetric(rest.normal, rest.cross);
+      step = solve_symmetric(rest.normal, rest.gradient);
     }
     for (Index k = 0; k < count; ++k) {
       const double own = rest.own[k] - rest.cross.col(k).dot(along.col(k));

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "identify/distributions.hpp"
+#include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
@@ -273,10 +272,10 @@ Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& 
     const VectorXd g = best.in_y.g(free);
     // An area at 0 leaves columns of zeros; any positive number keeps such a parameter in place.
     const VectorXd scale = h.diagonal().cwiseMax(std::numeric_limits<double>::min());
-    const VectorXd step = (h + MatrixXd(damping * scale.asDiagonal())).ldlt().solve(g);
+    const VectorXd step = solve_symmetric(h + MatrixXd(damping * scale.asDiagonal()), g);
 
     VectorXd y = best.y;
-    y(free) += step;
+    for (std::size_t i = 0; i < free.size(); ++i) y(free[i]) += step(static_cast<Index>(i));
     y = y.cwiseMax(within.lower).cwiseMin(within.upper);
     const VectorXd moved = y - best.y;
     // movedᵀ·H·moved ≤ ε²·s² bounds every |moved_i| by ε standard errors.
@@ -367,12 +366,11 @@ void demand_separate_effects(const Minimum& minimum, const std::vector<std::stri
   const MatrixXd h = minimum.at.h(minimum.free, minimum.free);
   const VectorXd scale =
       h.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = scale.asDiagonal() * h * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(scaled);
-  if (eigen.eigenvalues()(0) > singular) return;
+  const LeastEigenvalue least = least_eigenvalue(scale.asDiagonal() * h * scale.asDiagonal());
+  if (least.value > singular) return;
   std::vector<std::string> involved;
   for (std::size_t i = 0; i < minimum.free.size(); ++i) {
-    if (std::abs(eigen.eigenvectors()(static_cast<Index>(i), 0)) > 0.1) {
+    if (std::abs(least.direction(static_cast<Index>(i))) > 0.1) {
       involved.push_back(names[static_cast<std::size_t>(minimum.free[i])]);
     }
   }
@@ -383,10 +381,10 @@ void demand_separate_effects(const Minimum& minimum, const std::vector<std::stri
 
 /// H⁻¹ over the free parameters, zero elsewhere.
 MatrixXd free_inverse(const Minimum& minimum) {
+  const auto free = static_cast<Index>(minimum.free.size());
   MatrixXd inverse = MatrixXd::Zero(minimum.x.size(), minimum.x.size());
-  const MatrixXd h = minimum.at.h(minimum.free, minimum.free);
-  const MatrixXd h_inverse = h.ldlt().solve(MatrixXd::Identity(h.rows(), h.cols()));
-  inverse(minimum.free, minimum.free) = h_inverse;
+  inverse(minimum.free, minimum.free) =
+      solve_symmetric(minimum.at.h(minimum.free, minimum.free), MatrixXd::Identity(free, free));
   return inverse;
 }
 

@@ -115,17 +115,6 @@ double churchill_chu(double rayleigh, double prandtl) {
   return natural_convection(rayleigh, prandtl).value;
 }
 
-double cigre601_stranded(double reynolds, double roughness) {
-  if (reynolds < 2650) return 0.641 * std::pow(reynolds, 0.471);
-  return roughness <= 0.05 ? 0.178 * std::pow(reynolds, 0.633) : 0.048 * std::pow(reynolds, 0.8);
-}
-
-double cigre601_attack_factor(double attack_angle) {
-  const double sine = std::sin(attack_angle);
-  return attack_angle <= 24 * unit::degree ? 0.42 + 0.68 * std::pow(sine, 1.08)
-                                           : 0.42 + 0.58 * std::pow(sine, 0.9);
-}
-
 double cigre601_inclination_factor(double inclination) {
   return 1 - 1.58e-4 * std::pow(inclination / unit::degree, 1.5);
 }

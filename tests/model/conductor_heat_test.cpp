@@ -14,6 +14,19 @@ using std::numbers::pi;
 
 namespace {
 
+/// Nusselt number of a stranded conductor across the wind, CIGRE TB 601 table 5.
+double cigre601_stranded(double reynolds, double roughness) {
+  if (reynolds < 2650) return 0.641 * std::pow(reynolds, 0.471);
+  return roughness <= 0.05 ? 0.178 * std::pow(reynolds, 0.633) : 0.048 * std::pow(reynolds, 0.8);
+}
+
+/// Share of it left where the wind meets the conductor at an angle, CIGRE TB 601.
+double cigre601_attack_factor(double angle) {
+  const double sine = std::sin(angle);
+  return angle <= 24 * pi / 180 ? 0.42 + 0.68 * std::pow(sine, 1.08)
+                                : 0.42 + 0.58 * std::pow(sine, 0.9);
+}
+
 /// A worked example of CIGRE TB 601 (2014), annex E: "Drake" conductor at 100 °C.
 struct WorkedExample {
   double strand_mm, emissivity, ambient_C, wind, attack_deg, altitude_m, sun_heat;

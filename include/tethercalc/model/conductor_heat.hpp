@@ -32,14 +32,6 @@ inline constexpr double standard_air_density_0C = 1.293;
 /// Transfer 18, 1049–1053); Rayleigh number 1e-5 to 1e12.
 [[nodiscard]] double churchill_chu(double rayleigh, double prandtl);
 
-/// Nusselt number of a stranded conductor across the wind, CIGRE TB 601 table 5; Reynolds number
-/// 100 to 50 000. `roughness` is d/(2(D − d)) with strand diameter d and conductor diameter D.
-[[nodiscard]] double cigre601_stranded(double reynolds, double roughness);
-
-/// Share of it left where the wind meets a stranded conductor at `attack_angle` (rad, 0 to π/2; π/2
-/// is across), CIGRE TB 601.
-[[nodiscard]] double cigre601_attack_factor(double attack_angle);
-
 /// Share of a horizontal smooth conductor's natural convection left at `inclination` (rad, 0 to
 /// π/3), CIGRE TB 601.
 [[nodiscard]] double cigre601_inclination_factor(double inclination);

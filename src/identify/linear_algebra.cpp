@@ -1,5 +1,6 @@
-#include "diagnose/least_squares.hpp"
+#include "identify/linear_algebra.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <limits>
@@ -11,6 +12,15 @@ using Eigen::VectorXd;
 
 MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
   return a.colPivHouseholderQr().solve(b);
+}
+
+MatrixXd solve_symmetric(const MatrixXd& matrix, const MatrixXd& b) {
+  return matrix.ldlt().solve(b);
+}
+
+LeastEigenvalue least_eigenvalue(const MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric);  // in rising order
+  return {eigen.eigenvalues()[0], eigen.eigenvectors().col(0)};
 }
 
 MatrixXd symmetric_pseudo_inverse(const MatrixXd& matrix) {
