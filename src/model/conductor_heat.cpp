@@ -103,8 +103,9 @@ Nusselt natural_convection(double rayleigh, double prandtl) {
 AirProperties air_properties(double film_temperature_C, double density_at_0C) {
   const double conductivity = conductivity_of_air.at(film_temperature_C);
   const double viscosity = viscosity_of_air.at(film_temperature_C);
-  const double density = density_at_0C / (1 + expansion_of_air * film_temperature_C);
-  return {conductivity, viscosity / density, 1005 * viscosity / conductivity};
+  // The density at 0 °C over that of the film.
+  const double expansion = 1 + expansion_of_air * film_temperature_C;
+  return {conductivity, viscosity * expansion / density_at_0C, 1005 * viscosity / conductivity};
 }
 
 double churchill_bernstein(double reynolds, double prandtl) {
@@ -130,10 +131,11 @@ double ampacity(double heat, double resistance) { return std::sqrt(heat / resist
 
 ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              const Surroundings& around)
-    : conductor_(tether.conductor),
-      around_(around),
+    : around_(around),
       radius_(radius),
-      area_(conductor_area(radius)),
+      resistance_at_zero_(resistivity(tether.conductor, 0) / conductor_area(radius)),
+      resistance_per_kelvin_(resistivity(tether.conductor, 1) / conductor_area(radius) -
+                             resistance_at_zero_),
       diameter_(2 * (radius + wall)),
       density_0C_(around.air_density * (1 + expansion_of_air * around.temperature_C)) {
   const double known = tether.insulation.thermal_conductivity;
@@ -147,10 +149,6 @@ ConductorHeat ConductorHeat::in(const Surroundings& around) const {
   other.around_ = around;
   other.density_0C_ = around.air_density * (1 + expansion_of_air * around.temperature_C);
   return other;
-}
-
-double ConductorHeat::resistance(double temperature_C) const {
-  return resistivity(conductor_, temperature_C) / area_;
 }
 
 ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
@@ -213,7 +211,6 @@ std::optional<double> ConductorHeat::temperature(double current) const {
 
 ConductorHeat::Balance ConductorHeat::balance(double surface_C, double current) const {
   const Flow out = flow(surface_C);
-  const double made_growth = resistance(1) - resistance(0);
   // T_c = T_s + q·R_th, where the heat does not flow in from the sun.
   const bool outward = out.heat > 0;
   const double through = outward ? thermal_resistance_ : 0;
@@ -221,12 +218,12 @@ ConductorHeat::Balance ConductorHeat::balance(double surface_C, double current) 
   const double square = current * current;
   const double inside = surface_C + out.heat * through;
   const double made = square * resistance(inside);
-  const double rate = out.by_temperature - square * made_growth * per_surface;
+  const double rate = out.by_temperature - square * resistance_per_kelvin_ * per_surface;
   // The balance q = I²·R(T_c)/A and T_c, both differentiated by the radius.
   const double wall_growth = outward ? out.heat * thermal_resistance_slope_ : 0;
   const double inside_growth = out.by_radius * through + wall_growth;
   const double imbalance_growth =
-      out.by_radius + 2 * made / radius_ - square * made_growth * inside_growth;
+      out.by_radius + 2 * made / radius_ - square * resistance_per_kelvin_ * inside_growth;
   Balance balance;
   balance.surface_C = surface_C;
   balance.inside_C = inside;

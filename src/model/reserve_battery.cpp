@@ -50,6 +50,7 @@ double reserve_battery_mass(const Drone& drone, double mass, double height, doub
   double lower = mass;
   // What is missing at `lower` is the battery for the power there, less the mass gained so far.
   const double thrust = mass * gravity / drone.motor_count;
+  if (!(thrust < drone.motor.max_thrust())) return infinity;
   std::size_t i = drone.motor.piece(thrust);
   double missing =
       per_watt * battery_power(drone, vertices[i].power +

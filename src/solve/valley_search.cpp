@@ -123,8 +123,8 @@ class ValleySearch {
     }
     const double resistance = flight_.tether().resistance(at.radius);
     if (heated_) {
-      // To 1e-8: at the bottom the power is flat.
-      const TetherHeatState state = tether_.state(power, at.radius, at.radius, 1e-4);
+      // To 1e-7: at the bottom the power is flat.
+      const TetherHeatState state = tether_.state(power, at.radius, at.radius, 3e-4);
       const double spent = slope * at.thrust.slope;
       if (state.steady) {
         return {-state.current * state.current * state.resistance_slope, spent};

@@ -93,7 +93,8 @@ class ConductorHeat {
     [[nodiscard]] double steady_inside() const {
       return inside_C + inside_per_surface * surface_change;
     }
-    /// How far the tangents lead, over the rise. Their error goes with the square.
+    /// How far the tangents lead, over the rise, or over 1e-4 K where that is less. Their error
+    /// goes with the square.
     [[nodiscard]] double relative_change(double ambient_C) const {
       return std::abs(surface_change) / (std::abs(surface_C - ambient_C) + 1e-4);
     }
@@ -118,7 +119,9 @@ class ConductorHeat {
 
  private:
   /// Resistance in Ω/m of one conductor.
-  [[nodiscard]] double resistance(double temperature_C) const;
+  [[nodiscard]] double resistance(double temperature_C) const {
+    return resistance_at_zero_ + resistance_per_kelvin_ * temperature_C;
+  }
   [[nodiscard]] std::optional<Balance> search_surface(double current) const;
   /// Heat given off in W/m, and its derivatives by the surface's temperature and the metal's
   /// radius.
@@ -129,10 +132,10 @@ class ConductorHeat {
   };
   [[nodiscard]] Flow flow(double surface_C) const;
 
-  Conductor conductor_;
   Surroundings around_;
   double radius_;
-  double area_;
+  double resistance_at_zero_;        ///< Ω/m of one conductor, at 0 °C
+  double resistance_per_kelvin_;     ///< Ω/(m·K)
   double diameter_;                  ///< m, over the insulation
   double thermal_resistance_;        ///< K·m/W of the insulation
   double thermal_resistance_slope_;  ///< K/W, by the radius
