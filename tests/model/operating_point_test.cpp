@@ -162,9 +162,7 @@ TEST_CASE("the slope of the necessary thrust is that of its secant") {
     const Design design = test::random_design(random);
     const SteadyFlight flight(design, Condition::forward);
     const double radius = random.magnitude(1e-4, 1e-2);
-    const auto thrust = [&](double r) {
-      return flight.balance(r, 0).thrust.value;
-    };
+    const auto thrust = [&](double r) { return flight.balance(r, 0).thrust.value; };
     const double step = 1e-4 * radius;
     const double secant = (thrust(radius + step) - thrust(radius - step)) / (2 * step);
     const auto tangent = flight.balance(radius, 0).thrust;

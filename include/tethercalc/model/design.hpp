@@ -42,7 +42,7 @@ struct Flight {
   double air_density = 1.293;         ///< kg/m³
   double gravity = standard_gravity;  ///< m/s²
 
-  bool operator==(const Flight&) const = default;
+  bool operator==(const Flight&) const = default;  ///< member by member
 };
 
 /// What a cross-section must satisfy, and what is minimised among those that do.

@@ -12,7 +12,7 @@ struct Conductor {
   double density = 0;                  ///< kg/m³
   double tensile_strength = 0;         ///< Pa; 0: unknown, and nothing is hung on it
 
-  bool operator==(const Conductor&) const = default;
+  bool operator==(const Conductor&) const = default;  ///< member by member
 };
 
 /// Sheath of each conductor, with the same wall all round.
@@ -28,7 +28,7 @@ struct Insulation {
   /// as thick as `thickness` says, whatever the voltage.
   double dielectric_safety_factor = 0;
 
-  bool operator==(const Insulation&) const = default;
+  bool operator==(const Insulation&) const = default;  ///< member by member
 };
 
 /// Wall in m that stands `voltage` (V, ≥ 0): max(thickness, factor·voltage/breakdown strength).
@@ -43,7 +43,7 @@ struct Drum {
   int layers = 0;                    ///< 1 to 4; 0: not stated
   std::optional<double> derating{};  ///< in (0, 1], current wound up over current laid out
 
-  bool operator==(const Drum&) const = default;
+  bool operator==(const Drum&) const = default;  ///< member by member
 };
 
 /// Current that a cable may carry wound on a drum, over what it may laid out, at the same conductor
@@ -60,7 +60,7 @@ struct StrengthMember {
   StrengthMaterial material = StrengthMaterial::none;  ///< none: no member, whatever its size
   double cross_section = 0;                            ///< m² of fibre
 
-  bool operator==(const StrengthMember&) const = default;
+  bool operator==(const StrengthMember&) const = default;  ///< member by member
 };
 
 /// Mass per length, thickness and strength of a strength member.
@@ -86,7 +86,7 @@ struct MeasuredHeating {
   double time_constant = 200;  ///< s, > 0; steady flight does not depend on it
   double wind_cooling = 0;     ///< (s/m)^½, ≥ 0
 
-  bool operator==(const MeasuredHeating&) const = default;
+  bool operator==(const MeasuredHeating&) const = default;  ///< member by member
 };
 
 /// The cable as bought and laid, but for its cross-section where that is still to be found.
@@ -111,7 +111,7 @@ struct Tether {
   StrengthMember strength_member{};  ///< beside the conductors
   double winch_pull = 0;             ///< N, with which the ground end is pulled down
 
-  bool operator==(const Tether&) const = default;
+  bool operator==(const Tether&) const = default;  ///< member by member
 };
 
 /// Whether the current warms the tether: an ambient temperature or a measured heating is set.
