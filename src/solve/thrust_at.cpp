@@ -132,7 +132,7 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
 TetherHeatState WarmTether::state(double power, double radius, double sunlit_radius,
                                   double last_step) const {
   constexpr std::size_t most_known = 4;
-  TetherHeatState nearest;
+  const Known* nearest = nullptr;
   double distance = infinity;
   for (const Known& known : known_) {
     if (known.power == power && known.radius == radius && known.sunlit_radius == sunlit_radius &&
@@ -141,11 +141,12 @@ TetherHeatState WarmTether::state(double power, double radius, double sunlit_rad
     }
     if (!known.state.steady) continue;
     const double ratio = std::max(known.radius / radius, radius / known.radius);
-    if (ratio < distance) nearest = known.state;
+    if (ratio < distance) nearest = &known;
     distance = std::min(distance, ratio);
   }
   const TetherHeatState state =
-      TetherHeat(flight_, radius, sunlit_radius).carrying(power, nearest, last_step);
+      TetherHeat(flight_, radius, sunlit_radius)
+          .carrying(power, nearest ? nearest->state : TetherHeatState{}, last_step);
   if (known_.size() < most_known) known_.emplace_back();
   known_[asked_++ % most_known] = {power, radius, sunlit_radius, last_step, state};
   return state;
