@@ -55,7 +55,7 @@ struct SweepOptions {
   std::string shard;                    ///< "i/n"; empty: all rows
   unsigned jobs = 0;                    ///< threads; 0: one a core
   std::optional<std::uint64_t> sample;  ///< draw this many instead of every combination
-  std::string method = "sobol";         ///< or "lhs"
+  std::string method;                   ///< "sobol", which an empty one stands for, or "lhs"
   std::uint64_t seed = 0;
   std::string summary_file;  ///< JSON summary of a sample; empty: none
 };

@@ -104,7 +104,7 @@ RowFormat row_format(const std::string& format) {
 }
 
 SampleMethod sample_method(const std::string& method) {
-  if (method == "sobol") return SampleMethod::sobol;
+  if (method.empty() || method == "sobol") return SampleMethod::sobol;
   if (method == "lhs") return SampleMethod::latin_hypercube;
   throw InputError("--method",
                    fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
@@ -143,7 +143,18 @@ void check_options(const SweepOptions& options) {
   if (options.resume && to_standard_output(options)) {
     throw InputError("--resume", "needs --output FILE: only a file can be continued");
   }
-  if (options.sample && *options.sample == 0) throw InputError("--sample", "must be at least 1");
+  // The option's reader takes −1 for the largest number there is.
+  constexpr std::uint64_t most_draws = 1'000'000'000'000;
+  if (options.sample && (*options.sample == 0 || *options.sample > most_draws)) {
+    throw InputError("--sample", "must be a whole number from 1 to 1000000000000");
+  }
+  if (!options.method.empty() && !options.sample) {
+    throw InputError("--method", "needs --sample N: only a sample is drawn");
+  }
+  constexpr unsigned most_threads = 1024;
+  if (options.jobs > most_threads) {
+    throw InputError("--jobs", fmt::format("must be a whole number from 1 to {}", most_threads));
+  }
   if (!options.summary_file.empty() && !options.sample) {
     throw InputError("--summary", "needs --sample N: only a sample has a summary");
   }
@@ -185,6 +196,13 @@ struct Sweep {
     text.pop_back();
     return text;
   }
+
+  /// Line `n` of the file, counted from 0; empty beyond its end.
+  [[nodiscard]] std::string file_line(std::uint64_t n) const {
+    if (header && n == 0) return rows.header().substr(0, rows.header().size() - 1);
+    const std::uint64_t row = range.begin + n - (header ? 1 : 0);
+    return row < range.end ? line(row) : "";
+  }
 };
 
 [[noreturn]] void refuse_to_resume(const RowFile& file, std::uint64_t line,
@@ -196,30 +214,26 @@ struct Sweep {
                   found.substr(0, 200), expected.substr(0, 200)));
 }
 
-/// Number of rows of the sweep that `file` already holds. Its first and last line are compared with
-/// what this run would have written there.
+/// Number of rows of the sweep that `file` already holds. Its first, last and broken line are
+/// compared with what this run would have written there.
 std::uint64_t rows_done(const Sweep& sweep, const RowFile& file) {
-  std::uint64_t lines = file.lines_found();
-  if (lines == 0) return 0;
-  if (sweep.header) {
-    std::string header = sweep.rows.header();
-    header.pop_back();
-    if (file.first_line() != header) refuse_to_resume(file, 1, file.first_line(), header);
-    if (--lines == 0) return 0;
-  } else {
-    const std::string first =
-        sweep.range.begin < sweep.range.end ? sweep.line(sweep.range.begin) : "";
-    if (file.first_line() != first) refuse_to_resume(file, 1, file.first_line(), first);
+  const std::uint64_t lines = file.lines_found();
+  const std::uint64_t headers = sweep.header ? 1 : 0;
+  if (lines > headers + sweep.range.end - sweep.range.begin) {
+    throw InputError(file.name(),
+                     fmt::format("holds {} rows, more than the {} of this sweep", lines - headers,
+                                 sweep.range.end - sweep.range.begin));
   }
-  if (lines > sweep.range.end - sweep.range.begin) {
-    throw InputError(file.name(), fmt::format("holds {} rows, more than the {} of this sweep",
-                                              lines, sweep.range.end - sweep.range.begin));
-  }
-  const std::string last = sweep.line(sweep.range.begin + lines - 1);
-  if (file.last_line() != last) {
-    refuse_to_resume(file, file.lines_found(), file.last_line(), last);
-  }
-  return lines;
+  const auto expect = [&](std::uint64_t line, const std::string& found, bool broken) {
+    const std::string expected = sweep.file_line(line);
+    if (broken ? !expected.starts_with(found) : found != expected) {
+      refuse_to_resume(file, line + 1, found, expected);
+    }
+  };
+  if (lines > 0) expect(0, file.first_line(), false);
+  if (lines > 0) expect(lines - 1, file.last_line(), false);
+  if (!file.broken_line().empty()) expect(lines, file.broken_line(), true);
+  return lines > headers ? lines - headers : 0;
 }
 
 std::string how_to_continue(const RowFile& file) {

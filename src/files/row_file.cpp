@@ -43,7 +43,8 @@ RowFile::RowFile(RowFile&& other) noexcept
       size_(other.size_),
       lines_found_(other.lines_found_),
       first_line_(std::move(other.first_line_)),
-      last_line_(std::move(other.last_line_)) {}
+      last_line_(std::move(other.last_line_)),
+      broken_line_(std::move(other.broken_line_)) {}
 
 RowFile::~RowFile() {
   if (owned_ && file_ >= 0) ::close(file_);
@@ -66,7 +67,7 @@ RowFile RowFile::resume(const std::string& path) {
   if (!rows.regular_) throw InputError(path, "is no regular file, so it cannot be continued");
   rows.read_what_is_there();
   const auto size = static_cast<off_t>(rows.size_);
-  if (::ftruncate(rows.file_, size) != 0 || ::lseek(rows.file_, size, SEEK_SET) != size) {
+  if (::lseek(rows.file_, size, SEEK_SET) != size) {
     throw InputError(path, "cannot be continued: " + reason(errno));
   }
   return rows;
@@ -79,7 +80,7 @@ void RowFile::read_what_is_there() {
     const ssize_t count = ::read(file_, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw InputError(name_, "cannot be read: " + reason(errno));
-    if (count == 0) return;
+    if (count == 0) break;
     std::string_view rest(buffer.data(), static_cast<std::size_t>(count));
     for (std::size_t end = rest.find('\n'); end != rest.npos; end = rest.find('\n')) {
       line += rest.substr(0, end);
@@ -91,9 +92,14 @@ void RowFile::read_what_is_there() {
     }
     line += rest;
   }
+  broken_line_ = std::move(line);
 }
 
 void RowFile::append(std::string_view lines) {
+  if (!broken_line_.empty() && ::ftruncate(file_, static_cast<off_t>(size_)) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+  broken_line_.clear();
   std::string_view rest = lines;
   const int error = write_all(file_, rest);
   const std::string_view written = lines.substr(0, lines.size() - rest.size());
@@ -101,7 +107,7 @@ void RowFile::append(std::string_view lines) {
   size_ += whole.size();
   if (error == 0) return;
   if (regular_ && whole.size() < written.size()) {
-    // Nothing better can be done where even this fails; `resume` will cut then.
+    // Nothing better can be done where even this fails; `resume` will find a broken line then.
     [[maybe_unused]] const int ignored = ::ftruncate(file_, static_cast<off_t>(size_));
   }
   throw std::system_error(error, std::generic_category());

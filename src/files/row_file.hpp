@@ -9,7 +9,7 @@ namespace tethercalc {
 
 /// Lines written one after the other. Whatever ends the writing, the file holds a prefix of them:
 /// where a write fails, what it left of a line is cut off again, and where the process is killed
-/// within one, `resume` cuts it off.
+/// within one, the next line after `resume` takes its place.
 class RowFile {
  public:
   /// Standard output; `name()` is "standard output".
@@ -18,9 +18,9 @@ class RowFile {
   /// The file at `path`, emptied. Throws InputError where it cannot be opened for writing.
   [[nodiscard]] static RowFile create(const std::string& path);
 
-  /// The file at `path` with what it holds, less what follows its last newline; an empty one where
-  /// there is none. Takes the time to read it once. Throws InputError where it cannot be opened for
-  /// reading and writing, or is no regular file.
+  /// The file at `path` with what it holds; an empty one where there is none. Takes the time to
+  /// read it once and changes nothing before `append`. Throws InputError where it cannot be opened
+  /// for reading and writing, or is no regular file.
   [[nodiscard]] static RowFile resume(const std::string& path);
 
   /// Movable; the one moved from is closed.
@@ -41,6 +41,8 @@ class RowFile {
   [[nodiscard]] const std::string& first_line() const { return first_line_; }
   /// The last of them, without its newline.
   [[nodiscard]] const std::string& last_line() const { return last_line_; }
+  /// What it found after the last newline.
+  [[nodiscard]] const std::string& broken_line() const { return broken_line_; }
 
   /// Appends `lines`, each with its newline. Throws std::system_error where that fails (no space
   /// left, reader gone); a regular file then ends with the last line that was written whole.
@@ -62,6 +64,7 @@ class RowFile {
   std::uint64_t lines_found_ = 0;
   std::string first_line_;
   std::string last_line_;
+  std::string broken_line_;
 };
 
 }  // namespace tethercalc

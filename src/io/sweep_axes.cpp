@@ -334,10 +334,11 @@ SweepSpace conflict_space(const SweepSpace& space, bool ends_only) {
 
 /// The fields in conflict somewhere in `space`, each with the first row's message; an axis's
 /// refusal of a value stands under the empty name and ends the search. It ends as well when there
-/// are `most`.
+/// are `most`, or after `most_rows`.
 std::map<std::string, std::string> conflicts_in(const SweepSpace& space, const Design& base,
-                                                std::size_t most) {
+                                                std::size_t most, std::uint64_t most_rows) {
   std::map<std::string, std::string> found;
+  const std::uint64_t rows = std::min(space.rows(), most_rows);
   std::uint64_t row = 0;
   const auto told = [&](const std::string& message) {
     return space.sample() ? fmt::format("draw {} of {}: {}", row + 1, space.rows(), message)
@@ -345,7 +346,7 @@ std::map<std::string, std::string> conflicts_in(const SweepSpace& space, const D
   };
   try {
     SweepCursor cursor(space, base);
-    for (; row < space.rows() && found.size() < most; ++row) {
+    for (; row < rows && found.size() < most; ++row) {
       cursor.move_to(row);
       for (const FieldConflict& conflict : find_conflicts(cursor.design())) {
         found.try_emplace(std::string(conflict.pointer), told(conflict.message));
@@ -393,14 +394,19 @@ std::vector<SweepAxis> read_axes(std::span<const std::string> texts, const Desig
 void check_sweep_rows(const SweepSpace& space, const DesignFile& base, const std::string& option) {
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   // Where the ends of the axes, each with each, are free of conflicts, so is all between them.
-  std::size_t fields = conflicts_in(conflict_space(space, true), base.design, all).size();
+  const auto at_ends = conflicts_in(conflict_space(space, true), base.design, all, all);
+  std::size_t fields = at_ends.size();
   if (!normal_ends_are_allowed(space, base.design)) fields = all;
   if (fields == 0) return;
+  // An end is a row of the sweep, but no draw of a sample. The first row is told where it comes
+  // soon.
+  constexpr std::uint64_t soon = 1'000'000;
+  auto found = space.sample()
+                   ? conflicts_in(space, base.design, fields, all)
+                   : conflicts_in(conflict_space(space, false), base.design, fields, soon);
+  if (found.empty() && !space.sample()) found = at_ends;
   Problems problems;
-  for (const auto& [field, message] :
-       conflicts_in(space.sample() ? space : conflict_space(space, false), base.design, fields)) {
-    problems.add(option, message);
-  }
+  for (const auto& [field, message] : found) problems.add(option, message);
   problems.throw_if_any();
 }
 

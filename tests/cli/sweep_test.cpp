@@ -208,6 +208,7 @@ TEST_CASE("bad sweeps are told all at once, before anything is written") {
   // Fields that do not go together, deep in the product, and in a draw.
   for (const auto& more : std::vector<std::vector<std::string>>{
            {"--vary", "tether.length_m=10:60:0.001", "--vary", "supply.voltage_V=60:19:-0.5"},
+           {"--vary", "supply.voltage_V=100:19:-0.0000001"},
            {"--vary", "supply.voltage_V=75~10", "--sample", "1000000"}}) {
     std::vector<std::string> arguments{
         "sweep", published, "--output", file, "--set", "supply.converter.min_input_voltage_V=50"};
@@ -230,7 +231,11 @@ TEST_CASE("options that do not go together are refused") {
   refused({"--shard", "3/2"}, "i from 1 to n");
   refused({"--shard", "2"}, "i from 1 to n");
   refused({"--format", "xml"}, "csv and jsonl");
-  refused({"--sample", "0"}, "at least 1");
+  for (const char* count : {"0", "-1", "-300", "99999999999999999999999"}) {
+    refused({"--sample", count}, "from 1 to 1000000000000");
+  }
+  refused({"--method", "lhs"}, "needs --sample");
+  refused({"--jobs", "100000"}, "from 1 to 1024");
   refused({"--sample", "9", "--method", "grid"}, "sobol and lhs");
   refused({"--summary", "s.json"}, "needs --sample");
   refused({"--vary", "tether.length_m=1,2"}, "varied twice");
@@ -276,6 +281,8 @@ TEST_CASE("what another sweep wrote is not continued") {
   CHECK_THAT(refused(part, {"--format", "jsonl"}), Contains("does not belong"));
   CHECK_THAT(refused(whole + whole, {}), Contains("more than"));
   CHECK_THAT(refused("precious notes\n", {}), Contains("precious notes"));
+  CHECK_THAT(refused("precious notes", {}), Contains("precious notes"));
+  CHECK_THAT(refused(part + "precious notes", {}), Contains("precious notes"));
 }
 
 TEST_CASE("a full disk and a closed pipe end a sweep with an error") {
