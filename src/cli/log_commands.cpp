@@ -124,6 +124,7 @@ int run_log(const std::string& file, const std::string& message, const Output& o
     return done;
   }
   const LogSummary summary = summarize_log(log.bytes());
+  require_messages(summary, file);
   emit(
       output, [&] { return log_text(summary, file, style_for(output)); },
       [&] { return log_json(summary, file); }, [&] { return log_csv(summary); });

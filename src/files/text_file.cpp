@@ -62,7 +62,10 @@ LoadedText read_text_file(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (path.empty() || status.type() == fs::file_type::not_found) {
-    throw InputError(path.empty() ? "\"\"" : path, "no such file" + closest_file_hint(path));
+    const bool dangling = fs::is_symlink(fs::symlink_status(path, error));
+    throw InputError(path.empty() ? "\"\"" : path, dangling
+                                                       ? "is a link to a file that is not there"
+                                                       : "no such file" + closest_file_hint(path));
   }
   if (fs::is_directory(status)) throw InputError(path, "is a directory, not a file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/dataflash_walk.hpp"
+#include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
 namespace {
@@ -324,6 +325,14 @@ const DataFlashFormat* DataFlashContents::find(std::string_view name) const {
     if (type.format.name == name && (best == nullptr || type.count > best->count)) best = &type;
   }
   return best == nullptr ? nullptr : &best->format;
+}
+
+void require_messages(const DataFlashTotals& totals, const std::string& name) {
+  if (totals.messages > 0) return;
+  throw InputError(
+      name,
+      fmt::format("no DataFlash message found in {} bytes; expected an ArduPilot .bin log or CSV",
+                  totals.bytes));
 }
 
 DataFlashContents scan_dataflash(std::span<const std::byte> log) {

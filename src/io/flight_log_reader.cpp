@@ -120,11 +120,7 @@ struct EstimatorMessage {
 
 [[noreturn]] void fail_without_estimator(const DataFlashContents& contents,
                                          const std::string& name) {
-  if (contents.messages == 0) {
-    fail(name, fmt::format(
-                   "no DataFlash message found in {} bytes; expected an ArduPilot .bin log or CSV",
-                   contents.bytes));
-  }
+  require_messages(contents, name);
   fail(name, fmt::format("the log holds {} messages, but no attitude and velocity: expected XKF1, "
                          "NKF1 or EKF1 messages (set bit 'attitude' of LOG_BITMASK to log them)",
                          contents.messages));

@@ -427,9 +427,16 @@ TEST_CASE("a log that is none is refused") {
   const TemporaryFolder folder;
   const std::string empty = (folder.path() / "empty.bin").string();
   write_file(empty, "");
+  const std::string noise = (folder.path() / "noise.bin").string();
+  write_file(noise, std::string(3000, '\xff'));
+  const std::string dangling = (folder.path() / "dangling.json").string();
+  std::filesystem::create_symlink("nowhere", dangling);
+  CHECK_THAT(run_tethercalc({"validate", dangling}).err,
+             Contains("a link to a file that is not there"));
   for (const auto& [file, reason] : std::vector<std::pair<std::string, std::string>>{
            {"no-such.bin", "no-such.bin: cannot be opened"},
            {empty, "the file is empty"},
+           {noise, "no DataFlash message found in 3000 bytes"},
            {example, "is no DataFlash log (.bin): it begins like a text"},
            {folder.path().string(), "is a directory"}}) {
     const Ran run = run_tethercalc({"log", file});

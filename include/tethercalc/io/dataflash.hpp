@@ -101,6 +101,9 @@ struct DataFlashTotals {
   std::vector<std::string> rejected_definitions;
 };
 
+/// Throws InputError where there is no message at all in what `name` names.
+void require_messages(const DataFlashTotals& totals, const std::string& name);
+
 /// What a log holds.
 struct DataFlashContents : DataFlashTotals {
   /// Messages of one definition.
