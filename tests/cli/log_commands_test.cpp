@@ -428,7 +428,7 @@ TEST_CASE("a log that is none is refused") {
   const std::string empty = (folder.path() / "empty.bin").string();
   write_file(empty, "");
   const std::string noise = (folder.path() / "noise.bin").string();
-  write_file(noise, std::string(3000, '\xff'));
+  write_file(noise, std::string(3000, '\0'));
   const std::string dangling = (folder.path() / "dangling.json").string();
   std::filesystem::create_symlink("nowhere", dangling);
   CHECK_THAT(run_tethercalc({"validate", dangling}).err,
