@@ -146,7 +146,7 @@ void check_options(const SweepOptions& options) {
   // The option's reader takes −1 for the largest number there is.
   constexpr std::uint64_t most_draws = 1'000'000'000'000;
   if (options.sample && (*options.sample == 0 || *options.sample > most_draws)) {
-    throw InputError("--sample", "must be a whole number from 1 to 1000000000000");
+    throw InputError("--sample", fmt::format("must be a whole number from 1 to {}", most_draws));
   }
   if (!options.method.empty() && !options.sample) {
     throw InputError("--method", "needs --sample N: only a sample is drawn");

@@ -69,6 +69,10 @@ constexpr Polynomial conductivity_of_air{2.368e-2, 7.23e-5, -2.763e-8};
 constexpr Polynomial viscosity_of_air{17.239e-6, 4.635e-8, -2.03e-11};
 constexpr double expansion_of_air = 0.00367;
 
+double density_at_zero(const Surroundings& around) {
+  return around.air_density * (1 + expansion_of_air * around.temperature_C);
+}
+
 /// A Nusselt number, and its derivatives by the logarithms of what it depends on.
 struct Nusselt {
   double value = 0;
@@ -137,7 +141,7 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
       resistance_per_kelvin_(resistivity(tether.conductor, 1) / conductor_area(radius) -
                              resistance_at_zero_),
       diameter_(2 * (radius + wall)),
-      density_0C_(around.air_density * (1 + expansion_of_air * around.temperature_C)) {
+      density_0C_(density_at_zero(around)) {
   const double known = tether.insulation.thermal_conductivity;
   const double around_metal = 2 * pi * (known > 0 ? known : least_conductivity);
   thermal_resistance_ = std::log((radius + wall) / radius) / around_metal;
@@ -147,7 +151,7 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
 ConductorHeat ConductorHeat::in(const Surroundings& around) const {
   ConductorHeat other = *this;
   other.around_ = around;
-  other.density_0C_ = around.air_density * (1 + expansion_of_air * around.temperature_C);
+  other.density_0C_ = density_at_zero(around);
   return other;
 }
 
