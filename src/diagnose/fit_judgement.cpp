@@ -14,7 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double aliased_below = 0.01;
-constexpr std::size_t most_rivals = 2;
 /// Cosine beyond which a change of the prediction looks like another at all.
 constexpr double alike = 0.1;
 
@@ -27,10 +26,10 @@ std::size_t owner_of(const Record& record, std::size_t parameter) {
   return owner;
 }
 
-/// Slopes by the parameters of the group that are no mere shapes, freed at their first values.
-MatrixXd size_slopes(const Record& record, const BlockFit& fit, std::size_t group) {
+}  // namespace
+
+MatrixXd size_slopes(const Record& record, std::vector<double> values, std::size_t group) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
-  std::vector<double> values = fit.values;
   std::vector<Index> sizes;
   for (std::size_t k = 0; k < own.size(); ++k) {
     values[record.first_parameter(group) + k] = own[k].start;
@@ -38,8 +37,6 @@ MatrixXd size_slopes(const Record& record, const BlockFit& fit, std::size_t grou
   }
   return group_slopes(record, group, values)(Eigen::all, sizes);
 }
-
-}  // namespace
 
 double gain_percent(double before, double after) {
   return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
@@ -62,7 +59,7 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
       columns.push_back(static_cast<Index>(k));
     }
   }
-  MatrixXd slopes = size_slopes(record, fit, group);
+  MatrixXd slopes = size_slopes(record, fit.values, group);
   const VectorXd norms = slopes.colwise().norm();
   if (norms.minCoeff() <= 0) return Selection::Aliased{group, {}};
   slopes = slopes * norms.cwiseInverse().asDiagonal();
@@ -91,12 +88,19 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   return aliased;
 }
 
-std::vector<std::size_t> nearest_rivals(std::vector<std::pair<double, std::size_t>> found) {
+Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found) {
   std::sort(found.begin(), found.end());
-  found.resize(std::min(found.size(), most_rivals));
-  std::vector<std::size_t> groups;
+  Groups groups;
   for (const auto& [distance, group] : found) groups.push_back(group);
   return groups;
+}
+
+Groups twins_of(const SelectionProblem& problem, std::size_t group) {
+  Groups twins;
+  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+    if (problem.groups[g].twin_of == group && !problem.groups[g].fitted) twins.push_back(g);
+  }
+  return twins;
 }
 
 ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks) {
@@ -110,8 +114,7 @@ ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks) {
   return fit;
 }
 
-void add_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
-             const VectorXd& systematic, ModelFit& all) {
+void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systematic, ModelFit& all) {
   for (const std::size_t g : fit.freed.groups) {
     const std::size_t first = record.first_parameter(g);
     for (std::size_t k = 0; k < record.problem().groups[g].parameters.size(); ++k) {
@@ -133,7 +136,7 @@ void add_fit(const Record& record, const BlockFit& fit, const std::vector<int>& 
           jackknife_covariance(fit, {column, other - fit.active.begin()})(0, 1);
     }
     for (std::size_t b = 0; b < record.blocks(); ++b) {
-      double& value = all.without_block[static_cast<std::size_t>(block_ids[b])][index];
+      double& value = all.without_block[b][index];
       value = std::clamp(value + p.scale * fit.left_out(column, static_cast<Index>(b)), p.lower,
                          p.upper);
     }

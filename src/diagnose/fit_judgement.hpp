@@ -27,18 +27,25 @@ inline constexpr double rival_gain = 0.5;
 [[nodiscard]] std::optional<Selection::Aliased> aliased_in(const Record& record,
                                                            const BlockFit& fit, std::size_t group);
 
-/// The groups of the least two values.
-[[nodiscard]] std::vector<std::size_t> nearest_rivals(
-    std::vector<std::pair<double, std::size_t>> found);
+/// Slopes of the prediction by the sizes of `group`, its own parameters at their first values and
+/// all others at `values`: one column a size, over its scale.
+[[nodiscard]] Eigen::MatrixXd size_slopes(const Record& record, std::vector<double> values,
+                                          std::size_t group);
+
+/// The groups by rising distance.
+[[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);
+
+/// The groups that every record shows in the same way as `group`.
+[[nodiscard]] Groups twins_of(const SelectionProblem& problem, std::size_t group);
 
 /// A fit of nothing: neutral values.
 [[nodiscard]] ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks);
 
-/// Writes what `fit` freed into `all`, whose block `block_ids[b]` is block b of the record. Errors
-/// are those of the spread between blocks, with `systematic` (of the jacobian's columns, over their
-/// scales; may be empty) added to their squares; where `all` has a larger one already it stays.
-void add_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
-             const Eigen::VectorXd& systematic, ModelFit& all);
+/// Writes what `fit` freed into `all`. Errors are those of the spread between blocks, with
+/// `systematic` (of the jacobian's columns, over their scales; may be empty) added to their
+/// squares; where `all` has a larger one already it stays.
+void add_fit(const Record& record, const BlockFit& fit, const Eigen::VectorXd& systematic,
+             ModelFit& all);
 
 /// The channels of the regressors found, without repetition.
 void name_channels(const SelectionProblem& problem, UnnamedStructure& unnamed);

@@ -10,10 +10,12 @@
 namespace tethercalc {
 namespace {
 
-FlightState state_at(const Design& design, const PowerLog& log, std::size_t i) {
+FlightState state_at(const PowerModel& model, const PowerLog& log, std::size_t i) {
   std::optional<double> ambient;
   if (!log.ambient_temperature_C.empty()) ambient = log.ambient_temperature_C[i];
-  return flight_state_at(design, log.height[i], log.airspeed[i], ambient);
+  // A drone on the ground may be read to be below it.
+  const double deployed = (1 + model.slack) * std::max(0.0, log.height[i]);
+  return flight_state_at(model.design, deployed, log.airspeed[i], ambient);
 }
 
 /// The data sheet's curve, continued straight above its last point.
@@ -29,6 +31,20 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 
 }  // namespace
 
+PowerLog without_errors(PowerLog log, const PowerInstruments& instruments) {
+  const auto correct = [](std::vector<double>& readings, double gain, double offset) {
+    if (gain == 1 && offset == 0) return;
+    for (double& x : readings) x = (x - offset) / gain;
+  };
+  correct(log.supply_voltage, instruments.supply_voltage_gain, 0);
+  correct(log.supply_current, instruments.supply_current_gain, instruments.supply_current_offset);
+  correct(log.drone_voltage, 1, instruments.drone_voltage_offset);
+  correct(log.bus_current, instruments.bus_current_gain, 0);
+  correct(log.height, 1, instruments.height_offset);
+  correct(log.airspeed, instruments.airspeed_gain, 0);
+  return log;
+}
+
 const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
     const PowerModel& model, const PowerLog& log) {
   const Design& design = model.design;
@@ -36,10 +52,13 @@ const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
   // What a search moves most often and no heat depends on, at the measured current, is left out.
   Tether tether = design.tether;
   tether.contact_resistance = tether.drag_coefficient = tether.winch_pull = 0;
+  PowerInstruments instruments = model.instruments;
+  instruments.supply_voltage_gain = instruments.bus_current_gain = 1;
+  instruments.drone_voltage_offset = 0;
   const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
     return known.tether == tether && known.flight == design.flight &&
-           known.supply_voltage == design.supply.voltage &&
-           known.supply_current_gain == model.supply_current_gain;
+           known.supply_voltage == design.supply.voltage && known.instruments == instruments &&
+           known.slack == model.slack;
   });
   if (found != known_.end()) {
     std::rotate(known_.begin(), found, found + 1);
@@ -47,12 +66,12 @@ const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
   }
   constexpr std::size_t kept = 8;  // more than a slope by every parameter looks back
   if (known_.size() == kept) known_.pop_back();
-  Known& latest = known_.emplace_front(Known{
-      std::move(tether), design.flight, design.supply.voltage, model.supply_current_gain, {}});
+  Known& latest = known_.emplace_front(
+      Known{std::move(tether), design.flight, design.supply.voltage, instruments, model.slack, {}});
   for (std::size_t i = 0; i < log.time.size(); ++i) {
-    const SteadyFlight flight(design, state_at(design, log, i));
-    const double current = log.supply_current[i] / model.supply_current_gain;
-    latest.temperatures.push_back(TetherHeat(flight, radius).temperatures(std::abs(current)));
+    const SteadyFlight flight(design, state_at(model, log, i));
+    latest.temperatures.push_back(
+        TetherHeat(flight, radius).temperatures(std::abs(log.supply_current[i])));
   }
   return latest.temperatures;
 }
@@ -65,8 +84,7 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
   double rise = 0;  // K over the air, of a cable whose heating was measured
   std::vector<double> resistance(log.time.size());
   for (std::size_t i = 0; i < resistance.size(); ++i) {
-    const SteadyFlight flight(model.design, state_at(model.design, log, i));
-    const double current = log.supply_current[i] / model.supply_current_gain;
+    const SteadyFlight flight(model.design, state_at(model, log, i));
     if (!is_heated(tether)) {
       resistance[i] = flight.tether().resistance(radius);
     } else if (measured) {
@@ -74,7 +92,8 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
       resistance[i] = flight.tether().resistance(radius, temperature, temperature);
       if (i + 1 == resistance.size()) break;
       // What settles is taken constant up to the next sample; the lag then has an exact step.
-      const double settled = settled_rise(tether, *tether.cross_section, current, log.airspeed[i]);
+      const double settled =
+          settled_rise(tether, *tether.cross_section, log.supply_current[i], log.airspeed[i]);
       rise += (rise - settled) *
               std::expm1((log.time[i] - log.time[i + 1]) / tether.heating.time_constant);
     } else {
@@ -94,9 +113,10 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   constexpr double tan_limit = 6;
 
   std::vector<double> power(log.time.size());
+  const double duration = log.time.back() - log.time.front();
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
-    const SteadyFlight steady(model.design, state_at(model.design, log, i));
+    const SteadyFlight steady(model.design, state_at(model, log, i));
     const double weight = steady.weight(radius);
     tan_pitch = steady.tan_pitch(radius, weight, tan_limit, tan_pitch);
     if (!std::isfinite(tan_pitch)) {
@@ -104,8 +124,9 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
       tan_pitch = 0;
       continue;
     }
-    power[i] = steady.output_power(
-        motor_curve_power(drone.motor, steady.necessary_thrust(weight, tan_pitch)));
+    const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
+    power[i] = grown * steady.output_power(motor_curve_power(
+                           drone.motor, steady.necessary_thrust(weight, tan_pitch)));
   }
   return power;
 }

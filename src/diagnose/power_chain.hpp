@@ -12,10 +12,28 @@
 
 namespace tethercalc {
 
+/// What the instruments of a power log make of the truth: reading = gain·truth + offset.
+struct PowerInstruments {
+  double supply_voltage_gain = 1;
+  double supply_current_gain = 1;
+  double supply_current_offset = 0;  ///< A
+  double drone_voltage_offset = 0;   ///< V
+  double bus_current_gain = 1;
+  double height_offset = 0;  ///< m
+  double airspeed_gain = 1;
+
+  bool operator==(const PowerInstruments&) const = default;
+};
+
+/// What was read without the errors of the instruments.
+[[nodiscard]] PowerLog without_errors(PowerLog log, const PowerInstruments& instruments);
+
 /// A design as it flew, and what its instruments made of it.
 struct PowerModel {
-  Design design;                   ///< with a cable cross-section
-  double supply_current_gain = 1;  ///< the ground ammeter's reading over the truth
+  Design design;  ///< with a cable cross-section
+  PowerInstruments instruments{};
+  double slack = 0;               ///< length of the cable in the air over the height, less 1
+  double motor_power_growth = 0;  ///< from the first to the last sample, steadily, over the first
 };
 
 /// What heat balances of one log's samples came to. A search asks for the same ones hundreds of
@@ -23,7 +41,8 @@ struct PowerModel {
 class CableHeat {
  public:
   /// One a sample: the steady temperatures of a cable without measured heating, nothing where there
-  /// are none. The log must be that of the call before.
+  /// are none. `log` is without the errors of the model's instruments, and otherwise that of the
+  /// call before.
   [[nodiscard]] const std::vector<std::optional<TetherTemperatures>>& temperatures(
       const PowerModel& model, const PowerLog& log);
 
@@ -33,22 +52,24 @@ class CableHeat {
     Tether tether;
     Flight flight;
     double supply_voltage = 0;  ///< decides the wall
-    double supply_current_gain = 1;
+    PowerInstruments instruments;
+    double slack = 0;
     std::vector<std::optional<TetherTemperatures>> temperatures;
   };
   std::deque<Known> known_;  ///< the latest first
 };
 
-/// Loop resistance in Ω at every sample, the deployed length being the height; see
+/// Loop resistance in Ω at every sample of a log without the errors of its instruments; see
 /// `flight_state_at` for the cable on a drum and the temperature of the air. A heated cable is as
 /// warm as the current of the log makes it: where its heating was measured it follows with its time
 /// constant from a cold start, otherwise at once. NaN where it would be too hot for any insulation.
 [[nodiscard]] std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
                                                   CableHeat& heat);
 
-/// Power in W at the bus in steady flight at every sample's height and airspeed. Above the motors'
-/// largest thrust their curve is continued straight, and the design's limit of the tilt does not
-/// count, so that the value stays finite: a log shows what was flown. NaN beyond a tilt of 80°.
+/// Power in W at the bus in steady flight at the height and airspeed of every sample of such a log.
+/// Above the motors' largest thrust their curve is continued straight, and the design's limit of
+/// the tilt does not count, so that the value stays finite: a log shows what was flown. NaN beyond
+/// a tilt of 80°.
 [[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
 
 }  // namespace tethercalc

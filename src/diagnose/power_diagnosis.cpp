@@ -101,16 +101,7 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
   }
 }
 
-bool acts_on(const Effect& effect, Stage compared) {
-  switch (effect.stage) {
-    case Stage::supply:
-      return compared == Stage::tether || compared == Stage::converter;
-    case Stage::airframe:
-      return compared == Stage::motors;
-    default:
-      return compared == effect.stage;
-  }
-}
+bool acts_on(const Effect& effect, Stage compared) { return contains(effect.shows_in, compared); }
 
 /// What the stage compares, as its instruments show it.
 std::vector<double> measured_in(const PowerStage& stage, const PowerLog& log) {
@@ -240,26 +231,6 @@ std::vector<int> blocks_of(const PowerResiduals& residuals) {
   return block;
 }
 
-/// The motor stage shares no effect with the others; the ammeter's gain acts on tether and
-/// converter.
-std::vector<SelectionPart> parts_of(const PowerResiduals& residuals, const LogModel& view) {
-  SelectionPart motors{std::vector<char>(residuals.rows(), 0), {}};
-  SelectionPart line{std::vector<char>(residuals.rows(), 0), {}};
-  for (const PowerStage& stage : residuals.stages()) {
-    SelectionPart& part = stage.stage == Stage::motors ? motors : line;
-    const auto rows = std::span(part.rows).subspan(stage.first_row, stage.rows);
-    std::fill(rows.begin(), rows.end(), char{1});
-  }
-  for (std::size_t g = 0; g < view.effects().size(); ++g) {
-    (acts_on(view.effect(g), Stage::motors) ? motors : line).groups.push_back(g);
-  }
-  std::vector<SelectionPart> parts;
-  for (SelectionPart& part : {std::ref(line), std::ref(motors)}) {
-    if (std::count(part.rows.begin(), part.rows.end(), char{1}) > 0) parts.push_back(part);
-  }
-  return parts;
-}
-
 /// The search with the residuals' present noise.
 Selection search(const PowerResiduals& residuals, LogModel& view,
                  const SelectionProgress& progress) {
@@ -270,11 +241,10 @@ Selection search(const PowerResiduals& residuals, LogModel& view,
   problem.unnamed = power_shapes(residuals);
   SelectionOptions options;
   options.false_alarm_probability = false_alarm_probability;
-  const std::vector<SelectionPart> parts = parts_of(residuals, view);
-  Selection selection = select_subset(problem, parts, options, progress);
+  Selection selection = select_subset(problem, options, progress);
   // A step must stand where it happened, or names are sought for the stretch between.
   if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
-    selection = select_subset(problem, parts, options, progress);
+    selection = select_subset(problem, options, progress);
   }
   return selection;
 }
@@ -304,11 +274,12 @@ std::vector<double> held_out(const PowerResiduals& residuals, std::size_t k, con
   const PowerStage& stage = residuals.stages()[k];
   std::vector<double> all(n, nan);
   std::vector<double> r(n);
-  for (std::size_t b = 0; b < fit.without_block.size(); ++b) {
-    residuals.standardised(k, view.model(fit.without_block[b]), r);
+  std::set<int> blocks(view.problem.block.begin(), view.problem.block.end());
+  blocks.erase(-1);
+  for (auto without = fit.without_block.begin(); const int block : blocks) {
+    residuals.standardised(k, view.model(*without++), r);
     for (std::size_t i = 0; i < n; ++i) {
-      if (stage.usable[i] && block_at(residuals.log(), i) == static_cast<int>(b) &&
-          std::isfinite(r[i])) {
+      if (stage.usable[i] && block_at(residuals.log(), i) == block && std::isfinite(r[i])) {
         all[i] = r[i];
       }
     }

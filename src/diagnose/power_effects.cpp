@@ -1,5 +1,8 @@
 #include "diagnose/power_effects.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "diagnose/power_chain.hpp"
 
 namespace tethercalc {
@@ -20,17 +23,31 @@ const std::string to_separate_airspeed =
     "Hold airspeeds between 0 and the design airspeed at a low and at a great height: tether drag "
     "grows with the height, airframe drag does not, and the induced power falls before drag rises";
 
-/// What the comparison in which an effect shows first is made of.
-std::vector<std::string> channels_needed(Stage stage) {
-  switch (stage) {
-    case Stage::tether:
-      return {"drone_voltage_V"};
-    case Stage::supply:
-    case Stage::converter:
-      return {"drone_voltage_V", "bus_voltage_V", "bus_current_A"};
-    default:
-      return {"bus_voltage_V", "bus_current_A"};
+const std::string to_separate_meters =
+    "Compare the meters at both ends of the tether with one that is trusted, at two currents: what "
+    "an instrument adds is there without a load, too";
+const std::string to_separate_lengths =
+    "Measure the cable that is out, and compare the height with a tape or another altimeter: a "
+    "wrong height is the same at every height, slack grows with it";
+
+/// Where an effect shows that does not say it.
+std::vector<Stage> shown_by(Stage stage) {
+  if (stage == Stage::supply) return {Stage::tether, Stage::converter};
+  return {stage == Stage::airframe ? Stage::motors : stage};
+}
+
+/// What the comparisons in which an effect shows are made of.
+std::vector<std::string> channels_needed(const std::vector<Stage>& shows_in) {
+  const auto any = [&shows_in](std::initializer_list<Stage> stages) {
+    return std::find_first_of(shows_in.begin(), shows_in.end(), stages.begin(), stages.end()) !=
+           shows_in.end();
+  };
+  std::vector<std::string> channels;
+  if (any({Stage::tether, Stage::converter})) channels.emplace_back("drone_voltage_V");
+  if (any({Stage::converter, Stage::motors})) {
+    channels.insert(channels.end(), {"bus_voltage_V", "bus_current_A"});
   }
+  return channels;
 }
 
 }  // namespace
@@ -46,7 +63,30 @@ std::vector<Effect> power_effects() {
        .to_separate = "Compare the ammeter with another one",
        .change = "I = I_read/g",
        .channel = "supply_current",
-       .on_power = [](PowerModel& m, Values x) { m.supply_current_gain *= x[0]; }},
+       .on_power = [](PowerModel& m, Values x) { m.instruments.supply_current_gain *= x[0]; }},
+
+      {.id = "current_offset",
+       .title = "The ground ammeter is off zero",
+       .mechanism = "The same current is added to every reading, so its share is largest at a "
+                    "light load.",
+       .stage = Stage::supply,
+       .parameters = {{"supply_current_offset_A", "A", 1, 0, -5, 5, 0.05}},
+       .to_separate = to_separate_meters,
+       .change = "I = I_read − I_0",
+       .channel = "supply_current",
+       .on_power = [](PowerModel& m, Values x) { m.instruments.supply_current_offset += x[0]; }},
+
+      {.id = "supply_voltage_gain",
+       .title = "The voltmeter at the ground reads wrong",
+       .mechanism = "The supply voltage is read too high or too low by one factor, so the tether "
+                    "seems to lose a voltage even without a current.",
+       .stage = Stage::supply,
+       .parameters = {{"supply_voltage_gain", "1", 1, 1, 0.8, 1.25, 0.002}},
+       .to_separate = to_separate_meters,
+       .change = "U = U_read/g",
+       .channel = "time",
+       .on_power = [](PowerModel& m, Values x) { m.instruments.supply_voltage_gain *= x[0]; },
+       .shows_in = {Stage::tether}},
 
       {.id = "conductor_resistivity",
        .title = "The conductor resists more than its material should",
@@ -106,6 +146,42 @@ std::vector<Effect> power_effects() {
        .channel = "supply_current",
        .on_power = [](PowerModel& m, Values x) { m.design.tether.spooled_length += x[0]; }},
 
+      {.id = "tether_sag",
+       .title = "More cable is out than the drone is high",
+       .mechanism = "Slack makes the cable in the air longer than the height, by the same share at "
+                    "every height, with its resistance and its weight.",
+       .stage = Stage::tether,
+       .parameters = {{"slack", "1", 1, 0, -0.2, 1, 0.05}},
+       .to_separate = to_separate_lengths,
+       .change = "L = h(1 + s)",
+       .channel = "current_height",
+       .on_power = [](PowerModel& m, Values x) { m.slack += x[0]; },
+       .shows_in = {Stage::tether, Stage::motors}},
+
+      {.id = "height_bias",
+       .title = "The height is read wrong",
+       .mechanism = "The altimeter adds the same height everywhere, so as much cable seems to be "
+                    "out, with its resistance and its weight.",
+       .stage = Stage::tether,
+       .parameters = {{"height_bias_m", "m", 1, 0, -50, 50, 1}},
+       .to_separate = to_separate_lengths,
+       .change = "h = h_read − b",
+       .channel = "supply_current",
+       .on_power = [](PowerModel& m, Values x) { m.instruments.height_offset += x[0]; },
+       .shows_in = {Stage::tether, Stage::motors}},
+
+      {.id = "drone_voltage_offset",
+       .title = "The voltmeter at the drone is off",
+       .mechanism = "The same voltage is added to every reading at the converter's input, so the "
+                    "tether seems to lose it even without a current.",
+       .stage = Stage::converter,
+       .parameters = {{"drone_voltage_offset_V", "V", 1, 0, -20, 20, 0.2}},
+       .to_separate = to_separate_meters,
+       .change = "U_d = U_read − U_0",
+       .channel = "time",
+       .on_power = [](PowerModel& m, Values x) { m.instruments.drone_voltage_offset += x[0]; },
+       .shows_in = {Stage::tether, Stage::converter}},
+
       {.id = "converter_efficiency_curve",
        .title = "The converter's efficiency depends on its load",
        .mechanism = "A converter loses a fixed power and one that grows with the square of its "
@@ -137,6 +213,18 @@ std::vector<Effect> power_effects() {
        .channel = "bus_power",
        .on_power = [](PowerModel& m, Values x) { m.design.drone.auxiliary_power += x[0]; }},
 
+      {.id = "bus_current_gain",
+       .title = "The ammeter at the motors reads wrong",
+       .mechanism = "The bus current is read too high or too low by one factor, at the converter's "
+                    "output and at the motors alike.",
+       .stage = Stage::motors,
+       .parameters = {{"bus_current_gain", "1", 1, 1, 0.5, 2, 0.03}},
+       .to_separate = to_separate_meters,
+       .change = "I_bus = I_read/g",
+       .channel = "bus_power",
+       .on_power = [](PowerModel& m, Values x) { m.instruments.bus_current_gain *= x[0]; },
+       .shows_in = {Stage::converter, Stage::motors}},
+
       {.id = "motor_power_scale",
        .title = "The motors need more power than their data sheet says",
        .mechanism = "Worn bearings, other propellers or thin air scale the power for every thrust "
@@ -147,6 +235,34 @@ std::vector<Effect> power_effects() {
        .change = "f·P_motor(T)",
        .channel = "height",
        .on_power = [](PowerModel& m, Values x) { m.design.drone.motor_power_factor *= x[0]; }},
+
+      {.id = "motor_ageing",
+       .title = "The motors need more power from minute to minute",
+       .mechanism = "Warming windings, wear or a propeller that suffers raise the power for the "
+                    "same thrust steadily from the first sample to the last.",
+       .stage = Stage::motors,
+       .parameters = {{"motor_power_growth", "1", 1, 0, -0.6, 3, 0.05}},
+       .to_separate = "Repeat the first manoeuvre at the end, and again after a rest",
+       .change = "P·(1 + a·t/t_log)",
+       .channel = "time",
+       .on_power = [](PowerModel& m, Values x) { m.motor_power_growth += x[0]; }},
+
+      {.id = "air_density",
+       .title = "The air is thinner, or denser, than the spec says",
+       .mechanism =
+           "Thin air needs more induced power for the same thrust, with the inverse square "
+           "root of the density (momentum theory), and drags less.",
+       .stage = Stage::motors,
+       .parameters = {{"air_density_factor", "1", 1, 1, 0.5, 1.5, 0.05,
+                       "flight.air_density_kg_m3"}},
+       .to_separate = "Read barometer and thermometer: they give the density to half a percent",
+       .change = "f·ρ, P_motor/√f",
+       .channel = "airspeed",
+       .on_power =
+           [](PowerModel& m, Values x) {
+             m.design.flight.air_density *= x[0];
+             m.design.drone.motor_power_factor /= std::sqrt(x[0]);
+           }},
 
       {.id = "translational_lift",
        .title = "Moving through the air saves hover power",
@@ -177,6 +293,31 @@ std::vector<Effect> power_effects() {
        .channel = "height",
        .on_power = [](PowerModel& m, Values x) { m.design.drone.mass += x[0]; }},
 
+      {.id = "winch_tension",
+       .title = "The winch pulls harder, or less, than assumed",
+       .mechanism = "A pull on the tether loads the drone like weight, the same at every height.",
+       .stage = Stage::airframe,
+       .parameters = {{"winch_pull_N", "N", 1, 0, 0, 500, 0.5, "tether.winch_pull_N",
+                       [](const Design& d) { return d.tether.winch_pull; }}},
+       .to_separate = "Weigh the drone, and put a spring scale between winch and tether",
+       .change = "F_winch",
+       .channel = "height",
+       .on_power = [](PowerModel& m, Values x) { m.design.tether.winch_pull = x[0]; },
+       .twin_of = "extra_mass"},
+
+      {.id = "airspeed_scale",
+       .title = "The airspeed is read wrong",
+       .mechanism =
+           "The airspeed is read too high or too low by one factor, and with it everything "
+           "that the wind does.",
+       .stage = Stage::airframe,
+       .parameters = {{"airspeed_gain", "1", 1, 1, 0.3, 3, 0.05}},
+       .to_separate = "Compare the airspeed with that of another sensor, or fly both ways over the "
+                      "ground in still air",
+       .change = "v = v_read/g",
+       .channel = "airspeed",
+       .on_power = [](PowerModel& m, Values x) { m.instruments.airspeed_gain *= x[0]; }},
+
       {.id = "tether_drag",
        .title = "The tether drags more, or less, than assumed",
        .mechanism = "The wind's force on the cable grows with deployed length and the square of "
@@ -203,7 +344,8 @@ std::vector<Effect> power_effects() {
        }}};
   for (Effect& effect : effects) {
     effect.log = LogKind::power;
-    effect.needs = channels_needed(effect.stage);
+    if (effect.shows_in.empty()) effect.shows_in = shown_by(effect.stage);
+    effect.needs = channels_needed(effect.shows_in);
     effect.parameters.front().start = effect.parameters.front().scale;
   }
   return effects;

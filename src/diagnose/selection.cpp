@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "diagnose/fit_judgement.hpp"
@@ -411,14 +410,12 @@ class Search {
         found.emplace_back(rival.squared_error(), c);
       }
     }
-    return nearest_rivals(std::move(found));
+    return in_order_of_nearness(std::move(found));
   }
 
   [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const {
     ModelFit result = neutral_fit(record_.problem(), record_.blocks());
-    std::vector<int> block_ids(record_.blocks());
-    std::iota(block_ids.begin(), block_ids.end(), 0);
-    add_fit(record_, fit, block_ids, systematic_variance(record_, fit), result);
+    add_fit(record_, fit, systematic_variance(record_, fit), result);
     result.holdout_rmse = fit.rmse();
     result.holdout_residual.assign(record_.problem().measured.size(), 0);
     for (Index i = 0; i < record_.rows(); ++i) {

@@ -39,6 +39,9 @@ struct ParameterGroup {
   /// Index of a group that goes back to neutral when this one is freed, since this one describes
   /// the same thing in more detail; none by default.
   std::optional<std::size_t> replaces{};
+  /// Index of a group that every record shows in the same way; this one is then never tried, and
+  /// told as indistinguishable where that one is found. None by default.
+  std::optional<std::size_t> twin_of{};
 };
 
 /// A shape that a record may follow without any effect of the catalogue: a column over the rows of

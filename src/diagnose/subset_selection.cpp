@@ -3,10 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <map>
+#include <numeric>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "diagnose/fit_judgement.hpp"
@@ -14,6 +13,7 @@
 #include "identify/distributions.hpp"
 #include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -42,46 +42,24 @@ struct Model {
   double length = 0;  ///< description length, in units of squared noise
 };
 
-/// `whole` with the rows of one part and the shapes that concern them, whose indices in `whole` go
-/// to `shapes`.
-SelectionProblem problem_of_rows(const SelectionProblem& whole, const std::vector<char>& rows,
-                                 Groups& shapes) {
-  SelectionProblem part = whole;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!rows[i]) part.block[i] = -1;
-  }
-  part.unnamed.clear();
-  for (std::size_t u = 0; u < whole.unnamed.size(); ++u) {
-    const std::vector<double>& column = whole.unnamed[u].column;
-    bool concerns = true;
-    for (std::size_t i = 0; i < column.size(); ++i) concerns &= column[i] == 0 || rows[i];
-    if (!concerns) continue;
-    shapes.push_back(u);
-    part.unnamed.push_back(whole.unnamed[u]);
-  }
-  return part;
-}
-
-/// The search in one part.
-class PartSearch {
+class SubsetSearch {
  public:
-  PartSearch(const SelectionProblem& whole, const SelectionPart& part,
-             const SelectionOptions& options, const SelectionProgress& progress)
-      : problem_(problem_of_rows(whole, part.rows, shape_index_)),
-        record_(problem_),
-        options_(options),
-        progress_(progress) {
-    const std::set<int> blocks(problem_.block.begin(), problem_.block.end());
-    block_ids_.assign(blocks.upper_bound(-1), blocks.end());
-    for (const std::size_t g : part.groups) {
-      (problem_.groups[g].fitted ? fitted_ : candidates_).push_back(g);
+  SubsetSearch(const SelectionProblem& problem, const SelectionOptions& options,
+               const SelectionProgress& progress)
+      : problem_(problem), record_(problem), options_(options), progress_(progress) {
+    for (std::size_t g = 0; g < problem.groups.size(); ++g) {
+      if (problem.groups[g].fitted) {
+        fitted_.push_back(g);
+      } else if (!problem.groups[g].twin_of) {
+        candidates_.push_back(g);
+      }
     }
     const double alpha = options.false_alarm_probability;
     const auto price = [alpha](std::size_t choices) {
       return 2 * std::log(std::max(1.0, static_cast<double>(choices)) / alpha);
     };
-    name_price_ = price(problem_.groups.size());
-    shape_price_ = price(problem_.unnamed.size());
+    name_price_ = price(problem.groups.size());
+    shape_price_ = price(problem.unnamed.size());
   }
 
   void run() {
@@ -98,14 +76,7 @@ class PartSearch {
   /// Leaves a name of the best model out.
   void take_back(std::size_t g) { best_ = best_without(g); }
 
-  PartSearch(const PartSearch&) = delete;  // the record refers to the problem
-  PartSearch& operator=(const PartSearch&) = delete;
-
   [[nodiscard]] const Record& record() const { return record_; }
-  /// Of the shapes of this part among those of the whole.
-  [[nodiscard]] const Groups& shape_index() const { return shape_index_; }
-  /// Of the blocks of this part in the whole.
-  [[nodiscard]] const std::vector<int>& block_ids() const { return block_ids_; }
   [[nodiscard]] const Model& base() const { return base_; }
   [[nodiscard]] const Model& best() const { return best_; }
   [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
@@ -146,7 +117,9 @@ class PartSearch {
         found.emplace_back(rival.length, c);
       }
     }
-    return nearest_rivals(std::move(found));
+    Groups result = twins_of(problem_, g);
+    for (const std::size_t c : in_order_of_nearness(std::move(found))) result.push_back(c);
+    return result;
   }
 
   /// The best model, but for one of its names.
@@ -177,7 +150,21 @@ class PartSearch {
     if (candidate.length + handicap < best_.length) best_ = std::move(candidate);
   }
 
+  /// Rows that the candidate moves.
+  [[nodiscard]] std::vector<char> rows_moved_by(std::size_t g) const {
+    const VectorXd moved = size_slopes(record_, base_.fit.values, g).rowwise().squaredNorm();
+    std::vector<char> rows(static_cast<std::size_t>(moved.size()));
+    std::transform(moved.begin(), moved.end(), rows.begin(), [](double x) { return x > 0; });
+    return rows;
+  }
+
   void search_names() {
+    std::map<std::size_t, std::vector<char>> moved;
+    for (const std::size_t g : candidates_) moved[g] = rows_moved_by(g);
+    // Effects on different rows add what they earn: the best of them leads to such a pair.
+    const auto meet = [&moved](std::size_t a, std::size_t b) {
+      return std::inner_product(moved[a].begin(), moved[a].end(), moved[b].begin(), 0) > 0;
+    };
     std::vector<Model> level{base_};
     for (std::size_t size = 1; size <= std::min(options_.most_findings, candidates_.size());
          ++size) {
@@ -185,6 +172,7 @@ class PartSearch {
       for (const Model& parent : level) {
         for (const std::size_t g : candidates_) {
           if (contains(parent.named, g)) continue;
+          if (size == 2 && &parent != &level.front() && !meet(parent.named.front(), g)) continue;
           const Groups named = with_group(parent.named, g);
           if (next.contains(named)) continue;
           if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
@@ -268,10 +256,8 @@ class PartSearch {
                        [g](const Selection::Aliased& a) { return a.group == g; });
   }
 
-  Groups shape_index_;
-  SelectionProblem problem_;
+  const SelectionProblem& problem_;
   Record record_;
-  std::vector<int> block_ids_;
   const SelectionOptions& options_;
   const SelectionProgress& progress_;
   Groups fitted_;
@@ -283,11 +269,12 @@ class PartSearch {
   std::vector<Selection::Aliased> aliased_;
 };
 
-/// Writes a part's fit into that of all, with standard errors from the curvature of the likelihood.
-/// Unlike the jackknife of the fit, they count what a parameter that rests on a bound leaves open
-/// in the others.
-void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>& block_ids,
-               ModelFit& all) {
+/// What is told of a fit, with standard errors from the curvature of the likelihood. Unlike the
+/// jackknife of the fit, they count what a parameter that rests on a bound leaves open in the
+/// others.
+ModelFit model_fit(const Record& record, const BlockFit& fit) {
+  ModelFit all = neutral_fit(record.problem(), record.blocks());
+  all.holdout_rmse = fit.rmse();
   std::vector<std::size_t> parameters;
   MatrixXd jacobian(record.rows(), 0);
   for (const std::size_t g : fit.freed.groups) {
@@ -310,110 +297,81 @@ void merge_fit(const Record& record, const BlockFit& fit, const std::vector<int>
     all.standard_error[index] =
         record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
   }
-  add_fit(record, fit, block_ids, {}, all);
+  add_fit(record, fit, {}, all);
+  return all;
 }
 
-/// A named effect of a part's best model and what it adds to the names before it there.
-struct Named {
-  PartSearch* search = nullptr;
-  SelectedGroup entry;
-  VectorXd before, after;  ///< squared errors of the part's blocks
-
-  [[nodiscard]] double gain() const { return before.sum() - after.sum(); }
-};
-
-/// The names of all parts, those that gain most first, with their gains in all of the record.
-std::vector<Named> named_in(std::list<PartSearch>& parts, double base_error, double rows) {
-  std::vector<Named> named;
-  for (PartSearch& part : parts) {
-    VectorXd before = part.base().fit.block_error;
-    for (const auto& [g, fit] : part.in_order()) {
-      Named& n = named.emplace_back();
-      n.search = &part;
-      n.entry.group = g;
-      n.before = std::move(before);
-      n.after = fit.block_error;
-      before = n.after;
-    }
+/// The names of the best model in the order of what they add, with their gains.
+std::vector<SelectedGroup> selected_in(const SubsetSearch& search) {
+  std::vector<SelectedGroup> selected;
+  BlockFit before = search.base().fit;
+  for (auto& [g, fit] : search.in_order()) {
+    SelectedGroup& entry = selected.emplace_back();
+    entry.group = g;
+    entry.rmse_before = before.rmse();
+    entry.rmse_after = fit.rmse();
+    entry.gain_percent = gain_percent(before.squared_error(), fit.squared_error());
+    entry.gain_se_percent = gain_se_percent(before.block_error, fit.block_error);
+    before = std::move(fit);
   }
-  std::stable_sort(named.begin(), named.end(),
-                   [](const Named& a, const Named& b) { return a.gain() > b.gain(); });
-  double error = base_error;
-  for (Named& n : named) {
-    const double after = error - n.gain();
-    n.entry.rmse_before = std::sqrt(error / rows);
-    n.entry.rmse_after = std::sqrt(after / rows);
-    n.entry.gain_percent = gain_percent(error, after);
-    n.entry.gain_se_percent = gain_se_percent(n.before, n.after, error - n.before.sum());
-    error = after;
-  }
-  return named;
+  return selected;
 }
 
-/// The same, without those that gain too little to be worth a name beside all others.
-std::vector<Named> worth_a_name(std::list<PartSearch>& parts, double base_error, double rows,
-                                double least_gain) {
+/// The same, without those that gain too little to be worth a name, where they stand in the order
+/// or beside all others.
+std::vector<SelectedGroup> worth_a_name(SubsetSearch& search, double least_gain) {
   while (true) {
-    std::vector<Named> named = named_in(parts, base_error, rows);
-    const auto weakest = std::min_element(
-        named.begin(), named.end(),
-        [](const Named& a, const Named& b) { return a.entry.gain_percent < b.entry.gain_percent; });
-    if (weakest == named.end() || weakest->entry.gain_percent >= least_gain) return named;
-    weakest->search->take_back(weakest->entry.group);
+    std::vector<SelectedGroup> selected = selected_in(search);
+    std::optional<std::size_t> weakest;
+    double weakest_gain = infinity;
+    for (const SelectedGroup& s : selected) {
+      const BlockFit without = search.best_without(s.group).fit;
+      const BlockFit& with = search.best().fit;
+      const double beside = gain_percent(without.squared_error(), with.squared_error());
+      const double gain = std::min(s.gain_percent, beside);
+      const bool earns =
+          gain >= least_gain && beside > 2 * gain_se_percent(without.block_error, with.block_error);
+      if (!earns && gain < weakest_gain) {
+        weakest = s.group;
+        weakest_gain = gain;
+      }
+    }
+    if (!weakest) return selected;
+    search.take_back(*weakest);
   }
 }
 
 }  // namespace
 
-Selection select_subset(const SelectionProblem& problem, const std::vector<SelectionPart>& parts,
-                        const SelectionOptions& options, const SelectionProgress& progress) {
+Selection select_subset(const SelectionProblem& problem, const SelectionOptions& options,
+                        const SelectionProgress& progress) {
+  SubsetSearch search(problem, options, progress);
+  search.run();
+  const Record& record = search.record();
   Selection result;
-  const int blocks = 1 + *std::max_element(problem.block.begin(), problem.block.end());
-  result.base = result.extended = result.complete =
-      neutral_fit(problem, static_cast<std::size_t>(std::max(blocks, 0)));
-
-  std::list<PartSearch> searches;
-  double base_error = 0;
-  for (const SelectionPart& part : parts) {
-    PartSearch& search = searches.emplace_back(problem, part, options, progress);
-    search.run();
-    result.rows += static_cast<std::size_t>(search.record().rows());
-    result.blocks = std::max(result.blocks, search.record().blocks());
-    for (const Selection::Aliased& aliased : search.aliased()) result.aliased.push_back(aliased);
-    base_error += search.base().fit.squared_error();
-  }
-  const auto rows = static_cast<double>(result.rows);
-  for (Named& n : worth_a_name(searches, base_error, rows, options.least_gain_percent)) {
-    const PartSearch& search = *n.search;
-    n.entry.indistinguishable = search.rivals(n.entry.group);
-    n.entry.p_value = chi_squared_tail(
-        search.best_without(n.entry.group).fit.squared_error() - search.best().fit.squared_error(),
-        static_cast<double>(problem.groups[n.entry.group].parameters.size()));
-    result.selected.push_back(std::move(n.entry));
-  }
-
-  double named_error = 0;
-  double complete_error = 0;
-  for (const PartSearch& search : searches) {
-    const Model& best = search.best();
-    const BlockFit named = search.named_alone();
-    named_error += named.squared_error();
-    complete_error += best.fit.squared_error();
-    merge_fit(search.record(), search.base().fit, search.block_ids(), result.base);
-    merge_fit(search.record(), named, search.block_ids(), result.extended);
-    merge_fit(search.record(), best.fit, search.block_ids(), result.complete);
-    for (std::size_t k = 0; k < best.shapes.size(); ++k) {
-      result.unnamed.regressors.push_back(search.shape_index()[best.shapes[k]]);
-      result.unnamed.coefficients.push_back(best.fit.coefficients[static_cast<Index>(k)]);
-    }
-  }
-  result.base.holdout_rmse = std::sqrt(base_error / rows);
-  result.extended.holdout_rmse = std::sqrt(named_error / rows);
-  result.complete.holdout_rmse = std::sqrt(complete_error / rows);
+  result.rows = static_cast<std::size_t>(record.rows());
+  result.blocks = record.blocks();
   result.student_factor = student_quantile(static_cast<double>(result.blocks) - 1, 0.975);
+  result.aliased = search.aliased();
+  result.selected = worth_a_name(search, options.least_gain_percent);
+  const Model& best = search.best();
+  for (SelectedGroup& entry : result.selected) {
+    entry.indistinguishable = search.rivals(entry.group);
+    entry.p_value = chi_squared_tail(
+        search.best_without(entry.group).fit.squared_error() - best.fit.squared_error(),
+        static_cast<double>(problem.groups[entry.group].parameters.size()));
+  }
+
+  const BlockFit named = search.named_alone();
+  result.base = model_fit(record, search.base().fit);
+  result.extended = model_fit(record, named);
+  result.complete = model_fit(record, best.fit);
+  result.unnamed.regressors = best.shapes;
+  result.unnamed.coefficients.assign(best.fit.coefficients.begin(), best.fit.coefficients.end());
   name_channels(problem, result.unnamed);
-  if (!result.unnamed.regressors.empty()) {
-    result.unnamed.share_percent = 100 * std::max(0.0, 1 - complete_error / named_error);
+  if (!best.shapes.empty()) {
+    result.unnamed.share_percent =
+        100 * std::max(0.0, 1 - best.fit.squared_error() / named.squared_error());
   }
   return result;
 }

@@ -247,11 +247,10 @@ TEST_CASE("a record that makes no sense is refused") {
 TEST_CASE("of whole subsets, names that gain less than asked for go, the others stay") {
   Random random(7);
   const LinearRecord record(random, {1, 2, 0.2, 0}, 0);
-  const std::vector<SelectionPart> all{{std::vector<char>(rows, 1), {0, 1, 2, 3}}};
   const auto names = [&](double least_gain_percent) {
     SelectionOptions options;
     options.least_gain_percent = least_gain_percent;
-    return select_subset(record.problem, all, options, {}).selected;
+    return select_subset(record.problem, options, {}).selected;
   };
   const std::vector<SelectedGroup> any = names(0);
   REQUIRE(any.size() == 2);

@@ -72,6 +72,11 @@ struct Effect {
   /// How it changes the model of a power log, which must not contain the effect already; values in
   /// SI, in the order of `parameters`. Null for effects of flight logs.
   void (*on_power)(PowerModel&, std::span<const double>) = nullptr;
+  /// The stages of a power log whose comparison it changes: tether, converter or motors.
+  std::vector<Stage> shows_in{};
+  /// id of an effect before it in the catalogue that every log shows in the same way. It is told
+  /// with that one, never in its place.
+  std::string twin_of{};
 };
 
 /// All effects; the order is that of the documentation.
