@@ -88,6 +88,36 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   return aliased;
 }
 
+LinearisedGains::LinearisedGains(const Record& record, const BlockFit& fit,
+                                 const Groups& candidates) {
+  const VectorXd weight = fit.weight.cwiseSqrt();
+  const MatrixXd free = weight.asDiagonal() * fit.jacobian;
+  MatrixXd slopes(fit.residual.size(), 0);
+  for (const std::size_t g : candidates) {
+    std::vector<double> values = fit.values;
+    const std::vector<ModelParameter>& own = record.problem().groups[g].parameters;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      values[record.first_parameter(g) + k] = own[k].start;
+      columns_[g].push_back(slopes.cols() + static_cast<Index>(k));
+    }
+    const MatrixXd of_group = group_slopes(record, g, values);
+    slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
+    slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
+  }
+  if (free.cols() > 0) slopes -= free * least_squares(free, slopes);
+  gram_ = slopes.transpose() * slopes;
+  along_ = slopes.transpose() * weight.cwiseProduct(fit.residual);
+}
+
+double LinearisedGains::of(const Groups& groups) const {
+  std::vector<Index> columns;
+  for (const std::size_t g : groups) {
+    columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
+  }
+  const VectorXd along = along_(columns);
+  return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
+}
+
 Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found) {
   std::sort(found.begin(), found.end());
   Groups groups;

@@ -2,6 +2,7 @@
 // of the fits in the end.
 #pragma once
 
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,20 @@ inline constexpr double rival_gain = 0.5;
 /// all others at `values`: one column a size, over its scale.
 [[nodiscard]] Eigen::MatrixXd size_slopes(const Record& record, std::vector<double> values,
                                           std::size_t group);
+
+/// By how much groups would lower the squared error of a fit if the prediction were linear in
+/// their parameters.
+class LinearisedGains {
+ public:
+  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates);
+  /// Of these candidates together.
+  [[nodiscard]] double of(const Groups& groups) const;
+
+ private:
+  std::map<std::size_t, std::vector<Eigen::Index>> columns_;
+  Eigen::MatrixXd gram_;   ///< of all slopes beside what is free in the fit
+  Eigen::VectorXd along_;  ///< the residual along each of them
+};
 
 /// The groups by rising distance.
 [[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);

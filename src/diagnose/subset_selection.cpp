@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "diagnose/fit_judgement.hpp"
@@ -34,6 +34,9 @@ constexpr double name_preference = 8;
 constexpr double missed_by_shapes = 0.1;
 constexpr std::size_t most_shapes = 3;  ///< more would describe noise that nobody reads
 constexpr std::size_t beam = 4;         ///< subsets of one size that are tried with one more effect
+/// Subsets of one size that are fitted: those that lower the squared error most where the model is
+/// linear. It nearly is; the best is rarely beyond the third.
+constexpr std::size_t tried_sets = 12;
 
 struct Model {
   Groups named;  ///< sorted
@@ -150,44 +153,54 @@ class SubsetSearch {
     if (candidate.length + handicap < best_.length) best_ = std::move(candidate);
   }
 
-  /// Rows that the candidate moves.
-  [[nodiscard]] std::vector<char> rows_moved_by(std::size_t g) const {
-    const VectorXd moved = size_slopes(record_, base_.fit.values, g).rowwise().squaredNorm();
-    std::vector<char> rows(static_cast<std::size_t>(moved.size()));
-    std::transform(moved.begin(), moved.end(), rows.begin(), [](double x) { return x > 0; });
-    return rows;
+  /// Sets of one candidate more than `parents`, or two where that is none, that promise most.
+  [[nodiscard]] std::map<Groups, const Model*> promising(const std::vector<Model>& parents) const {
+    std::vector<std::tuple<double, Groups, const Model*>> sets;
+    for (const Model& parent : parents) {
+      Groups open;
+      for (const std::size_t g : candidates_) {
+        if (!contains(parent.named, g)) open.push_back(g);
+      }
+      const LinearisedGains gains(record_, parent.fit, open);
+      const auto add = [&](const Groups& more) {
+        Groups named = parent.named;
+        for (const std::size_t g : more) named = with_group(named, g);
+        sets.emplace_back(parent.fit.residual.squaredNorm() - gains.of(more), named, &parent);
+      };
+      for (std::size_t a = 0; a < open.size(); ++a) {
+        if (!parent.named.empty()) add({open[a]});
+        for (std::size_t b = a + 1; parent.named.empty() && b < open.size(); ++b) {
+          add({open[a], open[b]});
+        }
+      }
+    }
+    std::sort(sets.begin(), sets.end());
+    std::map<Groups, const Model*> best;
+    for (const auto& [error, named, parent] : sets) {
+      if (best.size() < tried_sets) best.emplace(named, parent);
+    }
+    return best;
   }
 
   void search_names() {
-    std::map<std::size_t, std::vector<char>> moved;
-    for (const std::size_t g : candidates_) moved[g] = rows_moved_by(g);
-    // Effects on different rows add what they earn: the best of them leads to such a pair.
-    const auto meet = [&moved](std::size_t a, std::size_t b) {
-      return std::inner_product(moved[a].begin(), moved[a].end(), moved[b].begin(), 0) > 0;
-    };
+    for (const std::size_t g : candidates_) {
+      if (progress_) progress_("trying " + problem_.groups[g].id);
+      consider(model({g}, {}, &base_.fit));
+    }
+    // Two effects may cancel, so pairs are tried whatever singles say; three hardly do.
     std::vector<Model> level{base_};
-    for (std::size_t size = 1; size <= std::min(options_.most_findings, candidates_.size());
+    for (std::size_t size = 2; size <= std::min(options_.most_findings, candidates_.size());
          ++size) {
-      std::map<Groups, Model> next;
-      for (const Model& parent : level) {
-        for (const std::size_t g : candidates_) {
-          if (contains(parent.named, g)) continue;
-          if (size == 2 && &parent != &level.front() && !meet(parent.named.front(), g)) continue;
-          const Groups named = with_group(parent.named, g);
-          if (next.contains(named)) continue;
-          if (progress_ && size == 1) progress_("trying " + problem_.groups[g].id);
-          next.emplace(named, model(named, {}, &parent.fit));
-        }
+      std::vector<Model> next;
+      for (const auto& [named, parent] : promising(level)) {
+        next.push_back(model(named, {}, &parent->fit));
       }
-      level.clear();
-      for (auto& [named, m] : next) level.push_back(std::move(m));
+      level = std::move(next);
       std::sort(level.begin(), level.end(),
                 [](const Model& a, const Model& b) { return a.length < b.length; });
-      const bool better = !level.empty() && level.front().length < best_.length;
-      if (better) consider(level.front());
-      // Two effects may cancel, so pairs are tried whatever singles say; three hardly do.
-      if (size >= 2 && !better) break;
-      if (size >= 2 && level.size() > beam) level.erase(level.begin() + beam, level.end());
+      if (level.empty() || !(level.front().length < best_.length)) break;
+      consider(level.front());
+      if (level.size() > beam) level.erase(level.begin() + beam, level.end());
     }
   }
 
