@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/distributions.hpp"
 #include "identify/linear_algebra.hpp"
 #include "identify/series.hpp"
 
@@ -88,6 +89,69 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   return aliased;
 }
 
+namespace {
+
+/// The sizes of the group by one step of weighted least squares beside what is free in the fit.
+std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit,
+                                       std::size_t group) {
+  const MatrixXd sizes = size_slopes(record, fit.values, group);
+  MatrixXd slopes(sizes.rows(), fit.jacobian.cols() + sizes.cols());
+  slopes << fit.jacobian, sizes;
+  const VectorXd weight = fit.weight.cwiseSqrt();
+  slopes = weight.asDiagonal() * slopes;
+  const VectorXd residual = weight.cwiseProduct(fit.residual);
+  const MatrixXd gram = slopes.transpose() * slopes;
+  const VectorXd along = slopes.transpose() * residual;
+  const auto step = [&sizes](const MatrixXd& g, const VectorXd& a) -> VectorXd {
+    return (symmetric_pseudo_inverse(g) * a).tail(sizes.cols());
+  };
+  const VectorXd whole = step(gram, along);
+  MatrixXd left_out(sizes.cols(), static_cast<Index>(record.blocks()));
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    const MatrixXd rows = slopes.middleRows(record.block_begin(b), record.block_size(b));
+    const VectorXd rest = residual.segment(record.block_begin(b), record.block_size(b));
+    left_out.col(static_cast<Index>(b)) =
+        step(gram - rows.transpose() * rows, along - rows.transpose() * rest);
+  }
+  const VectorXd error = jackknife_covariance(std::move(left_out)).diagonal().cwiseSqrt();
+
+  std::vector<SizeEstimate> estimates;
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (own[k].shape_only) continue;
+    const auto column = static_cast<Index>(estimates.size());
+    estimates.push_back({record.first_parameter(group) + k,
+                         own[k].neutral + own[k].scale * whole[column],
+                         own[k].scale * error[column]});
+  }
+  return estimates;
+}
+
+}  // namespace
+
+std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
+                                        const Groups& candidates,
+                                        const std::function<BlockFit(std::size_t)>& with) {
+  const auto degrees = static_cast<double>(record.blocks() - 1);
+  std::vector<Selection::Open> open;
+  for (const std::size_t g : candidates) {
+    Selection::Open& candidate = open.emplace_back();
+    candidate.group = g;
+    candidate.sizes = sizes_beside(record, fit, g);
+    for (const SizeEstimate& size : candidate.sizes) {
+      const double offset = size.value - record.parameters()[size.parameter].neutral;
+      const double p = 2 * student_tail(std::abs(offset) / size.standard_error, degrees) *
+                       static_cast<double>(candidate.sizes.size() * candidates.size());
+      if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
+    }
+    if (candidate.p_value > suspicious) continue;
+    const BlockFit freed = with(g);
+    candidate.gain_percent = gain_percent(fit.squared_error(), freed.squared_error());
+    candidate.gain_se_percent = gain_se_percent(fit.block_error, freed.block_error);
+  }
+  return open;
+}
+
 LinearisedGains::LinearisedGains(const Record& record, const BlockFit& fit,
                                  const Groups& candidates) {
   const VectorXd weight = fit.weight.cwiseSqrt();
@@ -116,6 +180,13 @@ double LinearisedGains::of(const Groups& groups) const {
   }
   const VectorXd along = along_(columns);
   return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
+}
+
+Groups without_rivals(Groups open, const std::vector<SelectedGroup>& selected) {
+  for (const SelectedGroup& s : selected) {
+    std::erase_if(open, [&s](std::size_t g) { return contains(s.indistinguishable, g); });
+  }
+  return open;
 }
 
 Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found) {

@@ -2,6 +2,7 @@
 // of the fits in the end.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -46,6 +47,18 @@ class LinearisedGains {
   Eigen::MatrixXd gram_;   ///< of all slopes beside what is free in the fit
   Eigen::VectorXd along_;  ///< the residual along each of them
 };
+
+/// Chance of what an open candidate shows, below which it is suspected.
+inline constexpr double suspicious = 0.05;
+
+/// What the fit says of each of `candidates`. `with` gives the fit with one of them freed, and is
+/// asked where that is suspicious.
+[[nodiscard]] std::vector<Selection::Open> judge_open(
+    const Record& record, const BlockFit& fit, const Groups& candidates,
+    const std::function<BlockFit(std::size_t)>& with);
+
+/// `open` without what the selected are indistinguishable from.
+[[nodiscard]] Groups without_rivals(Groups open, const std::vector<SelectedGroup>& selected);
 
 /// The groups by rising distance.
 [[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);

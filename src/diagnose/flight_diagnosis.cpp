@@ -301,11 +301,6 @@ void report(const FlightData& data, const FlightModel& model, const Selection& s
   d.compared.push_back(compared(data, model, selection));
   size_up(selection, d.unexplained);
   d.spec_changes = spec_changes(model, selection.complete);
-  for (const Selection::TooSmall& small : selection.too_small) {
-    d.notes.push_back(fmt::format(
-        "{} is no chance, but lowers the error by {:.1f} % only: less than {:.0f} % is not named",
-        model.effect(small.group).id, small.gain_percent, options.selection.least_gain_percent));
-  }
   d.further.push_back(
       {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
        "m/s", speed_rmse(data, model, selection.base, options.speed_window),

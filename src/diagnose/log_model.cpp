@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "diagnose/fit_judgement.hpp"
 #include "identify/series.hpp"
 #include "model/constants.hpp"
 
@@ -146,6 +147,46 @@ NotIdentifiable not_identifiable(const LogModel& log, const Selection::Aliased& 
   return {effect.id, std::move(because)};
 }
 
+std::string what_is_missing(const Effect& effect, const Selection::Open& open, double least_gain) {
+  const bool too_small = open.gain_percent < least_gain;
+  const std::string sure =
+      too_small ? fmt::format("a gain of {:g} % or more, below which nothing is named", least_gain)
+                : "a longer log, until chance cannot explain it";
+  return effect.to_separate.empty() ? sure : fmt::format("{}; {}", sure, effect.to_separate);
+}
+
+/// One verdict on an effect that is neither found nor indistinguishable from what is.
+void tell_open(const LogModel& log, const Selection& selection, const Selection::Open& open,
+               Diagnosis& diagnosis) {
+  const Effect& effect = log.effect(open.group);
+  const std::size_t first = log.first_parameter(open.group);
+  std::vector<ParameterEstimate> sizes;
+  std::vector<RuledOut> bounds;
+  for (const SizeEstimate& size : open.sizes) {
+    const EffectParameter& p = effect.parameters[size.parameter - first];
+    const ModelParameter& m = log.problem.groups[open.group].parameters[size.parameter - first];
+    if (!(m.lower < m.upper) || !(size.standard_error > 0)) continue;
+    const double half = selection.student_factor * size.standard_error;
+    const double lower = std::clamp(size.value - half, m.lower, m.upper);
+    const double upper = std::clamp(size.value + half, m.lower, m.upper);
+    sizes.push_back({p.name, std::clamp(size.value, m.lower, m.upper) / p.unit_SI, p.unit,
+                     lower / p.unit_SI, upper / p.unit_SI});
+    const double bound = std::max(m.neutral - lower, upper - m.neutral);
+    const bool shows = lower > m.lower || upper < m.upper;
+    // Where the whole interval lies beyond a bound, hardly anything is allowed.
+    if (shows) bounds.push_back({effect.id, p.name, std::max(bound, half) / p.unit_SI, p.unit});
+  }
+  if (open.p_value <= suspicious && open.gain_percent > open.gain_se_percent) {
+    diagnosis.suspected.push_back({effect.id, open.gain_percent, open.gain_se_percent,
+                                   std::move(sizes),
+                                   what_is_missing(effect, open, selection.least_gain_percent)});
+  } else if (bounds.empty()) {
+    diagnosis.not_testable.push_back({effect.id, effect.to_separate});
+  } else {
+    for (RuledOut& bound : bounds) diagnosis.ruled_out.push_back(std::move(bound));
+  }
+}
+
 /// Parts of the base model's held-out squared error, which sum to the whole.
 ErrorBudget error_budget(const Selection& selection) {
   const double all = selection.base.holdout_rmse * selection.base.holdout_rmse;
@@ -223,6 +264,7 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
   for (const Selection::Aliased& aliased : selection.aliased) {
     diagnosis.not_identifiable.push_back(not_identifiable(log, aliased));
   }
+  for (const Selection::Open& open : selection.open) tell_open(log, selection, open, diagnosis);
   diagnosis.budget = error_budget(selection);
   const UnnamedStructure& unnamed = selection.unnamed;
   if (unnamed.regressors.empty()) return;

@@ -339,10 +339,6 @@ class Search {
     certain.options_ = options_;
     certain.add_unnamed();
     unnamed_ = certain.unnamed_;
-    too_small_.clear();
-    for (const std::size_t g : certain.selected_) {
-      if (!contains(selected_, g)) too_small_.push_back(g);
-    }
     current_ = fit(selected_, &current_);
   }
 
@@ -382,20 +378,30 @@ class Search {
       before = std::move(after);
     }
     result.extended = model_fit(before);
-    for (const std::size_t g : too_small_) {
-      const BlockFit with = fit(selected_with(g), {}, &before);
-      result.too_small.push_back({g, gain_percent(before.squared_error(), with.squared_error())});
-    }
     const double share = 1 - current_.squared_error() / before.squared_error();
     const bool disturbed =
         share >= structure_that_disturbs && precision(current_) > precision(before);
-    result.complete = model_fit(disturbed ? current_ : before);
+    const BlockFit& complete = disturbed ? current_ : before;
+    result.complete = model_fit(complete);
+    result.least_gain_percent = options_.least_gain_percent;
+    result.open = judge_open(record_, complete, open_beside(result.selected), [&](std::size_t g) {
+      return fit(selected_with(g), complete.freed.unnamed, &complete);
+    });
 
     if (unnamed_.empty()) return;
     result.unnamed.regressors = unnamed_;
     result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
     name_channels(record_.problem(), result.unnamed);
     result.unnamed.share_percent = 100 * std::max(0.0, share);
+  }
+
+  /// Candidates that are not selected, nor told as rivals of one that is.
+  [[nodiscard]] Groups open_beside(const std::vector<SelectedGroup>& selected) const {
+    Groups open;
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      if (is_open(g)) open.push_back(g);
+    }
+    return without_rivals(std::move(open), selected);
   }
 
   [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {
@@ -433,7 +439,6 @@ class Search {
   Groups selected_;
   Groups unnamed_;
   std::set<std::size_t> aliased_;
-  Groups too_small_;                ///< certain beside the selected, but not worth a name
   std::set<std::size_t> rejected_;  ///< taken back once; never tried again, so the search ends
   BlockFit current_;
 };

@@ -104,6 +104,14 @@ struct ModelFit {
   std::vector<double> holdout_residual{};  ///< measured − predicted, one a row, 0 in rows left out
 };
 
+/// A size of a group that is not freed, as one step of least squares beside all that is free would
+/// have it, bounds or not.
+struct SizeEstimate {
+  std::size_t parameter = 0;  ///< of all groups
+  double value = 0;
+  double standard_error = 0;  ///< from the spread over blocks
+};
+
 /// What is left and no candidate explains.
 struct UnnamedStructure {
   std::vector<std::size_t> regressors{};  ///< into SelectionProblem::unnamed, strongest first
@@ -124,12 +132,17 @@ struct Selection {
   /// `extended`.
   ModelFit complete;
   std::vector<SelectedGroup> selected{};  ///< in the order they were found
-  /// A candidate that beats chance and gains less than is worth a name.
-  struct TooSmall {
-    std::size_t group = 0;    ///< the candidate
-    double gain_percent = 0;  ///< beside the selected groups
+  /// A candidate that is neither selected nor indistinguishable from one that is, beside those.
+  struct Open {
+    std::size_t group = 0;
+    std::vector<SizeEstimate> sizes{};
+    /// Of all sizes being neutral, corrected for the number of sizes and of such candidates.
+    double p_value = 1;
+    double gain_percent = 0;     ///< of freeing it; 0 unless chance hardly explains its sizes
+    double gain_se_percent = 0;  ///< standard error over blocks
   };
-  std::vector<TooSmall> too_small{};  ///< left out of the extended model
+  std::vector<Open> open{};       ///< in their order
+  double least_gain_percent = 0;  ///< that was asked of a name
   /// Candidates whose change of the prediction is a combination of what is already free.
   struct Aliased {
     std::size_t group = 0;            ///< the candidate

@@ -125,6 +125,21 @@ class SubsetSearch {
     return result;
   }
 
+  /// Candidates, and their twins, that are not selected, nor told as rivals of one that is.
+  [[nodiscard]] std::vector<Selection::Open> open_beside(
+      const std::vector<SelectedGroup>& selected) const {
+    Groups open;
+    for (std::size_t g = 0; g < problem_.groups.size(); ++g) {
+      if (!problem_.groups[g].fitted && !contains(best_.named, g) && !is_aliased(g)) {
+        open.push_back(g);
+      }
+    }
+    return judge_open(record_, best_.fit, without_rivals(std::move(open), selected),
+                      [this](std::size_t g) {
+                        return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
+                      });
+  }
+
   /// The best model, but for one of its names.
   [[nodiscard]] Model best_without(std::size_t g) const {
     return model(without_group(best_.named, g), best_.shapes, &best_.fit);
@@ -374,6 +389,9 @@ Selection select_subset(const SelectionProblem& problem, const SelectionOptions&
         search.best_without(entry.group).fit.squared_error() - best.fit.squared_error(),
         static_cast<double>(problem.groups[entry.group].parameters.size()));
   }
+
+  result.least_gain_percent = options.least_gain_percent;
+  result.open = search.open_beside(result.selected);
 
   const BlockFit named = search.named_alone();
   result.base = model_fit(record, search.base().fit);

@@ -95,8 +95,10 @@ class Story {
       errors();
       budget();
       for (const Finding& f : d_.findings) finding(f);
+      suspected();
       unexplained();
       design();
+      ruled_out();
     }
     not_tested();
     notes();
@@ -173,6 +175,29 @@ class Story {
     paragraph(text);
   }
 
+  void suspected() {
+    if (d_.suspected.empty()) return;
+    heading("Suspected");
+    for (const Suspected& s : d_.suspected) {
+      std::vector<std::string> values;
+      for (const ParameterEstimate& p : s.parameters) values.push_back(with_interval(p));
+      paragraph(fmt::format("{} would help by {:.1f} ± {:.1f} %, with {}. What is missing: {}",
+                            s.effect, s.gain_percent, s.gain_se_percent, fmt::join(values, ", "),
+                            with_stop(s.missing)));
+    }
+  }
+
+  void ruled_out() {
+    if (d_.ruled_out.empty()) return;
+    TextTable table({word_column("effect"), word_column("parameter"), "off neutral by more than"});
+    for (const RuledOut& r : d_.ruled_out) {
+      table.add(
+          {r.effect, r.parameter, significant(r.bound, 2) + (r.unit == "1" ? "" : " " + r.unit)});
+    }
+    out_.emplace_back(
+        TitledTable{"Ruled out: what this log would have shown (95 %)", std::move(table)});
+  }
+
   void unexplained() {
     heading("What is left");
     if (!d_.unexplained.detected) {
@@ -239,6 +264,19 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
                      {"unit", d.unit},
                      {"parameters", parameters_json(d.base.parameters)}}}};
   out["findings"] = json_list(d.findings, finding_json);
+  out["suspected"] = json_list(d.suspected, [](const Suspected& x) {
+    return ordered_json{{"effect", x.effect},
+                        {"gain_percent", number_or_null(x.gain_percent)},
+                        {"gain_se_percent", number_or_null(x.gain_se_percent)},
+                        {"parameters", parameters_json(x.parameters)},
+                        {"missing", x.missing}};
+  });
+  out["ruled_out"] = json_list(d.ruled_out, [](const RuledOut& r) {
+    return ordered_json{{"effect", r.effect},
+                        {"parameter", r.parameter},
+                        {"bound", number_or_null(r.bound)},
+                        {"unit", r.unit}};
+  });
   out["not_testable"] = json_list(d.not_testable, [](const NotTestable& n) {
     return ordered_json{{"effect", n.effect}, {"needs", n.needs}};
   });
@@ -295,7 +333,8 @@ ordered_json joint_diagnosis_json(const Diagnosis& flight, const Diagnosis& powe
                                   const ordered_json& extended) {
   ordered_json out{{"kind", "flight and power"}};
   const ordered_json parts[] = {diagnosis_json(flight, nullptr), diagnosis_json(power, nullptr)};
-  for (const char* list : {"findings", "not_testable", "not_identifiable"}) {
+  for (const char* list :
+       {"findings", "suspected", "ruled_out", "not_testable", "not_identifiable"}) {
     out[list] = ordered_json::array();
     for (const ordered_json& part : parts) {
       for (const ordered_json& entry : part[list]) out[list].push_back(entry);

@@ -51,14 +51,17 @@ double kg_per_metre(const Rig& rig) {
 
 /// W at the bus for steady flight, without the random deviation.
 double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, double speed) {
-  const double weight = (rig.mass + hidden.extra_mass + kg_per_metre(rig) * height) * gravity;
-  const double tether_drag = 0.5 * rig.air_density * hidden.tether_drag_factor * 0.75 * 4 * height *
+  const double cable = height * (1 + hidden.slack);
+  const double density = rig.air_density * hidden.air_density_factor;
+  const double weight =
+      (rig.mass + hidden.extra_mass + kg_per_metre(rig) * cable) * gravity + hidden.winch_pull;
+  const double tether_drag = 0.5 * density * hidden.tether_drag_factor * 0.75 * 4 * cable *
                              outer_radius(rig) * speed * speed;
   double angle = 0;
   for (int i = 0; i < 60; ++i) {  // contraction: drag changes little with the angle
     const double area = rig.drag_scale * hidden.airframe_drag_factor *
                         (0.01451 * std::cos(angle) + 0.01361 * std::sin(angle));
-    const double drag = 0.5 * rig.air_density * area * (speed * speed + 19.27 * speed);
+    const double drag = 0.5 * density * area * (speed * speed + 19.27 * speed);
     angle = std::atan((drag + tether_drag) / weight);
   }
   const double thrust_g = weight / std::cos(angle) / 4 / gravity * 1000;
@@ -69,8 +72,9 @@ double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, d
     induced = 0.5 * (induced + next);
   }
   const double relief = 1 - hidden.translational_lift * (1 - induced / hidden.induced_speed);
+  // Rankine and Froude: induced power goes with the inverse root of the density.
   return 4 * rig.motor_size * motor_watts(thrust_g / rig.motor_size) * hidden.motor_power_factor *
-         relief;
+         relief / std::sqrt(hidden.air_density_factor);
 }
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
@@ -142,6 +146,7 @@ Log simulate(const Scenario& scenario) {
     double power = motor_power(rig, hidden, h, v) * (1 + deviation);
     if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
     power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
+    power *= 1 + hidden.motor_power_growth * share;
     power *= 1 + hidden.motor_power_swing * std::sin(2 * pi * t / 600);
 
     const double converter_input =
@@ -150,7 +155,8 @@ Log simulate(const Scenario& scenario) {
             : power / rig.efficiency;
     const double input = converter_input + rig.auxiliaries + hidden.auxiliary_power;
 
-    const double cable = hidden.spooled_length >= 0 ? rig.length + hidden.spooled_length : h;
+    const double cable =
+        hidden.spooled_length >= 0 ? rig.length + hidden.spooled_length : h * (1 + hidden.slack);
     const double temperature = hidden.heating > 0 ? ambient + rise : 20;
     const double ohm_per_metre = ohm_per_metre_20C(rig) * hidden.resistivity_factor *
                                  (1 + temperature_coefficient * (temperature - 20));
@@ -179,15 +185,20 @@ Log simulate(const Scenario& scenario) {
     };
     const double bus_voltage = 16 - 0.004 * bus_power[i] / 16;
     log.time.push_back(static_cast<double>(i + 1) * dt);
-    log.height.push_back(rounded(height[i] + noise(0.05), 0.01));
-    log.airspeed.push_back(rounded(std::max(0.0, speed[i] + noise(0.15)), 0.01));
+    log.height.push_back(rounded(height[i] + hidden.height_bias + noise(0.05), 0.01));
+    log.airspeed.push_back(
+        rounded(std::max(0.0, hidden.airspeed_gain * speed[i] + noise(0.15)), 0.01));
     log.ambient_temperature.push_back(rounded(ambient + noise(0.1), 0.1));
-    log.supply_voltage.push_back(rounded(rig.voltage + noise(0.035), 0.01));
-    log.supply_current.push_back(
-        rounded(hidden.supply_current_gain * supply_current[i] + noise(0.015), 0.001));
-    log.drone_voltage.push_back(rounded(drone_voltage[i] + noise(0.025), 0.01));
+    log.supply_voltage.push_back(
+        rounded(hidden.supply_voltage_gain * rig.voltage + noise(0.035), 0.01));
+    log.supply_current.push_back(rounded(hidden.supply_current_gain * supply_current[i] +
+                                             hidden.supply_current_offset + noise(0.015),
+                                         0.001));
+    log.drone_voltage.push_back(
+        rounded(drone_voltage[i] + hidden.drone_voltage_offset + noise(0.025), 0.01));
     log.bus_voltage.push_back(rounded(bus_voltage + noise(0.01), 0.001));
-    log.bus_current.push_back(rounded(bus_power[i] / bus_voltage + noise(0.06), 0.01));
+    log.bus_current.push_back(
+        rounded(hidden.bus_current_gain * bus_power[i] / bus_voltage + noise(0.06), 0.01));
   }
 
   const std::array<std::pair<const char*, std::vector<double>*>, 8> channels{{

@@ -28,7 +28,19 @@ struct HiddenEffects {
   double induced_speed = 6;       ///< m/s, induced velocity in hover
   double tether_drag_factor = 1;
   double airframe_drag_factor = 1;
-  double supply_current_gain = 1;  ///< reading over truth
+  double slack = 0;               ///< cable in the air over the height, less 1
+  double winch_pull = 0;          ///< N
+  double motor_power_growth = 0;  ///< relative, steadily over the log
+  double air_density_factor = 1;  ///< truth over the spec's
+
+  // What instruments make of the truth.
+  double supply_current_gain = 1;    ///< reading over truth
+  double supply_current_offset = 0;  ///< A
+  double supply_voltage_gain = 1;    ///< reading over truth
+  double drone_voltage_offset = 0;   ///< V
+  double bus_current_gain = 1;       ///< reading over truth
+  double height_bias = 0;            ///< m
+  double airspeed_gain = 1;          ///< reading over truth
 
   // Not in anybody's catalogue.
   double step_in_motor_power = 0;  ///< relative, from `step_at` of the log on

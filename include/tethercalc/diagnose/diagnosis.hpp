@@ -58,6 +58,23 @@ struct Finding {
   std::string to_separate;  ///< the flight or channel that would tell them apart; may be empty
 };
 
+/// An effect that chance hardly explains, and that is not certain or not large enough to be named.
+struct Suspected {
+  std::string effect;                         ///< id in the catalogue
+  double gain_percent = 0;                    ///< on data not fitted, were it in the model
+  double gain_se_percent = 0;                 ///< standard error over blocks
+  std::vector<ParameterEstimate> parameters;  ///< its sizes, beside the findings
+  std::string missing;                        ///< what it takes to be sure
+};
+
+/// The largest size of an effect that this log still allows: more would have shown.
+struct RuledOut {
+  std::string effect;     ///< id in the catalogue
+  std::string parameter;  ///< of it
+  double bound = 0;  ///< distance from neutral, the further end of the 95 % confidence interval
+  std::string unit;  ///< of the bound; "1" for a plain number
+};
+
 /// An effect that this log says nothing about.
 struct NotTestable {
   std::string effect;  ///< id in the catalogue
@@ -161,7 +178,9 @@ struct Diagnosis {
   std::string quantity;                           ///< in words: what is predicted and compared
   ModelQuality base;                              ///< without any finding
   std::vector<Finding> findings;                  ///< in the order they were found
-  std::vector<NotTestable> not_testable;          ///< for want of a channel or of length
+  std::vector<Suspected> suspected;               ///< beside the findings
+  std::vector<RuledOut> ruled_out;                ///< beside the findings, one a size
+  std::vector<NotTestable> not_testable;          ///< for want of a channel, of length or of motion
   std::vector<NotIdentifiable> not_identifiable;  ///< whatever the channels
   Unexplained unexplained;                        ///< beside the findings
   ModelQuality extended;                          ///< with all findings
