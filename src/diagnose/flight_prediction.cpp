@@ -26,6 +26,7 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.tilt = observations.tilt;
   record.yaw = observations.yaw;
   record.forward_speed = observations.forward_speed;
+  record.right_speed = observations.right_speed;
   record.down_speed = observations.down_speed;
   record.down_acceleration = observations.down_acceleration;
   record.tan_tilt.reserve(observations.size());
@@ -48,9 +49,10 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
-  for (auto series : {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt,
-                      &FlightRecord::yaw, &FlightRecord::forward_speed, &FlightRecord::down_speed,
-                      &FlightRecord::down_acceleration, &FlightRecord::turn_acceleration}) {
+  for (auto series :
+       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
+        &FlightRecord::forward_speed, &FlightRecord::right_speed, &FlightRecord::down_speed,
+        &FlightRecord::down_acceleration, &FlightRecord::turn_acceleration}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -63,6 +65,7 @@ FlightPrediction::FlightPrediction(const FlightRecord& flight)
     : record(flight),
       tilt(flight.size()),
       headwind(flight.size()),
+      crosswind(flight.size()),
       airspeed(flight.size()),
       drag(flight.size()),
       acceleration(flight.size()) {}
@@ -73,6 +76,7 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   const std::size_t size = record.size();
   p.tilt = record.tilt;
   p.headwind.assign(size, 0.0);
+  p.crosswind.assign(size, 0.0);
   p.law = {base.front_area, base.top_area, 0, 0};
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
@@ -85,7 +89,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
-    p.drag[i] = airframe_drag_force(p.law, record.air_density, p.airspeed[i], tan_tilt[i]);
+    p.drag[i] = airframe_drag_along(p.law, record.air_density, p.airspeed[i],
+                                    record.right_speed[i] - p.crosswind[i], tan_tilt[i]);
   }
   act(p, effects, FlightPhase::force);
 

@@ -20,6 +20,7 @@ struct FlightRecord {
   std::vector<double> tan_tilt;           ///< tan θ
   std::vector<double> yaw;                ///< rad
   std::vector<double> forward_speed;      ///< m/s over ground
+  std::vector<double> right_speed;        ///< m/s over ground
   std::vector<double> down_speed;         ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
   /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
@@ -59,9 +60,10 @@ struct FlightPrediction {
   const FlightRecord& record;    ///< what is predicted from
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
-  AirframeDrag law;              ///< of the drag
-  std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
-  std::vector<double> drag;      ///< N against the motion; known in the force phase
+  std::vector<double> crosswind;     ///< the same to the right
+  AirframeDrag law;                  ///< of the drag
+  std::vector<double> airspeed;      ///< m/s, forward positive; known in the force phase
+  std::vector<double> drag;          ///< N against the motion; known in the force phase
   std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
 
   /// Sized for `flight`, which must outlive it.
@@ -74,11 +76,11 @@ struct EffectValues {
   std::span<const double> values;  ///< one a parameter
 };
 
-/// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the drag law of
-/// `model/airframe.hpp` at the airspeed v − w, as changed by `effects`. A thrust along the body's
-/// z-axis turned by yaw, pitch and roll in this order points forward by tan θ of what it carries,
-/// whatever the roll; the published 1/cos φ is not in it. Effects act in the order given within
-/// each phase; those at their neutral values change nothing.
+/// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the forward part of the drag
+/// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`. A thrust along the
+/// body's z-axis turned by yaw, pitch and roll in this order points forward by tan θ of what it
+/// carries, whatever the roll; the published 1/cos φ is not in it. Effects act in the order given
+/// within each phase; those at their neutral values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
 

@@ -18,6 +18,13 @@ double airframe_drag_force(const AirframeDrag& drag, double air_density, double 
          effective_area(drag, tan_pitch);
 }
 
+double airframe_drag_along(const AirframeDrag& drag, double air_density, double along,
+                           double across, double tan_pitch) {
+  const double asymmetry = along < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
+  return 0.5 * air_density * (std::hypot(along, across) + drag.linear_speed) * along *
+         (1 + asymmetry) * effective_area(drag, tan_pitch);
+}
+
 namespace {
 
 /// `t`, or +infinity where it is beyond the limit by more than rounding.

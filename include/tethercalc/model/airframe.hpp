@@ -33,7 +33,13 @@ struct AirframeDrag {
 [[nodiscard]] double airframe_drag_force(const AirframeDrag& drag, double air_density,
                                          double airspeed, double tan_pitch);
 
-/// The same force with its derivatives.
+/// The part along the forward axis of the drag on a drone that also moves sideways: the force lies
+/// along the airspeed vector, (`along`, `across`) in m/s, and is as large as its magnitude makes
+/// it: ½·ρ·(A_f cos|θ| + A_t sin|θ|)·(√(along² + across²) + j)·along·(1 + a·sign along).
+[[nodiscard]] double airframe_drag_along(const AirframeDrag& drag, double air_density, double along,
+                                         double across, double tan_pitch);
+
+/// `airframe_drag_force` with its derivatives.
 struct AirframeDragSlopes {
   double force = 0;            ///< N
   double by_front_area = 0;    ///< N/m²
