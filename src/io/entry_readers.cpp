@@ -10,7 +10,7 @@
 #include "io/closest_name.hpp"
 #include "io/csv_columns.hpp"
 #include "io/embedded_files.hpp"
-#include "tethercalc/model/motor_bench.hpp"
+#include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
