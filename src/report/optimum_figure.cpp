@@ -4,7 +4,7 @@
 #include "report/gnuplot_script.hpp"
 #include "tethercalc/report/limit_sentences.hpp"
 #include "tethercalc/report/result_figures.hpp"
-#include "tethercalc/study/result_keys.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
 namespace {
