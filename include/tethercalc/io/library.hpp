@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tethercalc/model/design.hpp"
-#include "tethercalc/study/wire_sizes.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 

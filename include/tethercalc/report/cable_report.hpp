@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tethercalc/io/design_reader.hpp"
-#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 

@@ -9,7 +9,7 @@
 
 #include "tethercalc/solve/constrained_minimum.hpp"
 #include "tethercalc/solve/sweep_space.hpp"
-#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 
