@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "files/whole_file.hpp"
+#include "files/output_files.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/spec_writer.hpp"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/gnuplot.hpp"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/log_summary.hpp"

@@ -14,8 +14,7 @@
 #include <system_error>
 #include <utility>
 
-#include "files/row_file.hpp"
-#include "files/whole_file.hpp"
+#include "files/output_files.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/input_error.hpp"

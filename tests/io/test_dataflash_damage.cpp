@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "support/dataflash_writer.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/dataflash.hpp"

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
