@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/closest_name.hpp"
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 #include "io/embedded_files.hpp"
 #include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/units.hpp"

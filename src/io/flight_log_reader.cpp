@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 #include "io/longest_increasing.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnose/power_channels.hpp"
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {

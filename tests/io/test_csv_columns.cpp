@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/power_log_reader.hpp"
