@@ -8,7 +8,7 @@
 
 #include "files/input_files.hpp"
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/drag_report.hpp"
