@@ -9,6 +9,7 @@
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "io/embedded_files.hpp"
 #include "io/entry_readers.hpp"
 #include "io/json_document.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -302,5 +303,7 @@ DesignFile read_design_document(nlohmann::ordered_json document, const std::stri
                                 const TextLoader& load) {
   return design_of({file, std::move(document), {}, {}, {}}, load, {});
 }
+
+std::string starting_spec() { return std::string(embedded_file("starting_spec.json")); }
 
 }  // namespace tethercalc
