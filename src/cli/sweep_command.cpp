@@ -19,8 +19,7 @@
 #include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
-#include "tethercalc/report/sweep_rows.hpp"
-#include "tethercalc/report/sweep_summary.hpp"
+#include "tethercalc/report/sweep_report.hpp"
 
 namespace tethercalc::cli {
 namespace {
