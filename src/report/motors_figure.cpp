@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "report/gnuplot_script.hpp"
-#include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/design_sentences.hpp"
 #include "tethercalc/report/result_figures.hpp"
 
 namespace tethercalc {
