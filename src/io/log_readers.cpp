@@ -9,9 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "diagnose/power_channels.hpp"
 #include "io/csv.hpp"
