@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "../tests/support/dataflash_writer.hpp"
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "tethercalc/io/dataflash.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 
 using namespace tethercalc;

@@ -8,7 +8,7 @@
 #include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
-#include "tethercalc/report/sweep_rows.hpp"
+#include "tethercalc/report/sweep_report.hpp"
 
 namespace {
 

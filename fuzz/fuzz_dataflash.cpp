@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tethercalc/io/dataflash.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/report/log_report.hpp"
 

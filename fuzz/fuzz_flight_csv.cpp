@@ -7,9 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/power_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 
 namespace {
 

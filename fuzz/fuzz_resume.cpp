@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "files/row_file.hpp"
+#include "files/output_files.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // What a cable does in a design, and which demand it meets least.
 #include <cstdio>
 #include <tethercalc/files/read_files.hpp>
-#include <tethercalc/study/evaluation.hpp>
+#include <tethercalc/study/optimum.hpp>
 
 using namespace tethercalc;
 

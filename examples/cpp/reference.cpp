@@ -1,7 +1,7 @@
 // The results of a design held against one on record.
 #include <cstdio>
 #include <tethercalc/files/read_files.hpp>
-#include <tethercalc/study/reference.hpp>
+#include <tethercalc/study/results.hpp>
 
 using namespace tethercalc;
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include "files/text_file.hpp"
-#include "files/whole_file.hpp"
+#include "files/input_files.hpp"
+#include "files/output_files.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/report/reference_check.hpp"
 

@@ -1,13 +1,12 @@
 // The only file that sees CLI11, which takes long to compile.
 
-#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <map>
 
-#include "cli/commands.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 

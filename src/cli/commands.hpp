@@ -18,6 +18,10 @@
 
 namespace tethercalc::cli {
 
+/// The program: parses the arguments and runs the command that they name. `argv` begins with the
+/// program's name.
+int run(int argc, const char* const* argv);
+
 /// A spec and what the command line changes in it.
 struct SpecOptions {
   std::string file;  ///< "-" is standard input

@@ -10,12 +10,12 @@
 #include <string_view>
 #include <utility>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/gnuplot.hpp"
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/report/report_page.hpp"
 #include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/sweep_figure.hpp"

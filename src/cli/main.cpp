@@ -2,9 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "cli/command_line.hpp"
-#include "cli/output.hpp"
-#include "tethercalc/io/input_error.hpp"
+#include "cli/commands.hpp"
 
 int main(int argc, char** argv) {
   using namespace tethercalc;

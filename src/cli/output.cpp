@@ -10,7 +10,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "files/whole_file.hpp"
+#include "files/output_files.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc::cli {

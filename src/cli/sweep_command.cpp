@@ -14,14 +14,12 @@
 #include <system_error>
 #include <utility>
 
-#include "files/row_file.hpp"
-#include "files/whole_file.hpp"
+#include "files/output_files.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
-#include "tethercalc/report/sweep_rows.hpp"
-#include "tethercalc/report/sweep_summary.hpp"
+#include "tethercalc/report/sweep_report.hpp"
 
 namespace tethercalc::cli {
 namespace {

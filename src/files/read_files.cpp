@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "files/mapped_file.hpp"
-#include "files/text_file.hpp"
+#include "files/input_files.hpp"
 
 namespace tethercalc {
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 #include "io/closest_name.hpp"
 
@@ -164,20 +163,18 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
       field.unit.empty() ? std::string() : fmt::format(" in {}", field.unit);
   if (!value.is_number()) {
     const char* kind = field.kind == FieldKind::integer ? "a whole number" : "a number";
-    problems.add(place.where(), fmt::format("expected {}{}, found {}; allowed is {}", kind, in_unit,
-                                            type_name(value), describe_range(field)));
-    return std::nullopt;
+    return problems.refuse(place.where(),
+                           fmt::format("expected {}{}, found {}; allowed is {}", kind, in_unit,
+                                       type_name(value), describe_range(field)));
   }
   const double number = value.get<double>();
   if (field.kind == FieldKind::integer && number != std::floor(number)) {
-    problems.add(place.where(), fmt::format("{} is not a whole number; allowed is {}", shown(value),
-                                            describe_range(field)));
-    return std::nullopt;
+    return problems.refuse(place.where(), fmt::format("{} is not a whole number; allowed is {}",
+                                                      shown(value), describe_range(field)));
   }
   if (!field.range.contains(number)) {
-    problems.add(place.where(), fmt::format("{} is out of range; allowed is {}", shown(value),
-                                            describe_range(field)));
-    return std::nullopt;
+    return problems.refuse(place.where(), fmt::format("{} is out of range; allowed is {}",
+                                                      shown(value), describe_range(field)));
   }
   return number;
 }

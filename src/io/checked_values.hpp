@@ -25,6 +25,11 @@ class Problems {
       : most_(most), in_all_(std::move(in_all)) {}
 
   void add(std::string where, std::string message);
+  /// The same, returning the nothing that stands for what was refused.
+  std::nullopt_t refuse(std::string where, std::string message) {
+    add(std::move(where), std::move(message));
+    return std::nullopt;
+  }
   void add(std::vector<InputProblem> problems);
 
   /// Calls `step`; false where it threw an InputError, whose problems then are among these.
@@ -39,7 +44,6 @@ class Problems {
     }
   }
 
-  [[nodiscard]] bool none() const { return kept_.empty(); }
   [[nodiscard]] std::size_t count() const { return kept_.size() + omitted_; }
 
   /// Throws InputError where there are any.
@@ -60,6 +64,10 @@ struct JsonPlace {
 
   [[nodiscard]] bool given() const { return value != nullptr; }
   [[nodiscard]] std::string where() const { return document->where(pointer); }
+  /// Of a list, the element with that index.
+  [[nodiscard]] JsonPlace element(std::size_t i) const {
+    return {document, &(*value)[i], pointer + "/" + std::to_string(i)};
+  }
 };
 
 /// The values of `fields` in the object at `object`, in the order of the fields, groups within

@@ -44,10 +44,6 @@ struct NumberReader {
   }
 };
 
-struct HalfReader {
-  double operator()(const std::byte* at) const { return read_half(at); }
-};
-
 /// Calls `use` with the reader of numbers of that kind, and returns its result. So a loop over many
 /// messages is compiled once for each kind, instead of asking for the kind in every message.
 template <class Use>
@@ -81,7 +77,7 @@ auto with_reader_of(char kind, Use use) {
     case 'L':
       return use(NumberReader<std::int32_t, 10'000'000>{});
     case 'g':
-      return use(HalfReader{});
+      return use(read_half);
     case 'f':
       return use(NumberReader<float>{});
     case 'd':

@@ -1,7 +1,5 @@
 #include "io/dataflash_walk.hpp"
 
-#include <algorithm>
-#include <string>
 #include <utility>
 
 namespace tethercalc::dataflash {

@@ -3,20 +3,124 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 #include <utility>
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "io/embedded_files.hpp"
 #include "io/entry_readers.hpp"
 #include "io/json_document.hpp"
-#include "io/spec_overrides.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
 namespace tethercalc {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// --- `--set path=value`: a spec edited from the command line -----------------------------------
+
+bool is_at_or_below(std::string_view pointer, std::string_view top) {
+  return pointer == top || is_below(pointer, top);
+}
+
+std::string pointer_of(std::string_view dotted) {
+  if (dotted.starts_with('/')) return std::string(dotted);
+  std::string pointer = "/" + std::string(dotted);
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  return pointer;
+}
+
+bool is_list(FieldKind kind) {
+  return kind == FieldKind::motor_points || kind == FieldKind::efficiency ||
+         kind == FieldKind::converter_masses;
+}
+
+std::string_view without_index(std::string_view rest) {
+  const std::size_t end = std::min(rest.find('/', 1), rest.size());
+  const bool is_index = rest.substr(1, end - 1).find_first_not_of("0123456789") == rest.npos;
+  return is_index ? rest.substr(end) : rest;
+}
+
+/// True where some spec may have a value at `pointer`.
+bool may_exist(std::string_view pointer, std::span<const SpecField> fields) {
+  return std::any_of(fields.begin(), fields.end(), [&](const SpecField& field) {
+    if (is_at_or_below(field.pointer, pointer)) return true;
+    if (!is_at_or_below(pointer, field.pointer)) return false;
+    std::string_view rest = pointer.substr(field.pointer.size());
+    if (is_list(field.kind)) rest = without_index(rest);
+    return rest.empty() || may_exist(rest, object_fields(field.kind));
+  });
+}
+
+/// The value at `key` of `parent`, made where an object lacks it; null where there can be none.
+Json* member_of(Json& parent, const std::string& key) {
+  if (parent.is_object()) return &parent[key];
+  if (!parent.is_array()) return nullptr;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+  const bool usable = error == std::errc() && end == key.data() + key.size();
+  return usable && index < parent.size() ? &parent[index] : nullptr;
+}
+
+/// JSON, or else a text as it stands. What opens a bracket is meant as JSON: its faults are thrown.
+Json value_of(const std::string& text, const std::string& option) {
+  try {
+    JsonDocument value = parse_json(text, option);
+    if (!value.problems.empty()) throw InputError(value.problems);
+    return std::move(value.root);
+  } catch (const InputError&) {
+    if (text.starts_with('{') || text.starts_with('[')) throw;
+    return text;
+  }
+}
+
+void forget_lines(JsonDocument& document, std::string_view pointer) {
+  const auto replaced = [&](const auto& entry) { return is_at_or_below(entry.first, pointer); };
+  std::erase_if(document.lines, replaced);
+  std::erase_if(document.options, replaced);
+}
+
+/// Edits `document` as `override_text` says. Reports a missing "=", a path that no spec has, with
+/// the closest that one may have, and a path below something that is no object or list. The value
+/// itself is left to the reader.
+void apply_override(JsonDocument& document, const std::string& override_text, Problems& problems) {
+  const std::string option = "--set " + override_text;
+  const std::size_t equals = override_text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return problems.add(option, "expected path=value, such as supply.voltage_V=60");
+  }
+  if (!is_utf8(override_text)) {
+    return problems.add("--set " + shown(override_text), "is not valid UTF-8");
+  }
+  const std::string path = override_text.substr(0, equals);
+  const std::string pointer = pointer_of(path);
+  if (!may_exist(pointer, spec_fields())) return problems.add(option, no_such_field(path));
+  Json new_value;
+  const bool read =
+      problems.succeeds([&] { new_value = value_of(override_text.substr(equals + 1), option); });
+  if (!read) return;
+  Json* value = &document.root;
+  std::string walked;
+  for (const std::string_view part : split(std::string_view(pointer).substr(1), '/')) {
+    const std::string key(part);
+    if (value->is_null()) *value = Json::object();
+    Json* member = member_of(*value, key);
+    if (member == nullptr) {
+      const std::string holder = walked.empty() ? "the spec" : dot_path(walked);
+      return problems.add(option, fmt::format("there is no {} in {}, which is {}", shown(key),
+                                              holder, type_name(*value)));
+    }
+    value = member;
+    walked = child_pointer(walked, key);
+  }
+  *value = std::move(new_value);
+  forget_lines(document, pointer);
+  document.options[pointer] = option;
+}
+
+// --- The fields of a spec -----------------------------------------------------------------------
 
 /// A boolean, or one of the words of the field's kind.
 void read_word(const JsonPlace& place, const SpecField& field, Design& design, Problems& problems) {
@@ -46,8 +150,7 @@ void read_points(const JsonPlace& place, std::span<const SpecField> fields, Prob
   const std::size_t before = problems.count();
   std::vector<Point> points;
   for (std::size_t i = 0; i < place.value->size(); ++i) {
-    const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
-    const std::vector<JsonPlace> places = field_places(at, fields, problems);
+    const std::vector<JsonPlace> places = field_places(place.element(i), fields, problems);
     const auto x = checked_number(places[0], fields[0], problems);
     const auto y = checked_number(places[1], fields[1], problems);
     if (x && y) points.push_back({*x * fields[0].si_factor, *y * fields[1].si_factor});
@@ -178,7 +281,7 @@ DesignFile design_of(JsonDocument document, const TextLoader& load,
                      std::span<const std::string> overrides) {
   Problems problems;
   problems.add(document.problems);
-  apply_overrides(document, overrides, problems);
+  for (const std::string& text : overrides) apply_override(document, text, problems);
   DesignFile result;
   result.name = as_utf8(file_stem(document.name));
   result.file = document.name;
@@ -200,5 +303,7 @@ DesignFile read_design_document(nlohmann::ordered_json document, const std::stri
                                 const TextLoader& load) {
   return design_of({file, std::move(document), {}, {}, {}}, load, {});
 }
+
+std::string starting_spec() { return std::string(embedded_file("starting_spec.json")); }
 
 }  // namespace tethercalc

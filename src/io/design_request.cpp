@@ -11,7 +11,7 @@
 #include "model/constants.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
-#include "tethercalc/study/result_keys.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
 namespace {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace tethercalc {
@@ -15,6 +17,11 @@ struct EmbeddedFile {
 std::span<const EmbeddedFile> embedded_files();
 
 /// The content of one of them, which must exist.
-std::string_view embedded_file(std::string_view name);
+inline std::string_view embedded_file(std::string_view name) {
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (file.name == name) return file.content;
+  }
+  throw std::logic_error(std::string(name) + " is not part of the program");
+}
 
 }  // namespace tethercalc

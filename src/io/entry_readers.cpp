@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "io/closest_name.hpp"
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 #include "io/embedded_files.hpp"
-#include "tethercalc/model/motor_bench.hpp"
+#include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -110,9 +110,9 @@ std::optional<MotorPoint> read_motor_point(const JsonPlace& place, Problems& pro
   const std::optional<double> power = point.number("/power_W");
   if (point.faulty()) return std::nullopt;
   if (efficiency.has_value() == power.has_value()) {
-    problems.add(place.where(), fmt::format("give either efficiency_g_per_W or power_W, found {}",
-                                            power ? "both" : "neither"));
-    return std::nullopt;
+    return problems.refuse(place.where(),
+                           fmt::format("give either efficiency_g_per_W or power_W, found {}",
+                                       power ? "both" : "neither"));
   }
   return MotorPoint{*thrust * unit::gram_force, power ? *power : *thrust / *efficiency};
 }
@@ -121,18 +121,17 @@ std::optional<std::vector<BenchPoint>> read_motor_points(const JsonPlace& place,
                                                          Problems& problems) {
   if (!place.given()) return std::nullopt;
   if (!place.value->is_array()) {
-    problems.add(place.where(), "expected a list of points, found " + type_name(*place.value));
-    return std::nullopt;
+    return problems.refuse(place.where(),
+                           "expected a list of points, found " + type_name(*place.value));
   }
   if (place.value->size() < 2) {
-    problems.add(place.where(), fmt::format("a motor curve needs at least 2 points, found {}",
-                                            place.value->size()));
-    return std::nullopt;
+    return problems.refuse(
+        place.where(),
+        fmt::format("a motor curve needs at least 2 points, found {}", place.value->size()));
   }
   std::vector<BenchPoint> points;
   for (std::size_t i = 0; i < place.value->size(); ++i) {
-    const JsonPlace at{place.document, &(*place.value)[i], fmt::format("{}/{}", place.pointer, i)};
-    if (const auto point = read_motor_point(at, problems)) {
+    if (const auto point = read_motor_point(place.element(i), problems)) {
       points.push_back({*point, fmt::format("point {}", i + 1)});
     }
   }
@@ -221,11 +220,11 @@ std::optional<Entry> entry_from_library(const std::string& id, const std::string
     if (*found == id) return entry_from_text<Entry>(file.content, std::string(file.name), problems);
     ids.push_back(*found);
   }
-  problems.add(where, fmt::format("no {} {} in the library{} (`tethercalc list {}` shows all; the "
-                                  "path of a file holds a \"/\" or ends in .json{})",
-                                  kind.noun, shown(id), did_you_mean(id, ids), kind.folder,
-                                  kind.may_be_csv ? " or .csv" : ""));
-  return std::nullopt;
+  return problems.refuse(
+      where, fmt::format("no {} {} in the library{} (`tethercalc list {}` shows all; the "
+                         "path of a file holds a \"/\" or ends in .json{})",
+                         kind.noun, shown(id), did_you_mean(id, ids), kind.folder,
+                         kind.may_be_csv ? " or .csv" : ""));
 }
 
 template <typename Entry>
@@ -276,10 +275,10 @@ std::optional<Entry> entry_at(const JsonPlace& place, const TextLoader& load, Pr
   if (place.value->is_string()) {
     return entry_named<Entry>(place.value->get<std::string>(), load, place.where(), problems);
   }
-  problems.add(place.where(),
-               fmt::format("expected the name of a {}, the path of a file or an object, found {}",
-                           kind_of<Entry>.noun, type_name(*place.value)));
-  return std::nullopt;
+  return problems.refuse(
+      place.where(),
+      fmt::format("expected the name of a {}, the path of a file or an object, found {}",
+                  kind_of<Entry>.noun, type_name(*place.value)));
 }
 
 template <typename Entry>
@@ -328,10 +327,10 @@ std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const st
     }
   }
   if (points.size() < 2 && !entry.warnings.empty()) {
-    problems.add(name, fmt::format("{} of {} rows have no thrust or no power above 0, and a motor "
-                                   "curve needs 2 that have; is a sign reversed?",
-                                   entry.warnings.size(), values[0].size()));
-    return std::nullopt;
+    return problems.refuse(
+        name, fmt::format("{} of {} rows have no thrust or no power above 0, and a motor "
+                          "curve needs 2 that have; is a sign reversed?",
+                          entry.warnings.size(), values[0].size()));
   }
   if (!set_curve(entry, points, name, problems)) return std::nullopt;
   return entry;

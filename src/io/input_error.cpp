@@ -1,7 +1,5 @@
 #include "tethercalc/io/input_error.hpp"
 
-#include <utility>
-
 namespace tethercalc {
 namespace {
 

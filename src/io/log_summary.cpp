@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/log_readers.hpp"
 
 namespace tethercalc {
 namespace {

@@ -10,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -125,8 +124,7 @@ class AxisReader {
   using Values = std::optional<decltype(SweepAxis::values)>;
 
   std::nullopt_t refuse(std::string message) {
-    problems_.add(option_, std::move(message));
-    return std::nullopt;
+    return problems_.refuse(option_, std::move(message));
   }
 
   std::optional<double> number(std::string_view text) {

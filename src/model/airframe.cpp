@@ -1,8 +1,5 @@
 #include "tethercalc/model/airframe.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "model/constants.hpp"
 
 namespace tethercalc {

@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include "tethercalc/model/units.hpp"

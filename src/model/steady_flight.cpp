@@ -1,8 +1,6 @@
 #include "tethercalc/model/steady_flight.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "tethercalc/model/power_line.hpp"
 

@@ -8,8 +8,7 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/io/spec_writer.hpp"
-#include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/design_sentences.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc {

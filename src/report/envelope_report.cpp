@@ -4,8 +4,7 @@
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
-#include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/design_sentences.hpp"
 
 namespace tethercalc {
 namespace {

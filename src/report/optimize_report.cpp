@@ -6,8 +6,7 @@
 
 #include "report/result_values.hpp"
 #include "tethercalc/io/spec_fields.hpp"
-#include "tethercalc/report/cable_report.hpp"
-#include "tethercalc/report/limit_sentences.hpp"
+#include "tethercalc/report/design_sentences.hpp"
 
 namespace tethercalc {
 namespace {

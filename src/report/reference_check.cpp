@@ -11,7 +11,6 @@
 #include "io/json_document.hpp"
 #include "report/characters.hpp"
 #include "report/result_values.hpp"
-#include "tethercalc/io/design_reader.hpp"
 
 namespace tethercalc {
 namespace {
@@ -53,8 +52,8 @@ std::optional<RecordedResult> compared(const JsonDocument& document, const Named
   const std::string pointer = child_pointer("", computed.name);
   const ordered_json& entry = document.root[computed.name];
   if (!entry.is_object() || !entry.contains("value")) {
-    problems.add(document.where(pointer), "expected an object with \"value\" and a tolerance");
-    return std::nullopt;
+    return problems.refuse(document.where(pointer),
+                           "expected an object with \"value\" and a tolerance");
   }
   const std::vector<std::string> known{"value", tolerances[0], tolerances[1]};
   for (const auto& [key, value] : entry.items()) {

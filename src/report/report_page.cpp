@@ -9,7 +9,7 @@
 #include "report/characters.hpp"
 #include "report/html.hpp"
 #include "tethercalc/io/spec_fields.hpp"
-#include "tethercalc/report/cable_report.hpp"
+#include "tethercalc/report/design_sentences.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 

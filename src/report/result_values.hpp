@@ -6,8 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "tethercalc/study/reference.hpp"
-#include "tethercalc/study/result_keys.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
 

@@ -5,7 +5,7 @@
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
-#include "io/csv_rows.hpp"
+#include "io/csv.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 

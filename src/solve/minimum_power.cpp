@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <vector>
 
 #include "model/constants.hpp"
 #include "solve/valley_search.hpp"

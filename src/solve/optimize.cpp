@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "model/constants.hpp"
-#include "tethercalc/solve/headroom.hpp"
 
 namespace tethercalc {
 namespace {
@@ -242,24 +241,12 @@ Flights flights_of(const Design& design) {
 }  // namespace
 
 Limit limit_of(Demand demand) {
-  switch (demand) {
-    case Demand::takeoff_mass:
-      return Limit::takeoff_mass;
-    case Demand::max_pitch:
-      return Limit::max_pitch;
-    case Demand::input_voltage:
-      return Limit::input_voltage;
-    case Demand::thrust_headroom:
-      break;
-    case Demand::conductor_temperature:
-    case Demand::drum_temperature:
-      return Limit::conductor_temperature;
-    case Demand::tether_strength:
-      return Limit::tether_strength;
-    case Demand::converter_rating:
-      return Limit::converter_rating;
-  }
-  return Limit::available_power;
+  constexpr std::array<Limit, demand_count> limits{
+      Limit::takeoff_mass,          Limit::max_pitch,
+      Limit::input_voltage,         Limit::available_power,
+      Limit::conductor_temperature, Limit::conductor_temperature,
+      Limit::tether_strength,       Limit::converter_rating};  // as in Demand
+  return limits[static_cast<std::size_t>(demand)];
 }
 
 Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand) {

@@ -1,6 +1,5 @@
 #include "tethercalc/solve/remedies.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -10,17 +9,9 @@ namespace tethercalc {
 namespace {
 
 double& quantity_of(Design& design, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::supply_voltage:
-      return design.supply.voltage;
-    case Quantity::drone_mass:
-      return design.drone.mass;
-    case Quantity::tether_length:
-      return design.tether.length;
-    case Quantity::airspeed:
-      break;
-  }
-  return design.flight.airspeed;
+  double* const all[] = {&design.supply.voltage, &design.drone.mass, &design.tether.length,
+                         &design.flight.airspeed};  // in the order of Quantity
+  return *all[static_cast<std::size_t>(quantity)];
 }
 
 double bound_of(Quantity quantity, double present) {

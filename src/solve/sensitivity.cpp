@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <stdexcept>
 
 #include "model/constants.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/normal.hpp>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

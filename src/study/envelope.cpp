@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 namespace {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "tethercalc/model/steady_flight.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -110,6 +112,31 @@ bool converter_caps(const Design& design, Condition condition, double area) {
 }
 
 }  // namespace
+
+std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const double> areas) {
+  const SteadyFlight hover(design, Condition::hover);
+  const SteadyFlight forward(design, Condition::forward);
+  std::vector<AreaPoints> table;
+  for (const double area : areas) {
+    AreaPoints points{area, evaluate(hover, area), evaluate(forward, area), {}};
+    points.worst = demand_margins(design, points.hover, points.forward).worst();
+    table.push_back(points);
+  }
+  return table;
+}
+
+std::vector<WireNeighbours> wire_sizes_near(std::span<const WireSize> sizes, double area) {
+  std::vector<WireNeighbours> all;
+  for (const WireSize& size : sizes) {
+    auto near = std::find_if(all.begin(), all.end(), [&size](const WireNeighbours& neighbours) {
+      return neighbours.standard == size.standard;
+    });
+    if (near == all.end()) near = all.insert(all.end(), {size.standard, {}, {}});
+    if (size.area <= area) near->below = size;
+    if (size.area >= area && !near->above) near->above = size;
+  }
+  return all;
+}
 
 Refusal refusal_of(const Design& design, const Optimization& result) {
   Refusal refusal{result.limited_by, result.limiting_condition, {}, false};

@@ -14,7 +14,7 @@
 #include "support/reference_data.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/power_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/model/operating_point.hpp"
 
 using namespace tethercalc;

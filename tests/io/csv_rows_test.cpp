@@ -1,4 +1,4 @@
-#include "io/csv_rows.hpp"
+#include "io/csv.hpp"
 
 #include <rapidcheck.h>
 

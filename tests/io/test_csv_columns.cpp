@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 #include "tethercalc/files/read_files.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
-#include "tethercalc/io/power_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/model/units.hpp"
 
 using namespace tethercalc;

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "support/dataflash_writer.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/dataflash.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 
 using namespace tethercalc;

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "files/mapped_file.hpp"
+#include "files/input_files.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/dataflash.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/model/units.hpp"
 

@@ -8,8 +8,8 @@
 #include "io/longest_increasing.hpp"
 #include "support/dataflash_writer.hpp"
 #include "support/random.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/model/units.hpp"
 
 using namespace tethercalc;

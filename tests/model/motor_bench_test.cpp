@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/random.hpp"
-#include "tethercalc/model/motor_bench.hpp"
+#include "tethercalc/model/motor_curve.hpp"
 
 using namespace tethercalc;
 

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/spec_fields.hpp"
-#include "tethercalc/study/result_keys.hpp"
+#include "tethercalc/study/results.hpp"
 
 using namespace tethercalc;
 using namespace tethercalc::test;

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
-#include "tethercalc/report/sweep_summary.hpp"
+#include "tethercalc/report/sweep_report.hpp"
 
 using namespace tethercalc;
 using namespace tethercalc::test;

@@ -1,4 +1,4 @@
-#include "tethercalc/study/design_search.hpp"
+#include "tethercalc/study/design.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

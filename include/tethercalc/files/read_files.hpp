@@ -6,8 +6,7 @@
 #include <string>
 
 #include "tethercalc/io/design_reader.hpp"
-#include "tethercalc/io/flight_log_reader.hpp"
-#include "tethercalc/io/power_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 
 namespace tethercalc {
 

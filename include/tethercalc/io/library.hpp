@@ -3,12 +3,11 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "tethercalc/model/design.hpp"
-#include "tethercalc/study/wire_sizes.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
 

@@ -128,7 +128,4 @@ struct FieldConflict {
 /// points of a curve, duplicate keys.
 [[nodiscard]] nlohmann::ordered_json spec_schema();
 
-/// The reference of all fields as Markdown: the content of docs/spec.md.
-[[nodiscard]] std::string spec_reference();
-
 }  // namespace tethercalc

@@ -8,7 +8,6 @@
 #include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/reserve_battery.hpp"
 #include "tethercalc/model/tether.hpp"
-#include "tethercalc/model/translational_lift.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {

@@ -1,5 +1,6 @@
 // The electrical power one motor with its propeller needs for a thrust, and the thrust it makes of
-// a power: the data sheet's curve, both ways.
+// a power: the data sheet's curve, both ways; how it comes out of noisy test-bench points, and what
+// the airspeed changes.
 #pragma once
 
 #include <cstddef>
@@ -113,5 +114,47 @@ struct MotorEntry {
   MotorCurve curve;                    ///< of one motor, at that voltage with that propeller
   std::vector<std::string> warnings;   ///< what was done to noisy points, one sentence each
 };
+
+/// Part of the motor power that falls with airspeed. Neutral: `induced_share` 0, the published
+/// model, in which a thrust costs the same power at every airspeed.
+struct TranslationalLift {
+  double induced_share = 0;        ///< in [0, 1): part of the hover power that is induced
+  double hover_induced_speed = 6;  ///< m/s, > 0: speed of the air through the rotor disc in hover,
+                                   ///< √(T/(2ρA_disc)) of the ideal rotor
+};
+
+/// Induced velocity in level flight over that in hover, in (0, 1], for `speed_ratio` = airspeed
+/// over hover induced velocity (of either sign): the root of ν·√(μ² + ν²) = 1, i.e. ν² = √(1 +
+/// μ⁴/4) − μ²/2 (Glauert's momentum theory; Leishman, Principles of Helicopter Aerodynamics, 2nd
+/// ed., section 2.14, with the disc level).
+[[nodiscard]] double induced_velocity_ratio(double speed_ratio);
+
+/// Motor power at `airspeed` (m/s) over the power the static motor curve gives for the same thrust:
+/// 1 − s·(1 − ν(v/v_h)). 1 at rest.
+[[nodiscard]] double translational_lift_factor(const TranslationalLift& lift, double airspeed);
+
+/// Measured points that contradicted each other and were replaced by their mean.
+struct PooledMotorPoints {
+  std::vector<std::size_t> members;  ///< positions in the measured points, by rising thrust
+  MotorPoint mean;                   ///< the point in their place
+};
+
+/// What `isotonic_motor_points` made of measured points.
+struct IsotonicMotorPoints {
+  std::vector<MotorPoint> points;         ///< by strictly rising thrust and strictly rising power
+  std::vector<PooledMotorPoints> pooled;  ///< by rising thrust; empty where nothing was pooled
+};
+
+/// Points fit for a MotorCurve from measured ones in any order: the isotonic regression of power on
+/// thrust by pooling adjacent violators (Ayer, Brunk, Ewing, Reid and Silverman 1955, Annals of
+/// Mathematical Statistics 26(4), 641–647): neighbours whose power does not rise are replaced by
+/// their mean power, which is the least-squares fit among all curves that do not fall. Since a
+/// MotorCurve is inverted it must rise strictly, so a pool becomes a single point at its mean
+/// thrust instead of a level stretch. Points of equal thrust are pooled first. Points that rise are
+/// kept to the last digit.
+///
+/// Throws std::invalid_argument where a thrust or power is not finite and positive. Takes time
+/// n·log n.
+[[nodiscard]] IsotonicMotorPoints isotonic_motor_points(std::span<const MotorPoint> measured);
 
 }  // namespace tethercalc

@@ -9,7 +9,7 @@
 
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/report/text_table.hpp"
-#include "tethercalc/study/reference.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
 

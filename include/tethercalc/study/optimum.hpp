@@ -1,4 +1,5 @@
-// Which cross-section to fly, and what is told beside it; the same for a choice of motors.
+// What a design does at given cross-sections, which of them to fly, and what is told beside it; the
+// same for a choice of motors.
 #pragma once
 
 #include <optional>
@@ -6,13 +7,48 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/model/demands.hpp"
 #include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 #include "tethercalc/solve/remedies.hpp"
-#include "tethercalc/study/evaluation.hpp"
-#include "tethercalc/study/wire_sizes.hpp"
 
 namespace tethercalc {
+
+/// One cross-section in both flight conditions.
+struct AreaPoints {
+  double area = 0;         ///< m²
+  OperatingPoint hover;    ///< in hover
+  OperatingPoint forward;  ///< in forward flight
+  DemandMargin worst;      ///< of the demands on the design, the one least met
+
+  /// The point in `condition`.
+  [[nodiscard]] const OperatingPoint& in(Condition condition) const {
+    return condition == Condition::hover ? hover : forward;
+  }
+};
+
+/// Both conditions at each of `areas` (m², > 0).
+[[nodiscard]] std::vector<AreaPoints> evaluate_areas(const Design& design,
+                                                     std::span<const double> areas);
+
+/// A size in which conductors are sold.
+struct WireSize {
+  std::string standard;  ///< "AWG", "IEC 60228" or "VDE 0295"
+  std::string name;      ///< "AWG 17", "1.5 mm²"
+  double area = 0;       ///< m²
+};
+
+/// Neighbours of an area among the sizes of one standard. Both are the same where it is one of
+/// them.
+struct WireNeighbours {
+  std::string standard;           ///< as in WireSize
+  std::optional<WireSize> below;  ///< the largest not above the area
+  std::optional<WireSize> above;  ///< the smallest not below it
+};
+
+/// The neighbours of `area` in m² (finite, ≥ 0) in each standard of `sizes`, which rise.
+[[nodiscard]] std::vector<WireNeighbours> wire_sizes_near(std::span<const WireSize> sizes,
+                                                          double area);
 
 /// Why a design has no optimum.
 struct Refusal {

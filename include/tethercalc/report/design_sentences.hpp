@@ -1,4 +1,5 @@
-// What results say of the cable beside its power: heat, strength, and the class of its voltage.
+// What every answer says of a design in words: what limits it, and heat, strength and voltage of
+// its cable.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,9 +7,30 @@
 #include <vector>
 
 #include "tethercalc/io/design_reader.hpp"
-#include "tethercalc/study/evaluation.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
+
+/// "hover" or "forward flight".
+[[nodiscard]] std::string condition_words(Condition condition);
+
+/// Why a cable cannot be used in this design, in a few words; empty where it can.
+[[nodiscard]] std::string shortcoming(const Design& design, const AreaPoints& points);
+
+/// Why the optimum is where it is. For a feasible result.
+[[nodiscard]] std::string limit_sentence(const Design& design, const Optimization& result);
+
+/// What binds where this demand does: "The converter's rated 450 W".
+[[nodiscard]] std::string demand_words(const Design& design, Demand demand);
+
+/// What happens where this limit is passed: "the converter's rating is passed in hover".
+[[nodiscard]] std::string beyond_words(const Design& design, Limit limit, Condition where);
+
+/// Why there is no optimum, with the best that can be reached.
+[[nodiscard]] std::string refusal_sentence(const Design& design, const Refusal& refusal);
+
+/// The same in a few words, for a table.
+[[nodiscard]] std::string refusal_words(const Design& design, const Refusal& refusal);
 
 /// The class of a direct voltage in V, {`name`, `sentence`}: "touchable_elv" up to 60 V, "elv" up
 /// to 120 V, "low_voltage" up to 1500 V (extra-low voltage of IEC 61140 and IEC 60364-4-41,

@@ -1,13 +1,23 @@
-// A file's bytes without a copy of them.
+// The whole content of a file to read: a small text, or any number of bytes without a copy of them.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
-#include <vector>
+
+#include "tethercalc/io/library.hpp"
 
 namespace tethercalc {
+
+/// Specs, motors and materials are a few kilobytes; a file larger than this was named by mistake.
+inline constexpr std::size_t text_file_limit = std::size_t{1} << 20;
+
+/// Reads `path`, or standard input where it is "-". Throws InputError where there is no such file
+/// (naming the closest one in that folder), where it is a directory, unreadable, empty, or larger
+/// than `text_file_limit` bytes, of which no more is read.
+LoadedText read_text_file(const std::string& path);
 
 /// A whole file, read in place: a regular file is memory-mapped, so that only the pages looked at
 /// are loaded and none counts as memory of this process; a pipe or device is read into memory.
@@ -31,7 +41,7 @@ class MappedFile {
 
  private:
   std::span<const std::byte> bytes_;
-  std::vector<std::byte> copy_;  // holds the bytes where the file could not be mapped
+  std::string copy_;  // holds the bytes where the file could not be mapped
 };
 
 }  // namespace tethercalc

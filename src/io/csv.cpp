@@ -1,4 +1,4 @@
-#include "io/csv_columns.hpp"
+#include "io/csv.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +19,10 @@ namespace {
 // More would scroll the first, which is usually the cause, off the screen.
 constexpr std::size_t most_cell_problems = 20;
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.substr(text.starts_with(mark) ? mark.size() : 0);
+}
 
 class CellProblems : public Problems {
  public:
@@ -127,9 +130,8 @@ void take_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
   }
   if (value < column.minimum || value > column.maximum) return reject(allowed_values(column));
   if (column.increasing && !above.empty() && value <= above.back()) {
-    problems.add(line, fmt::format("{} is {}, expected more than the {} before it", column.name,
-                                   value, above.back()));
-    return;
+    return problems.add(line, fmt::format("{} is {}, expected more than the {} before it",
+                                          column.name, value, above.back()));
   }
   above.push_back(value);
 }
@@ -140,7 +142,7 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
                                                   std::span<const CsvColumn> wanted,
                                                   OtherCsvColumns others) {
   CellProblems problems(file_name);
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   if (text.empty()) {
     problems.add(1, fmt::format("the file is empty, expected the header {}",
                                 fmt::join(names_of(wanted), ",")));
@@ -169,6 +171,65 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
   }
   problems.throw_if_any();
   return columns;
+}
+
+CsvRows::CsvRows(std::string_view text, std::string file)
+    : rest_(without_byte_order_mark(text)), file_(std::move(file)) {}
+
+std::string CsvRows::where() const { return fmt::format("{}:{}", file_, row_line_); }
+
+std::string CsvRows::quoted_cell() {
+  std::string cell;
+  const std::size_t begin_line = line_;
+  rest_.remove_prefix(1);
+  while (true) {
+    const std::size_t quote = rest_.find('"');
+    if (quote == std::string_view::npos) {
+      throw InputError(fmt::format("{}:{}", file_, begin_line), "a quote is opened and not closed");
+    }
+    line_ += std::size_t(std::count(rest_.begin(), rest_.begin() + std::ptrdiff_t(quote), '\n'));
+    cell += rest_.substr(0, quote);
+    rest_.remove_prefix(quote + 1);
+    if (!rest_.starts_with('"')) return cell;
+    cell += '"';
+    rest_.remove_prefix(1);
+  }
+}
+
+bool CsvRows::next(std::vector<std::string>& cells) {
+  cells.clear();
+  while (rest_.starts_with('\n') || rest_.starts_with("\r\n")) {
+    rest_.remove_prefix(rest_.find('\n') + 1);
+    ++line_;
+  }
+  if (rest_.empty()) return false;
+  row_line_ = line_;
+  while (true) {
+    if (rest_.starts_with('"')) {
+      cells.push_back(quoted_cell());
+      if (!rest_.empty() && rest_.find_first_of(",\r\n") != 0) {
+        throw InputError(
+            fmt::format("{}:{}", file_, line_),
+            fmt::format("there is text after the quoted cell \"{}\"", cells.back().substr(0, 40)));
+      }
+    } else {
+      const std::size_t end = std::min(rest_.find_first_of(",\n"), rest_.size());
+      std::string_view cell = rest_.substr(0, end);
+      if (cell.ends_with('\r') && !rest_.substr(end).starts_with(',')) cell.remove_suffix(1);
+      cells.emplace_back(cell);
+      rest_.remove_prefix(end);
+    }
+    if (rest_.starts_with(',')) {
+      rest_.remove_prefix(1);
+      continue;
+    }
+    if (rest_.starts_with('\r')) rest_.remove_prefix(1);
+    if (rest_.starts_with('\n')) {
+      rest_.remove_prefix(1);
+      ++line_;
+    }
+    return true;
+  }
 }
 
 }  // namespace tethercalc

@@ -1,4 +1,4 @@
-#include "tethercalc/io/flight_log_reader.hpp"
+#include "tethercalc/io/log_readers.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <utility>
 
-#include "io/csv_columns.hpp"
+#include "diagnose/power_channels.hpp"
+#include "io/csv.hpp"
 #include "io/longest_increasing.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -276,6 +276,21 @@ FlightLogReading parse_flight_log(std::span<const std::byte> content, const std:
   }
   if (looks_like_dataflash(content)) return read_dataflash(content, name, options);
   return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name, options);
+}
+
+PowerLog parse_power_log(std::string_view text, std::string_view name) {
+  std::vector<CsvColumn> wanted{{.name = "time_s", .increasing = true}};
+  for (const PowerChannel& channel : power_channels) {
+    wanted.push_back({.name = channel.name, .required = !channel.optional});
+    if (channel.values == &PowerLog::ambient_temperature_C) wanted.back().minimum = -zero_celsius_K;
+  }
+  auto columns = read_csv_columns(text, name, wanted, OtherCsvColumns::rejected);
+  PowerLog log;
+  log.time = std::move(columns[0]);
+  for (std::size_t c = 0; c < power_channels.size(); ++c) {
+    log.*power_channels[c].values = std::move(columns[c + 1]);
+  }
+  return log;
 }
 
 }  // namespace tethercalc

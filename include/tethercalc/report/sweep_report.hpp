@@ -1,10 +1,13 @@
-// One line of text a design: what a sweep writes.
+// What a sweep answers: a line of text a design and, of a sample, how its results are spread and
+// which inputs spread them.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "tethercalc/report/text_table.hpp"
 #include "tethercalc/study/sweep.hpp"
 
 namespace tethercalc {
@@ -37,5 +40,12 @@ class SweepRows {
   std::string header_;
   std::vector<std::string> openings_;  ///< what stands in front of each column's value
 };
+
+/// Tables for people.
+[[nodiscard]] std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
+                                       const TextStyle& style);
+/// The same for programs, numbers in full.
+[[nodiscard]] nlohmann::ordered_json summary_json(const SweepSummary& summary,
+                                                  const SweepSpace& space);
 
 }  // namespace tethercalc

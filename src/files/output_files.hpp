@@ -1,11 +1,17 @@
-// A text file that grows by whole lines and is usable whenever writing stops.
+// Files that are written whole or not at all, or row by row and usable whenever writing stops.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace tethercalc {
+
+/// Writes `content` to a temporary file beside `path` and renames it, so that `path` holds either
+/// what it held before or all of `content`. Devices and pipes, such as /dev/stdout, are written
+/// directly. Throws InputError, naming the file and the system's reason, where that fails.
+void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
 /// Lines written one after the other. Whatever ends the writing, the file holds a prefix of them:
 /// where a write fails, what it left of a line is cut off again, and where the process is killed
