@@ -117,10 +117,10 @@ std::string finding_panel(const gp::Layout& layout, double top, const Diagnosis&
   const std::string name = fmt::format("finding{}", k + 1);
   const gp::Range x = gp::bulk(rows[0]);
   const Table means = binned(rows, x);
-  const double dot = dot_width / 2 * (x.hi - x.lo);
+  const double size = dot_width / 2 * (x.hi - x.lo);
   gp::Plot plot;
-  plot.dots("$" + name, 1, 2, dot, colour::orange, "without it", 1);
-  plot.dots("$" + name, 1, 3, dot, colour::sky, "with it", 1);
+  plot.dots("$" + name, 1, 2, size, colour::orange, "without it", 1);
+  plot.dots("$" + name, 1, 3, size, colour::sky, "with it", 1);
   plot.curve("$means" + name + " using 1:2", gp::line(colour::vermilion, 1, 2), "means without it");
   plot.curve("$means" + name + " using 1:3", gp::line(colour::blue, 2, 2), "means with it");
   std::string out =
