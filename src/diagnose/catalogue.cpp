@@ -129,7 +129,6 @@ std::vector<Effect> flight_effects() {
              for (std::size_t i = 0; i < p.headwind.size(); ++i) {
                const double yaw = p.record.yaw[i];
                p.headwind[i] += x[0] * std::cos(yaw) + x[1] * std::sin(yaw);
-               p.crosswind[i] += x[1] * std::cos(yaw) - x[0] * std::sin(yaw);
              }
            }},
 

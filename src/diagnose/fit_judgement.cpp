@@ -102,27 +102,35 @@ std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit
   const VectorXd residual = weight.cwiseProduct(fit.residual);
   const MatrixXd gram = slopes.transpose() * slopes;
   const VectorXd along = slopes.transpose() * residual;
-  const auto step = [&sizes](const MatrixXd& g, const VectorXd& a) -> VectorXd {
-    return (symmetric_pseudo_inverse(g) * a).tail(sizes.cols());
+  const auto step = [](const MatrixXd& g, const VectorXd& a) -> VectorXd {
+    return symmetric_pseudo_inverse(g) * a;
   };
   const VectorXd whole = step(gram, along);
-  MatrixXd left_out(sizes.cols(), static_cast<Index>(record.blocks()));
+  MatrixXd left_out(slopes.cols(), static_cast<Index>(record.blocks()));
   for (std::size_t b = 0; b < record.blocks(); ++b) {
     const MatrixXd rows = slopes.middleRows(record.block_begin(b), record.block_size(b));
     const VectorXd rest = residual.segment(record.block_begin(b), record.block_size(b));
     left_out.col(static_cast<Index>(b)) =
         step(gram - rows.transpose() * rows, along - rows.transpose() * rest);
   }
-  const VectorXd error = jackknife_covariance(std::move(left_out)).diagonal().cwiseSqrt();
+  const MatrixXd covariance = jackknife_covariance(std::move(left_out));
 
   std::vector<SizeEstimate> estimates;
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   for (std::size_t k = 0; k < own.size(); ++k) {
     if (own[k].shape_only) continue;
-    const auto column = static_cast<Index>(estimates.size());
-    estimates.push_back({record.first_parameter(group) + k,
-                         own[k].neutral + own[k].scale * whole[column],
-                         own[k].scale * error[column]});
+    const Index column = fit.jacobian.cols() + static_cast<Index>(estimates.size());
+    SizeEstimate& size = estimates.emplace_back();
+    size.parameter = record.first_parameter(group) + k;
+    size.value = own[k].neutral + own[k].scale * whole[column];
+    size.standard_error = own[k].scale * std::sqrt(covariance(column, column));
+    const auto base = std::find(fit.active.begin(), fit.active.end(), own[k].product_with);
+    if (base == fit.active.end()) continue;
+    const Index base_column = base - fit.active.begin();
+    const double relative = record.parameters()[*base].scale / fit.values[*base];
+    size.base = 1 + relative * whole[base_column];
+    size.base_error = relative * std::sqrt(covariance(base_column, base_column));
+    size.covariance = own[k].scale * relative * covariance(column, base_column);
   }
   return estimates;
 }
@@ -144,10 +152,11 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
                        static_cast<double>(candidate.sizes.size() * candidates.size());
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
     }
-    if (candidate.p_value > suspicious) continue;
     const BlockFit freed = with(g);
     candidate.gain_percent = gain_percent(fit.squared_error(), freed.squared_error());
     candidate.gain_se_percent = gain_se_percent(fit.block_error, freed.block_error);
+    candidate.freed = neutral_fit(record.problem(), record.blocks());
+    add_fit(record, freed, {}, candidate.freed);
   }
   return open;
 }

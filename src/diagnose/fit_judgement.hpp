@@ -48,11 +48,7 @@ class LinearisedGains {
   Eigen::VectorXd along_;  ///< the residual along each of them
 };
 
-/// Chance of what an open candidate shows, below which it is suspected.
-inline constexpr double suspicious = 0.05;
-
-/// What the fit says of each of `candidates`. `with` gives the fit with one of them freed, and is
-/// asked where that is suspicious.
+/// What the fit says of each of `candidates`. `with` gives the fit with one of them freed.
 [[nodiscard]] std::vector<Selection::Open> judge_open(
     const Record& record, const BlockFit& fit, const Groups& candidates,
     const std::function<BlockFit(std::size_t)>& with);

@@ -65,7 +65,6 @@ FlightPrediction::FlightPrediction(const FlightRecord& flight)
     : record(flight),
       tilt(flight.size()),
       headwind(flight.size()),
-      crosswind(flight.size()),
       airspeed(flight.size()),
       drag(flight.size()),
       acceleration(flight.size()) {}
@@ -76,7 +75,6 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   const std::size_t size = record.size();
   p.tilt = record.tilt;
   p.headwind.assign(size, 0.0);
-  p.crosswind.assign(size, 0.0);
   p.law = {base.front_area, base.top_area, 0, 0};
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
@@ -89,8 +87,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
-    p.drag[i] = airframe_drag_along(p.law, record.air_density, p.airspeed[i],
-                                    record.right_speed[i] - p.crosswind[i], tan_tilt[i]);
+    p.drag[i] = airframe_drag_along(p.law, record.air_density, p.airspeed[i], record.right_speed[i],
+                                    tan_tilt[i]);
   }
   act(p, effects, FlightPhase::force);
 

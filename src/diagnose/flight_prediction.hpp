@@ -77,10 +77,12 @@ struct EffectValues {
 };
 
 /// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the forward part of the drag
-/// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`. A thrust along the
-/// body's z-axis turned by yaw, pitch and roll in this order points forward by tan θ of what it
-/// carries, whatever the roll; the published 1/cos φ is not in it. Effects act in the order given
-/// within each phase; those at their neutral values change nothing.
+/// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`. To the right the
+/// airspeed is taken as the speed over ground: a crosswind that is fitted mimics linear drag, since
+/// both drag in proportion to a small speed forward, and most flights turn too little to tell them
+/// apart. A thrust along the body's z-axis turned by yaw, pitch and roll in this order points
+/// forward by tan θ of what it carries, whatever the roll; the published 1/cos φ is not in it.
+/// Effects act in the order given within each phase; those at their neutral values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
 

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "diagnose/fit_judgement.hpp"
 #include "identify/series.hpp"
 #include "model/constants.hpp"
 
@@ -26,6 +25,12 @@ ModelParameter in_SI(const EffectParameter& p, const Design& design) {
   return m;
 }
 
+/// Chance of an open effect's size below which it is suspected.
+constexpr double suspicious = 0.05;
+/// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
+/// enough to be judged does not gain a tenth of the error.
+constexpr double much = 5;
+
 using Interval = std::pair<double, double>;
 
 Interval symmetric_interval(const ModelFit& fit, std::size_t parameter,
@@ -34,29 +39,49 @@ Interval symmetric_interval(const ModelFit& fit, std::size_t parameter,
   return {fit.values[parameter] - half, fit.values[parameter] + half};
 }
 
-/// Of a ratio p = b/a, by its product b with the parameter a, which has a usable spread also where
-/// a may be zero: all p with (b − p·a)² ≤ t²·var(b − p·a), as far as they hang together with the
-/// estimate (Fieller, J. R. Stat. Soc. B 16, 1954).
-Interval ratio_interval(const ModelFit& fit, std::size_t parameter, std::size_t of,
-                        const Selection& selection) {
-  const double p = fit.values[parameter];
-  const double a = fit.values[of];
-  const double t2 = selection.student_factor * selection.student_factor;
-  const double var_p = fit.standard_error[parameter] * fit.standard_error[parameter];
-  const double var_a = fit.standard_error[of] * fit.standard_error[of];
-  const double cov_pa = fit.product_covariance[parameter];
-  const double var_b = a * a * var_p + 2 * a * p * cov_pa + p * p * var_a;
-  const double cov_ab = a * cov_pa + p * var_a;
+/// What a ratio is made of: `numerator` over `base`, with their variances and covariance.
+struct Ratio {
+  double numerator = 0;
+  double base = 1;
+  double numerator_variance = 0;
+  double base_variance = 0;
+  double covariance = 0;
+};
+
+/// All p with (b − p·a)² ≤ t²·var(b − p·a) for the ratio b/a, as far as they hang together with it:
+/// it has a usable spread also where a may be zero (Fieller, J. R. Stat. Soc. B 16, 1954).
+Interval fieller(const Ratio& r, double student_factor) {
+  const double t2 = student_factor * student_factor;
   // square·p² − 2·linear·p + constant ≤ 0
-  const double square = a * a - t2 * var_a;
-  const double linear = a * a * p - t2 * cov_ab;
-  const double constant = a * a * p * p - t2 * var_b;
+  const double square = r.base * r.base - t2 * r.base_variance;
+  const double linear = r.base * r.numerator - t2 * r.covariance;
+  const double constant = r.numerator * r.numerator - t2 * r.numerator_variance;
   const double discriminant = linear * linear - square * constant;
   if (!(discriminant > 0) || square == 0) return {-infinity, infinity};
   const double root = std::sqrt(discriminant);
   const auto [first, second] = std::minmax({(linear - root) / square, (linear + root) / square});
   if (square > 0) return {first, second};
-  return p >= second ? Interval{second, infinity} : Interval{-infinity, first};
+  return r.numerator / r.base >= second ? Interval{second, infinity} : Interval{-infinity, first};
+}
+
+/// Of a ratio p = b/a that was fitted beside the parameter a, by its product b with that.
+Interval ratio_interval(const ModelFit& fit, std::size_t parameter, std::size_t of,
+                        const Selection& selection) {
+  const double p = fit.values[parameter];
+  const double a = fit.values[of];
+  const double var_p = fit.standard_error[parameter] * fit.standard_error[parameter];
+  const double var_a = fit.standard_error[of] * fit.standard_error[of];
+  const double cov_pa = fit.product_covariance[parameter];
+  return fieller(
+      {a * p, a, a * a * var_p + 2 * a * p * cov_pa + p * p * var_a, var_a, a * cov_pa + p * var_a},
+      selection.student_factor);
+}
+
+/// Of a size that is not freed.
+Interval size_interval(const SizeEstimate& size, const Selection& selection) {
+  return fieller({size.value, size.base, size.standard_error * size.standard_error,
+                  size.base_error * size.base_error, size.covariance},
+                 selection.student_factor);
 }
 
 /// The parameters of the groups that are fitted, and of those that left their neutral values.
@@ -160,25 +185,27 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
                Diagnosis& diagnosis) {
   const Effect& effect = log.effect(open.group);
   const std::size_t first = log.first_parameter(open.group);
-  std::vector<ParameterEstimate> sizes;
   std::vector<RuledOut> bounds;
   for (const SizeEstimate& size : open.sizes) {
     const EffectParameter& p = effect.parameters[size.parameter - first];
     const ModelParameter& m = log.problem.groups[open.group].parameters[size.parameter - first];
     if (!(m.lower < m.upper) || !(size.standard_error > 0)) continue;
-    const double half = selection.student_factor * size.standard_error;
-    const double lower = std::clamp(size.value - half, m.lower, m.upper);
-    const double upper = std::clamp(size.value + half, m.lower, m.upper);
-    sizes.push_back({p.name, std::clamp(size.value, m.lower, m.upper) / p.unit_SI, p.unit,
-                     lower / p.unit_SI, upper / p.unit_SI});
-    const double bound = std::max(m.neutral - lower, upper - m.neutral);
-    const bool shows = lower > m.lower || upper < m.upper;
-    // Where the whole interval lies beyond a bound, hardly anything is allowed.
-    if (shows) bounds.push_back({effect.id, p.name, std::max(bound, half) / p.unit_SI, p.unit});
+    const auto [low, high] = size_interval(size, selection);
+    const double lower = std::clamp(low, m.lower, m.upper);
+    const double upper = std::clamp(high, m.lower, m.upper);
+    // An interval beyond a bound allows hardly anything, but no less than the error leaves open.
+    const double bound = std::max(
+        {m.neutral - lower, upper - m.neutral, selection.student_factor * size.standard_error});
+    if (low > m.lower || high < m.upper) {
+      bounds.push_back({effect.id, p.name, bound / p.unit_SI, p.unit});
+    }
   }
-  if (open.p_value <= suspicious && open.gain_percent > open.gain_se_percent) {
+  const bool hardly_chance = open.p_value <= suspicious && open.gain_percent > open.gain_se_percent;
+  const bool helps_much = open.gain_percent >= much * selection.least_gain_percent &&
+                          open.gain_percent > 2 * open.gain_se_percent;
+  if (hardly_chance || helps_much) {
     diagnosis.suspected.push_back({effect.id, open.gain_percent, open.gain_se_percent,
-                                   std::move(sizes),
+                                   estimates(log, selection, open.freed, open.group),
                                    what_is_missing(effect, open, selection.least_gain_percent)});
   } else if (bounds.empty()) {
     diagnosis.not_testable.push_back({effect.id, effect.to_separate});

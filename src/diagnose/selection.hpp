@@ -110,6 +110,12 @@ struct SizeEstimate {
   std::size_t parameter = 0;  ///< of all groups
   double value = 0;
   double standard_error = 0;  ///< from the spread over blocks
+  /// Of a parameter with a `product_with`, which the same step moves: that one over its value in
+  /// the fit, its error, and the covariance of both. The size is a ratio to it, known only together
+  /// with it.
+  double base = 1;
+  double base_error = 0;
+  double covariance = 0;
 };
 
 /// What is left and no candidate explains.
@@ -138,8 +144,9 @@ struct Selection {
     std::vector<SizeEstimate> sizes{};
     /// Of all sizes being neutral, corrected for the number of sizes and of such candidates.
     double p_value = 1;
-    double gain_percent = 0;     ///< of freeing it; 0 unless chance hardly explains its sizes
+    double gain_percent = 0;     ///< of freeing it
     double gain_se_percent = 0;  ///< standard error over blocks
+    ModelFit freed{};            ///< with it freed
   };
   std::vector<Open> open{};       ///< in their order
   double least_gain_percent = 0;  ///< that was asked of a name

@@ -449,6 +449,18 @@ TEST_CASE("the linear drag of a flight in the autopilot's own simulator is found
   CHECK(finding["parameters"][0]["ci95"][0] > 0);
 }
 
+TEST_CASE("the linear drag of a short real flight is suspected, not denied") {
+  const auto log = reference_file("data/real/dronekit_log171.bin");
+  if (!log) return;
+  const Ran told = run_tethercalc({"diagnose", spec_file, "--set", "drone.mass_g=1500", "--flight",
+                                   log->string(), "--format", "json"});
+  const auto d = ordered_json::parse(told.out);
+  CHECK(d["findings"].empty());
+  REQUIRE(lists(d["suspected"], "linear_drag"));
+  CHECK_FALSE(lists(d["ruled_out"], "linear_drag"));
+  CHECK(d["suspected"][0]["gain_percent"] > 20);
+}
+
 TEST_CASE("what is no flight of a multirotor is refused by its reason") {
   for (const auto& [name, reason] :
        {std::pair{"erle_pxf_plane_5-12-2014_05_12_2014_E.BIN", "ArduPlane V3.1.2beta1"},

@@ -30,6 +30,12 @@ Diagnosis example() {
                         .indistinguishable_from = {"pitch_trim"},
                         .to_separate = "pitch_trim: hover through all headings"});
   d.budget = {{36}, 4, 60};
+  d.suspected.push_back({"linear_drag",
+                         34.1,
+                         2.5,
+                         {{"linear_m_s", 51, "m/s", 2, 1000}},
+                         "a longer log, until chance cannot explain it"});
+  d.ruled_out.push_back({"wind_drift", "wind_drift_m_s", 0.42, "m/s"});
   d.not_testable.push_back({"vertical_coupling", "vd_m_s"});
   return d;
 }
@@ -41,14 +47,20 @@ TEST_CASE("the JSON of a diagnosis has the documented keys") {
   d.design_impact = DesignImpact{{1.09, std::nullopt}, {445.0, std::nullopt}};
   const auto json = diagnosis_json(d, nullptr);
   for (const char* key :
-       {"kind", "samples", "effective_samples", "base", "findings", "not_testable",
-        "not_identifiable", "unexplained", "extended", "design_impact"}) {
+       {"kind", "samples", "effective_samples", "base", "findings", "suspected", "ruled_out",
+        "not_testable", "not_identifiable", "unexplained", "extended", "design_impact"}) {
     CHECK(json.contains(key));
   }
   const auto& finding = json["findings"][0];
   CHECK(finding["effect"] == "wind");
   CHECK(finding["parameters"][0]["ci95"] == nlohmann::ordered_json({-1.3, -1.1}));
   CHECK(finding["indistinguishable_from"] == nlohmann::ordered_json({"pitch_trim"}));
+  CHECK(json["suspected"][0]["effect"] == "linear_drag");
+  CHECK(json["suspected"][0]["gain_se_percent"] == 2.5);
+  CHECK(json["suspected"][0]["parameters"][0]["value"] == 51);
+  CHECK(json["suspected"][0]["missing"] == "a longer log, until chance cannot explain it");
+  CHECK(json["ruled_out"].dump() ==
+        R"([{"effect":"wind_drift","parameter":"wind_drift_m_s","bound":0.42,"unit":"m/s"}])");
   CHECK(json["base"]["unit"] == "m/s²");
   CHECK(json["unexplained"]["detected"] == false);
   CHECK(json["design_impact"]["cross_section_mm2"].dump() == "[1.09,null]");
@@ -68,6 +80,8 @@ TEST_CASE("a log too short has no error to report and says so without a NaN") {
 TEST_CASE("the story tells finding, uncertainty, rival and gain") {
   std::string text = diagnosis_text(example(), {});
   std::replace(text.begin(), text.end(), '\n', ' ');  // lines are wrapped
+  CHECK(text.find("linear_drag would help by 34.1 ± 2.5 %") != std::string::npos);
+  CHECK(text.find("0.42 m/s") != std::string::npos);
   for (const char* part : {"wind_m_s = -1.20 m/s", "-1.30 to -1.10", "20.0 ± 2.0 %", "pitch_trim",
                            "hover through all headings", "36.0 %", "vertical_coupling"}) {
     INFO(part);
