@@ -208,7 +208,7 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
                                    estimates(log, selection, open.freed, open.group),
                                    what_is_missing(effect, open, selection.least_gain_percent)});
   } else if (bounds.empty()) {
-    diagnosis.not_testable.push_back({effect.id, effect.to_separate});
+    diagnosis.not_testable.push_back({effect.id, "a log that shows it: " + effect.to_separate});
   } else {
     for (RuledOut& bound : bounds) diagnosis.ruled_out.push_back(std::move(bound));
   }

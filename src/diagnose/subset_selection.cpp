@@ -35,7 +35,7 @@ constexpr double missed_by_shapes = 0.1;
 constexpr std::size_t most_shapes = 3;  ///< more would describe noise that nobody reads
 constexpr std::size_t beam = 4;         ///< subsets of one size that are tried with one more effect
 /// Subsets of one size that are fitted: those that lower the squared error most where the model is
-/// linear. It nearly is; the best is rarely beyond the third.
+/// linear, which it nearly is.
 constexpr std::size_t tried_sets = 12;
 
 struct Model {
