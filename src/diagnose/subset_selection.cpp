@@ -121,7 +121,10 @@ class SubsetSearch {
       }
     }
     Groups result = twins_of(problem_, g);
-    for (const std::size_t c : in_order_of_nearness(std::move(found))) result.push_back(c);
+    for (const std::size_t c : in_order_of_nearness(std::move(found))) {
+      result.push_back(c);
+      for (const std::size_t twin : twins_of(problem_, c)) result.push_back(twin);
+    }
     return result;
   }
 
@@ -346,23 +349,19 @@ std::vector<SelectedGroup> selected_in(const SubsetSearch& search) {
 }
 
 /// The same, without those that gain too little to be worth a name, where they stand in the order
-/// or beside all others.
+/// or beside all others. That the gain is no chance is what the description length asks.
 std::vector<SelectedGroup> worth_a_name(SubsetSearch& search, double least_gain) {
   while (true) {
     std::vector<SelectedGroup> selected = selected_in(search);
     std::optional<std::size_t> weakest;
-    double weakest_gain = infinity;
+    double weakest_gain = least_gain;
     for (const SelectedGroup& s : selected) {
-      const BlockFit without = search.best_without(s.group).fit;
-      const BlockFit& with = search.best().fit;
-      const double beside = gain_percent(without.squared_error(), with.squared_error());
+      const double beside = gain_percent(search.best_without(s.group).fit.squared_error(),
+                                         search.best().fit.squared_error());
       const double gain = std::min(s.gain_percent, beside);
-      const bool earns =
-          gain >= least_gain && beside > 2 * gain_se_percent(without.block_error, with.block_error);
-      if (!earns && gain < weakest_gain) {
-        weakest = s.group;
-        weakest_gain = gain;
-      }
+      if (gain >= weakest_gain) continue;
+      weakest = s.group;
+      weakest_gain = gain;
     }
     if (!weakest) return selected;
     search.take_back(*weakest);
