@@ -194,8 +194,8 @@ class Story {
       table.add(
           {r.effect, r.parameter, significant(r.bound, 2) + (r.unit == "1" ? "" : " " + r.unit)});
     }
-    out_.emplace_back(
-        TitledTable{"Ruled out: what this log would have shown (95 %)", std::move(table)});
+    out_.emplace_back(TitledTable{
+        "Ruled out, each by itself: what this log would have shown (95 %)", std::move(table)});
   }
 
   void unexplained() {

@@ -67,7 +67,8 @@ struct Suspected {
   std::string missing;                        ///< what it takes to be sure
 };
 
-/// The largest size of an effect that this log still allows: more would have shown.
+/// The largest size of an effect, alone beside the findings, that this log still allows: more would
+/// have shown. Two that cancel may both be larger.
 struct RuledOut {
   std::string effect;     ///< id in the catalogue
   std::string parameter;  ///< of it
