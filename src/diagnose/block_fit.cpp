@@ -4,15 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// Huber's bound in robust standard deviations. At 3 it costs 0.5 % of efficiency where the noise
 /// is normal, and hardly touches the honest residuals of a model that still lacks an effect.
@@ -351,8 +346,9 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
   return fit;
 }
 
-MatrixXd group_slopes(const Record& record, std::size_t group, const std::vector<double>& values) {
-  const FreedModel model(record, {{group}, {}}, values);
+MatrixXd group_slopes(const Record& record, const Groups& groups,
+                      const std::vector<double>& values) {
+  const FreedModel model(record, {groups, {}}, values);
   VectorXd residual;
   MatrixXd slopes;
   model.residuals(residual);

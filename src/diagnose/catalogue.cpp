@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnose/flight_prediction.hpp"
-#include "diagnose/power_effects.hpp"
+#include "diagnose/power_chain.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -219,6 +219,12 @@ std::vector<Effect> all_effects() {
 std::span<const Effect> effect_catalogue() {
   static const std::vector<Effect> effects = all_effects();
   return effects;
+}
+
+std::span<const Effect> effect_catalogue(LogKind kind) {
+  static const std::size_t flights = flight_effects().size();
+  const std::span<const Effect> all = effect_catalogue();
+  return kind == LogKind::flight ? all.first(flights) : all.subspan(flights);
 }
 
 const Effect* find_effect(std::string_view id) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/model/units.hpp"
 

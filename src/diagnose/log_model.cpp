@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -268,9 +268,7 @@ bool LogModel::is_neutral(std::size_t group, std::span<const double> values) con
 
 void check_base_effects(LogKind kind, std::span<const std::string> ids) {
   std::vector<std::string> known, unknown;
-  for (const Effect& effect : effect_catalogue()) {
-    if (effect.log == kind) known.push_back(effect.id);
-  }
+  for (const Effect& effect : effect_catalogue(kind)) known.push_back(effect.id);
   for (const std::string& id : ids) {
     if (!contains(known, id)) unknown.push_back(id);
   }

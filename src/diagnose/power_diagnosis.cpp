@@ -12,13 +12,9 @@
 
 #include "diagnose/channels.hpp"
 #include "diagnose/log_model.hpp"
-#include "diagnose/power_channels.hpp"
-#include "diagnose/power_effects.hpp"
 #include "diagnose/power_residuals.hpp"
-#include "diagnose/power_shapes.hpp"
-#include "diagnose/subset_selection.hpp"
-#include "diagnose/unit_checks.hpp"
-#include "identify/series.hpp"
+#include "diagnose/unnamed_shapes.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/model/flight_state.hpp"
 
@@ -300,13 +296,12 @@ double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
   return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
-/// The effects of `catalogue` that the log can show; the others go to `diagnosis.not_testable`.
-std::vector<const Effect*> testable_effects(const std::vector<Effect>& catalogue,
-                                            const PowerLog& log,
+/// The effects that the log can show; the others go to `diagnosis.not_testable`.
+std::vector<const Effect*> testable_effects(const PowerLog& log,
                                             const std::map<Stage, std::string>& unusable,
                                             Diagnosis& diagnosis) {
   std::vector<const Effect*> effects;
-  for (const Effect& effect : catalogue) {
+  for (const Effect& effect : effect_catalogue(LogKind::power)) {
     std::string needs = lacking(effect, log);
     for (const auto& [stage, reason] : unusable) {
       if (needs.empty() && acts_on(effect, stage)) needs = reason;
@@ -321,13 +316,15 @@ std::vector<const Effect*> testable_effects(const std::vector<Effect>& catalogue
 }
 
 /// True where nothing can be judged from a log this short, which is then told.
-bool too_short(const PowerLog& log, const std::vector<Effect>& catalogue, Diagnosis& diagnosis) {
+bool too_short(const PowerLog& log, Diagnosis& diagnosis) {
   const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
   if (duration >= shortest_power_log && log.time.size() >= fewest_power_samples) return false;
   const std::string needs =
       fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
                   shortest_power_log, duration, log.time.size());
-  for (const Effect& effect : catalogue) diagnosis.not_testable.push_back({effect.id, needs});
+  for (const Effect& effect : effect_catalogue(LogKind::power)) {
+    diagnosis.not_testable.push_back({effect.id, needs});
+  }
   diagnosis.notes.push_back("the log is too short to judge");
   return true;
 }
@@ -370,7 +367,6 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
     throw std::invalid_argument(
         "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
   }
-  const std::vector<Effect> catalogue = power_effects();
   check_base_effects(LogKind::power, base_effects);
 
   PowerDiagnosis result{{}, design};
@@ -381,7 +377,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.samples = log.time.size();
   diagnosis.base.holdout_rmse = nan;
   diagnosis.extended.holdout_rmse = nan;
-  if (too_short(log, catalogue, diagnosis)) return result;
+  if (too_short(log, diagnosis)) return result;
   check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
@@ -391,8 +387,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
   PowerResiduals residuals(base, std::move(screened));
-  const std::vector<const Effect*> effects =
-      testable_effects(catalogue, residuals.log(), unusable, diagnosis);
+  const std::vector<const Effect*> effects = testable_effects(residuals.log(), unusable, diagnosis);
   if (residuals.stages().empty()) return result;
 
   PowerLogModel view(base, residuals, effects, {base_effects.begin(), base_effects.end()});

@@ -5,18 +5,11 @@
 #include <set>
 
 #include "diagnose/fit_judgement.hpp"
-#include "diagnose/unnamed_structure.hpp"
-#include "identify/distributions.hpp"
-#include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
 /// within what the idealised shape of any named effect misses of nature.
@@ -71,15 +64,11 @@ class Search {
          const SelectionProgress& progress)
       : record_(problem), options_(options), progress_(progress) {
     degrees_ = static_cast<double>(record_.blocks() - 1);
-    student_factor_ = student_quantile(degrees_, 0.975);
   }
 
   Selection run() {
-    Selection result;
-    result.rows = static_cast<std::size_t>(record_.rows());
-    result.blocks = record_.blocks();
-    result.student_factor = student_factor_;
-
+    Selection result = nothing_selected(record_, options_);
+    student_factor_ = result.student_factor;
     tell("fitting the base model");
     const BlockFit base = fit(selected_, nullptr);
     current_ = base;
@@ -200,8 +189,7 @@ class Search {
     if (unnamed_.empty()) return true;
     const BlockFit without = fit(selected_, {}, &current_);
     const BlockFit with = fit(selected_with(g), {}, &without);
-    return gain_percent(without.squared_error(), with.squared_error()) >=
-           options_.least_gain_percent;
+    return gain_between(without, with).percent >= options_.least_gain_percent;
   }
 
   [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
@@ -209,11 +197,11 @@ class Search {
     Trial trial;
     trial.group = g;
     trial.p_value = p_value(g, without, with);
-    const double gain = gain_percent(without.squared_error(), with.squared_error());
+    const Gain gained = gain_between(without, with);
     const double least_gain =
         options_.least_gain_percent * (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed);
     trial.worth_a_name =
-        gain >= least_gain && gain > 2 * gain_se_percent(without.block_error, with.block_error) &&
+        gained.percent >= least_gain && gained.percent > 2 * gained.se &&
         trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
     trial.fit = std::move(with);
     return trial;
@@ -363,18 +351,13 @@ class Search {
     BlockFit before = base;
     Groups so_far;
     for (const std::size_t g : selected_) {
-      SelectedGroup& entry = result.selected.emplace_back();
-      entry.group = g;
-      const BlockFit without = fit(selected_without(g), &current_);
-      entry.p_value = p_value(g, without, current_);
-      entry.indistinguishable = rivals(g, without);
       // Gains are those of the named part alone, one finding after the other.
       so_far.push_back(g);
       BlockFit after = fit(so_far, {}, &before);
-      entry.rmse_before = before.rmse();
-      entry.rmse_after = after.rmse();
-      entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
-      entry.gain_se_percent = gain_se_percent(before.block_error, after.block_error);
+      SelectedGroup& entry = result.selected.emplace_back(freed_between(before, after, g));
+      const BlockFit without = fit(selected_without(g), &current_);
+      entry.p_value = p_value(g, without, current_);
+      entry.indistinguishable = rivals(g, without);
       before = std::move(after);
     }
     result.extended = model_fit(before);
@@ -383,25 +366,10 @@ class Search {
         share >= structure_that_disturbs && precision(current_) > precision(before);
     const BlockFit& complete = disturbed ? current_ : before;
     result.complete = model_fit(complete);
-    result.least_gain_percent = options_.least_gain_percent;
-    result.open = judge_open(record_, complete, open_beside(result.selected), [&](std::size_t g) {
+    result.open = judge_open(record_, complete, result, [&](std::size_t g) {
       return fit(selected_with(g), complete.freed.unnamed, &complete);
     });
-
-    if (unnamed_.empty()) return;
-    result.unnamed.regressors = unnamed_;
-    result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
-    name_channels(record_.problem(), result.unnamed);
-    result.unnamed.share_percent = 100 * std::max(0.0, share);
-  }
-
-  /// Candidates that are not selected, nor told as rivals of one that is.
-  [[nodiscard]] Groups open_beside(const std::vector<SelectedGroup>& selected) const {
-    Groups open;
-    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      if (is_open(g)) open.push_back(g);
-    }
-    return without_rivals(std::move(open), selected);
+    result.unnamed = unnamed_in(record_, current_, before);
   }
 
   [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {

@@ -1,6 +1,3 @@
-#include "diagnose/subset_selection.hpp"
-
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,18 +6,11 @@
 #include <utility>
 
 #include "diagnose/fit_judgement.hpp"
-#include "diagnose/unnamed_structure.hpp"
-#include "identify/distributions.hpp"
-#include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
 /// likelihood.
@@ -125,19 +115,9 @@ class SubsetSearch {
     return result;
   }
 
-  /// Candidates, and their twins, that are not selected, nor told as rivals of one that is.
-  [[nodiscard]] std::vector<Selection::Open> open_beside(
-      const std::vector<SelectedGroup>& selected) const {
-    Groups open;
-    for (std::size_t g = 0; g < problem_.groups.size(); ++g) {
-      if (!problem_.groups[g].fitted && !contains(best_.named, g) && !is_aliased(g)) {
-        open.push_back(g);
-      }
-    }
-    return judge_open(record_, best_.fit, without_rivals(std::move(open), selected),
-                      [this](std::size_t g) {
-                        return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
-                      });
+  /// Its fit with one name more.
+  [[nodiscard]] BlockFit best_with(std::size_t g) const {
+    return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
   }
 
   /// The best model, but for one of its names.
@@ -303,27 +283,19 @@ class SubsetSearch {
 ModelFit model_fit(const Record& record, const BlockFit& fit) {
   ModelFit all = neutral_fit(record.problem(), record.blocks());
   all.holdout_rmse = fit.rmse();
-  std::vector<std::size_t> parameters;
-  MatrixXd jacobian(record.rows(), 0);
-  for (const std::size_t g : fit.freed.groups) {
-    const MatrixXd slopes = group_slopes(record, g, fit.values);
-    jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() + slopes.cols());
-    jacobian.rightCols(slopes.cols()) = slopes;
-    for (Index k = 0; k < slopes.cols(); ++k) {
-      parameters.push_back(record.first_parameter(g) + static_cast<std::size_t>(k));
-    }
-  }
+  const MatrixXd slopes = group_slopes(record, fit.freed.groups, fit.values);
   const auto shapes = static_cast<Index>(fit.freed.unnamed.size());
-  const Index named = jacobian.cols();
-  jacobian.conservativeResize(Eigen::NoChange, named + shapes);
-  jacobian.rightCols(shapes) = fit.jacobian.rightCols(shapes);
-
+  MatrixXd jacobian(record.rows(), slopes.cols() + shapes);
+  jacobian << slopes, fit.jacobian.rightCols(shapes);
   MatrixXd covariance;
-  if (named > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
-  for (Index k = 0; k < named; ++k) {
-    const std::size_t index = parameters[static_cast<std::size_t>(k)];
-    all.standard_error[index] =
-        record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
+  if (slopes.cols() > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+  Index column = 0;
+  for (const std::size_t g : fit.freed.groups) {
+    std::size_t index = record.first_parameter(g);
+    for (const ModelParameter& p : record.problem().groups[g].parameters) {
+      all.standard_error[index++] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
+      ++column;
+    }
   }
   add_fit(record, fit, {}, all);
   return all;
@@ -334,12 +306,7 @@ std::vector<SelectedGroup> selected_in(const SubsetSearch& search) {
   std::vector<SelectedGroup> selected;
   BlockFit before = search.base().fit;
   for (auto& [g, fit] : search.in_order()) {
-    SelectedGroup& entry = selected.emplace_back();
-    entry.group = g;
-    entry.rmse_before = before.rmse();
-    entry.rmse_after = fit.rmse();
-    entry.gain_percent = gain_percent(before.squared_error(), fit.squared_error());
-    entry.gain_se_percent = gain_se_percent(before.block_error, fit.block_error);
+    selected.push_back(freed_between(before, fit, g));
     before = std::move(fit);
   }
   return selected;
@@ -353,15 +320,12 @@ std::vector<SelectedGroup> worth_a_name(SubsetSearch& search, double least_gain)
     std::optional<std::size_t> weakest;
     double weakest_gain = infinity;
     for (const SelectedGroup& s : selected) {
-      const BlockFit without = search.best_without(s.group).fit;
-      const BlockFit& with = search.best().fit;
-      const double beside = gain_percent(without.squared_error(), with.squared_error());
-      const double gain = std::min(s.gain_percent, beside);
-      const bool earns =
-          gain >= least_gain && beside > 2 * gain_se_percent(without.block_error, with.block_error);
-      if (!earns && gain < weakest_gain) {
+      const Gain beside = gain_between(search.best_without(s.group).fit, search.best().fit);
+      const double least = std::min(s.gain_percent, beside.percent);
+      const bool earns = least >= least_gain && beside.percent > 2 * beside.se;
+      if (!earns && least < weakest_gain) {
         weakest = s.group;
-        weakest_gain = gain;
+        weakest_gain = least;
       }
     }
     if (!weakest) return selected;
@@ -376,10 +340,7 @@ Selection select_subset(const SelectionProblem& problem, const SelectionOptions&
   SubsetSearch search(problem, options, progress);
   search.run();
   const Record& record = search.record();
-  Selection result;
-  result.rows = static_cast<std::size_t>(record.rows());
-  result.blocks = record.blocks();
-  result.student_factor = student_quantile(static_cast<double>(result.blocks) - 1, 0.975);
+  Selection result = nothing_selected(record, options);
   result.aliased = search.aliased();
   result.selected = worth_a_name(search, options.least_gain_percent);
   const Model& best = search.best();
@@ -390,20 +351,14 @@ Selection select_subset(const SelectionProblem& problem, const SelectionOptions&
         static_cast<double>(problem.groups[entry.group].parameters.size()));
   }
 
-  result.least_gain_percent = options.least_gain_percent;
-  result.open = search.open_beside(result.selected);
+  result.open = judge_open(record, best.fit, result,
+                           [&search](std::size_t g) { return search.best_with(g); });
 
   const BlockFit named = search.named_alone();
   result.base = model_fit(record, search.base().fit);
   result.extended = model_fit(record, named);
   result.complete = model_fit(record, best.fit);
-  result.unnamed.regressors = best.shapes;
-  result.unnamed.coefficients.assign(best.fit.coefficients.begin(), best.fit.coefficients.end());
-  name_channels(problem, result.unnamed);
-  if (!best.shapes.empty()) {
-    result.unnamed.share_percent =
-        100 * std::max(0.0, 1 - best.fit.squared_error() / named.squared_error());
-  }
+  result.unnamed = unnamed_in(record, best.fit, named);
   return result;
 }
 

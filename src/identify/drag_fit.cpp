@@ -10,9 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "identify/distributions.hpp"
 #include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/identify/correlated_errors.hpp"
 
@@ -23,10 +22,6 @@
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr std::size_t fewest_samples =
     50;  // at 10 Hz one pass; fewer give no autocorrelation either
@@ -619,6 +614,33 @@ double dry_air_density(double pressure, double temperature) {
   demand_positive("the pressure in Pa", pressure);
   demand_positive("the temperature in K", temperature);
   return pressure / (gas_constant * temperature);
+}
+
+Observations observe_part(const FlightLog& log, const DragIdentificationOptions& options) {
+  validate(log);
+  const bool chosen = options.from || options.to;
+  const SampleRange range = chosen ? select_range(log, options.from, options.to) : moving_part(log);
+  return observe(log, range, options.pitch_offset, options.conditions.gravity);
+}
+
+DragIdentification identify_drag(std::span<const FlightLog> logs,
+                                 const DragIdentificationOptions& options) {
+  DragIdentification out;
+  out.options = options;
+  std::vector<Observations> flights;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    try {
+      flights.push_back(observe_part(logs[i], options));
+    } catch (const UnsuitableFlight& error) {
+      if (logs.size() == 1) throw;
+      throw UnsuitableFlight(fmt::format("log {}: {}", i + 1, error.what()));
+    }
+    const Observations& flight = flights.back();
+    if (flight.size() == 0) throw UnsuitableFlight(fmt::format("log {} is all gaps", i + 1));
+    out.parts.push_back({flight.time.front(), flight.time.back(), flight.size()});
+  }
+  out.fit = fit_drag(flights, options.conditions);
+  return out;
 }
 
 }  // namespace tethercalc

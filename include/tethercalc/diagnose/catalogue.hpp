@@ -82,6 +82,9 @@ struct Effect {
 /// All effects; the order is that of the documentation.
 [[nodiscard]] std::span<const Effect> effect_catalogue();
 
+/// Those that such logs can show.
+[[nodiscard]] std::span<const Effect> effect_catalogue(LogKind kind);
+
 /// The entry of `id`, or null.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 

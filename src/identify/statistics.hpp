@@ -1,4 +1,4 @@
-// Small statistics of series.
+// Small statistics of series, and the distributions that errors are held against.
 #pragma once
 
 #include <algorithm>
@@ -44,5 +44,18 @@ template <typename T, typename Value>
   std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::multiplies<>());
   return a;
 }
+
+/// The value that Student's t with `degrees` > 0 of freedom stays below with probability `p`, in
+/// (0, 1).
+[[nodiscard]] double student_quantile(double degrees, double p);
+
+/// Probability of Student's t above `t`, infinity included; 1 for NaN.
+[[nodiscard]] double student_tail(double t, double degrees);
+
+/// Probability of Fisher's F above `f` (negative: 1; infinity and NaN: 0); both degrees > 0.
+[[nodiscard]] double fisher_tail(double f, double numerator, double denominator);
+
+/// Probability of chi-squared above `x` (negative: 1) with `degrees` > 0 of freedom.
+[[nodiscard]] double chi_squared_tail(double x, double degrees);
 
 }  // namespace tethercalc

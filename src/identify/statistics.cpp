@@ -1,4 +1,4 @@
-#include "identify/distributions.hpp"
+#include "identify/statistics.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
