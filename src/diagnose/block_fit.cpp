@@ -248,20 +248,15 @@ Groups without_group(Groups groups, std::size_t group) {
 Record::Record(const SelectionProblem& problem)
     : problem_(problem), predicted_(problem.measured.size()) {
   const std::size_t size = problem.measured.size();
-  if (problem.noise.size() != size || problem.block.size() != size) {
-    throw std::invalid_argument("measured, noise and block must have one element a row");
-  }
+  const auto demand_rows = [size](const auto& column, const std::string& name) {
+    if (column.size() != size) throw std::invalid_argument(name + " must have one element a row");
+  };
+  demand_rows(problem.noise, "measured, noise and block");
+  demand_rows(problem.block, "measured, noise and block");
   for (const UnnamedRegressor& regressor : problem.unnamed) {
-    if (regressor.column.size() != size) {
-      throw std::invalid_argument("the regressor \"" + regressor.shape +
-                                  "\" must have one element a row");
-    }
+    demand_rows(regressor.column, "the regressor \"" + regressor.shape + "\"");
   }
-  for (const std::vector<double>& column : problem.systematic) {
-    if (column.size() != size) {
-      throw std::invalid_argument("a systematic error must have one element a row");
-    }
-  }
+  for (const auto& column : problem.systematic) demand_rows(column, "a systematic error");
   for (const ParameterGroup& group : problem.groups) {
     first_.push_back(parameters_.size());
     for (const ModelParameter& p : group.parameters) {

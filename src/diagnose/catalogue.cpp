@@ -2,6 +2,7 @@
 #include "tethercalc/diagnose/catalogue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnose/flight_prediction.hpp"
@@ -235,19 +236,9 @@ const Effect* find_effect(std::string_view id) {
 }
 
 std::string_view to_string(Stage stage) {
-  switch (stage) {
-    case Stage::supply:
-      return "supply";
-    case Stage::tether:
-      return "tether";
-    case Stage::converter:
-      return "converter";
-    case Stage::motors:
-      return "motors";
-    case Stage::airframe:
-      return "airframe";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> names{"supply", "tether", "converter", "motors",
+                                                  "airframe"};  // in the order of the stages
+  return names[static_cast<std::size_t>(stage)];
 }
 
 }  // namespace tethercalc

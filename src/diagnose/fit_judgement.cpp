@@ -180,7 +180,7 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     const Gain gained = gain_between(fit, freed);
     candidate.gain_percent = gained.percent;
     candidate.gain_se_percent = gained.se;
-    candidate.freed = neutral_fit(record.problem(), record.blocks());
+    candidate.freed = neutral_fit(record);
     add_fit(record, freed, {}, candidate.freed);
   }
   return open;
@@ -218,22 +218,12 @@ Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found) {
   return groups;
 }
 
-Groups twins_of(const SelectionProblem& problem, std::size_t group) {
-  Groups twins;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    if (problem.groups[g].twin_of == group && !problem.groups[g].fitted) twins.push_back(g);
-  }
-  return twins;
-}
-
-ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks) {
+ModelFit neutral_fit(const Record& record) {
   ModelFit fit;
-  for (const ParameterGroup& group : problem.groups) {
-    for (const ModelParameter& p : group.parameters) fit.values.push_back(p.neutral);
-  }
+  for (const ModelParameter& p : record.parameters()) fit.values.push_back(p.neutral);
   fit.standard_error.assign(fit.values.size(), 0);
   fit.product_covariance.assign(fit.values.size(), 0);
-  fit.without_block.assign(blocks, fit.values);
+  fit.without_block.assign(record.blocks(), fit.values);
   return fit;
 }
 

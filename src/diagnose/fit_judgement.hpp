@@ -58,11 +58,8 @@ class LinearisedGains {
 /// The groups by rising distance.
 [[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);
 
-/// The groups that every record shows in the same way as `group`.
-[[nodiscard]] Groups twins_of(const SelectionProblem& problem, std::size_t group);
-
 /// A fit of nothing: neutral values.
-[[nodiscard]] ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks);
+[[nodiscard]] ModelFit neutral_fit(const Record& record);
 
 /// Writes what `fit` freed into `all`. Errors are those of the spread between blocks, with
 /// `systematic` (of the jacobian's columns, over their scales; may be empty) added to their

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "diagnose/channels.hpp"
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/log_model.hpp"

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
-#include "diagnose/channels.hpp"
 #include "diagnose/log_model.hpp"
 #include "diagnose/power_residuals.hpp"
 #include "diagnose/unnamed_shapes.hpp"
@@ -136,9 +136,15 @@ class PowerLogModel : public LogModel {
     };
   }
 
-  /// The base model with every effect that is not neutral.
-  [[nodiscard]] PowerModel model(std::span<const double> values) const {
-    return model(values, [](const Effect&) { return true; });
+  /// The base model with every effect that is not neutral, or those that act on one comparison.
+  [[nodiscard]] PowerModel model(std::span<const double> values,
+                                 std::optional<Stage> compared = {}) const {
+    PowerModel changed = base_;
+    for (std::size_t g = 0; g < effects().size(); ++g) {
+      const bool wanted = !compared || acts_on(effect(g), *compared);
+      if (wanted && !is_neutral(g, values)) effect(g).on_power(changed, own(g, values));
+    }
+    return changed;
   }
 
   /// After the residuals' noise has changed.
@@ -166,15 +172,6 @@ class PowerLogModel : public LogModel {
   }
 
  private:
-  template <typename Wanted>
-  [[nodiscard]] PowerModel model(std::span<const double> values, Wanted wanted) const {
-    PowerModel changed = base_;
-    for (std::size_t g = 0; g < effects().size(); ++g) {
-      if (wanted(effect(g)) && !is_neutral(g, values)) effect(g).on_power(changed, own(g, values));
-    }
-    return changed;
-  }
-
   /// Minus the whitened residual of every row. A stage whose effects have the values of the last
   /// call is not computed again: slopes move one parameter at a time.
   void predict(std::span<const double> values, std::span<double> out) {
@@ -189,8 +186,7 @@ class PowerLogModel : public LogModel {
       }
       Cached& last = cache_[k];
       if (last.rows.empty() || last.key != key) {
-        const auto wanted = [&](const Effect& e) { return acts_on(e, compared.stage); };
-        residuals_.standardised(k, model(values, wanted), standardised);
+        residuals_.standardised(k, model(values, compared.stage), standardised);
         last.key = std::move(key);
         last.rows.resize(compared.rows);
         residuals_.whitened(k, standardised, last.rows);

@@ -192,8 +192,8 @@ class Search {
     return gain_between(without, with).percent >= options_.least_gain_percent;
   }
 
-  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
-                            std::size_t tested) const {
+  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with) const {
+    const std::size_t tested = candidates().size() + (contains(selected_, g) ? 1 : 0);
     Trial trial;
     trial.group = g;
     trial.p_value = p_value(g, without, with);
@@ -224,11 +224,10 @@ class Search {
   /// one with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical
   /// Learning, 2nd ed., section 7.10).
   [[nodiscard]] std::optional<Trial> best_step() const {
-    const Groups open = candidates();
     std::vector<Trial> worthy;
-    for (const std::size_t g : open) {
+    for (const std::size_t g : candidates()) {
       tell("trying " + group(g).id);
-      Trial trial = judge(g, current_, fit(selected_with(g), &current_), open.size());
+      Trial trial = judge(g, current_, fit(selected_with(g), &current_));
       if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
     }
     if (worthy.empty()) return std::nullopt;
@@ -270,8 +269,7 @@ class Search {
       BlockFit rest_fit;
       for (const std::size_t g : selected_) {
         BlockFit without = fit(selected_without(g), &current_);
-        const std::size_t tested = candidates().size() + 1;
-        const bool earns = judge(g, without, current_, tested).worth_a_name;
+        const bool earns = judge(g, without, current_).worth_a_name;
         if (!earns && without.squared_error() < weakest_error) {
           weakest = g;
           weakest_error = without.squared_error();
@@ -305,8 +303,7 @@ class Search {
       shapes.push_back(best->regressor);
       BlockFit beside = fit(selected_, shapes, &current_);
       const BlockFit instead = fit(selected_without(g), shapes, &beside);
-      const std::size_t tested = candidates().size() + 1;
-      if (judge(g, instead, std::move(beside), tested).worth_a_name) continue;
+      if (judge(g, instead, std::move(beside)).worth_a_name) continue;
       tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
            " explains more");
       selected_ = selected_without(g);
@@ -388,7 +385,7 @@ class Search {
   }
 
   [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const {
-    ModelFit result = neutral_fit(record_.problem(), record_.blocks());
+    ModelFit result = neutral_fit(record_);
     add_fit(record_, fit, systematic_variance(record_, fit), result);
     result.holdout_rmse = fit.rmse();
     result.holdout_residual.assign(record_.problem().measured.size(), 0);

@@ -35,6 +35,30 @@ struct Model {
   double length = 0;  ///< description length, in units of squared noise
 };
 
+/// What is told of a fit, with standard errors from the curvature of the likelihood. Unlike the
+/// jackknife of the fit, they count what a parameter that rests on a bound leaves open in the
+/// others.
+ModelFit model_fit(const Record& record, const BlockFit& fit) {
+  ModelFit all = neutral_fit(record);
+  all.holdout_rmse = fit.rmse();
+  const MatrixXd slopes = group_slopes(record, fit.freed.groups, fit.values);
+  const auto shapes = static_cast<Index>(fit.freed.unnamed.size());
+  MatrixXd jacobian(record.rows(), slopes.cols() + shapes);
+  jacobian << slopes, fit.jacobian.rightCols(shapes);
+  MatrixXd covariance;
+  if (slopes.cols() > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+  Index column = 0;
+  for (const std::size_t g : fit.freed.groups) {
+    std::size_t index = record.first_parameter(g);
+    for (const ModelParameter& p : record.problem().groups[g].parameters) {
+      all.standard_error[index++] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
+      ++column;
+    }
+  }
+  add_fit(record, fit, {}, all);
+  return all;
+}
+
 class SubsetSearch {
  public:
   SubsetSearch(const SelectionProblem& problem, const SelectionOptions& options,
@@ -55,7 +79,7 @@ class SubsetSearch {
     shape_price_ = price(problem.unnamed.size());
   }
 
-  void run() {
+  Selection run() {
     base_ = model({}, {}, nullptr);
     best_ = base_;
     find_aliased(base_, false);
@@ -64,65 +88,8 @@ class SubsetSearch {
     search_shapes();
     if (!best_.shapes.empty()) add_names();
     if (!best_.named.empty()) find_aliased(best_, true);
-  }
-
-  /// Leaves a name of the best model out.
-  void take_back(std::size_t g) { best_ = best_without(g); }
-
-  [[nodiscard]] const Record& record() const { return record_; }
-  [[nodiscard]] const Model& base() const { return base_; }
-  [[nodiscard]] const Model& best() const { return best_; }
-  [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
-
-  /// The named effects of the best model in the order of what they add, with the fit after each.
-  [[nodiscard]] std::vector<std::pair<std::size_t, BlockFit>> in_order() const {
-    std::vector<std::pair<std::size_t, BlockFit>> order;
-    Groups so_far;
-    const BlockFit* near = &best_.fit;
-    while (so_far.size() < best_.named.size()) {
-      std::optional<std::pair<std::size_t, BlockFit>> next;
-      for (const std::size_t g : best_.named) {
-        if (contains(so_far, g)) continue;
-        BlockFit fit = model(with_group(so_far, g), {}, near).fit;
-        if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
-      }
-      so_far = with_group(so_far, next->first);
-      order.push_back(std::move(*next));
-    }
-    return order;
-  }
-
-  /// Its names without its shapes.
-  [[nodiscard]] BlockFit named_alone() const {
-    return best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit).fit;
-  }
-
-  [[nodiscard]] Groups rivals(std::size_t g) const {
-    const Groups rest = without_group(best_.named, g);
-    const double alone = best_without(g).fit.squared_error();
-    const double earned = alone - best_.fit.squared_error();
-    std::vector<std::pair<double, std::size_t>> found;
-    for (const std::size_t c : candidates_) {
-      if (contains(best_.named, c)) continue;
-      const Model rival = model(with_group(rest, c), best_.shapes, &best_.fit);
-      if (rival.length - best_.length <= rival_excess &&
-          alone - rival.fit.squared_error() >= rival_gain * earned) {
-        found.emplace_back(rival.length, c);
-      }
-    }
-    Groups result = twins_of(problem_, g);
-    for (const std::size_t c : in_order_of_nearness(std::move(found))) result.push_back(c);
-    return result;
-  }
-
-  /// Its fit with one name more.
-  [[nodiscard]] BlockFit best_with(std::size_t g) const {
-    return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
-  }
-
-  /// The best model, but for one of its names.
-  [[nodiscard]] Model best_without(std::size_t g) const {
-    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
+    drop_small_gains();
+    return sum_up();
   }
 
  private:
@@ -264,6 +231,93 @@ class SubsetSearch {
                        [g](const Selection::Aliased& a) { return a.group == g; });
   }
 
+  /// The best model, but for one of its names.
+  [[nodiscard]] Model best_without(std::size_t g) const {
+    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
+  }
+
+  [[nodiscard]] Groups rivals(std::size_t g) const {
+    const Groups rest = without_group(best_.named, g);
+    const double alone = best_without(g).fit.squared_error();
+    const double earned = alone - best_.fit.squared_error();
+    std::vector<std::pair<double, std::size_t>> found;
+    for (const std::size_t c : candidates_) {
+      if (contains(best_.named, c)) continue;
+      const Model rival = model(with_group(rest, c), best_.shapes, &best_.fit);
+      if (rival.length - best_.length <= rival_excess &&
+          alone - rival.fit.squared_error() >= rival_gain * earned) {
+        found.emplace_back(rival.length, c);
+      }
+    }
+    Groups result;  // twins first: every record shows them alike
+    for (std::size_t c = 0; c < problem_.groups.size(); ++c) {
+      if (problem_.groups[c].twin_of == g && !problem_.groups[c].fitted) result.push_back(c);
+    }
+    for (const std::size_t c : in_order_of_nearness(std::move(found))) result.push_back(c);
+    return result;
+  }
+
+  /// The names of the best model in the order of what they add, with their gains.
+  [[nodiscard]] std::vector<SelectedGroup> selected() const {
+    std::vector<SelectedGroup> order;
+    Groups so_far;
+    BlockFit before = base_.fit;
+    while (so_far.size() < best_.named.size()) {
+      std::optional<std::pair<std::size_t, BlockFit>> next;
+      for (const std::size_t g : best_.named) {
+        if (contains(so_far, g)) continue;
+        BlockFit fit = model(with_group(so_far, g), {}, &best_.fit).fit;
+        if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
+      }
+      so_far = with_group(so_far, next->first);
+      order.push_back(freed_between(before, next->second, next->first));
+      before = std::move(next->second);
+    }
+    return order;
+  }
+
+  /// Leaves out the names that gain too little to be worth one, where they stand in the order or
+  /// beside all others.
+  void drop_small_gains() {
+    while (true) {
+      std::optional<std::size_t> weakest;
+      double weakest_gain = infinity;
+      for (const SelectedGroup& s : selected()) {
+        const Gain beside = gain_between(best_without(s.group).fit, best_.fit);
+        const double least = std::min(s.gain_percent, beside.percent);
+        const bool earns = least >= options_.least_gain_percent && beside.percent > 2 * beside.se;
+        if (!earns && least < weakest_gain) {
+          weakest = s.group;
+          weakest_gain = least;
+        }
+      }
+      if (!weakest) return;
+      best_ = best_without(*weakest);
+    }
+  }
+
+  [[nodiscard]] Selection sum_up() const {
+    Selection result = nothing_selected(record_, options_);
+    result.aliased = aliased_;
+    result.selected = selected();
+    for (SelectedGroup& entry : result.selected) {
+      entry.indistinguishable = rivals(entry.group);
+      entry.p_value = chi_squared_tail(
+          best_without(entry.group).fit.squared_error() - best_.fit.squared_error(),
+          static_cast<double>(problem_.groups[entry.group].parameters.size()));
+    }
+    result.open = judge_open(record_, best_.fit, result, [this](std::size_t g) {
+      return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
+    });
+    const BlockFit named =
+        best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit).fit;
+    result.base = model_fit(record_, base_.fit);
+    result.extended = model_fit(record_, named);
+    result.complete = model_fit(record_, best_.fit);
+    result.unnamed = unnamed_in(record_, best_.fit, named);
+    return result;
+  }
+
   const SelectionProblem& problem_;
   Record record_;
   const SelectionOptions& options_;
@@ -277,89 +331,11 @@ class SubsetSearch {
   std::vector<Selection::Aliased> aliased_;
 };
 
-/// What is told of a fit, with standard errors from the curvature of the likelihood. Unlike the
-/// jackknife of the fit, they count what a parameter that rests on a bound leaves open in the
-/// others.
-ModelFit model_fit(const Record& record, const BlockFit& fit) {
-  ModelFit all = neutral_fit(record.problem(), record.blocks());
-  all.holdout_rmse = fit.rmse();
-  const MatrixXd slopes = group_slopes(record, fit.freed.groups, fit.values);
-  const auto shapes = static_cast<Index>(fit.freed.unnamed.size());
-  MatrixXd jacobian(record.rows(), slopes.cols() + shapes);
-  jacobian << slopes, fit.jacobian.rightCols(shapes);
-  MatrixXd covariance;
-  if (slopes.cols() > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
-  Index column = 0;
-  for (const std::size_t g : fit.freed.groups) {
-    std::size_t index = record.first_parameter(g);
-    for (const ModelParameter& p : record.problem().groups[g].parameters) {
-      all.standard_error[index++] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
-      ++column;
-    }
-  }
-  add_fit(record, fit, {}, all);
-  return all;
-}
-
-/// The names of the best model in the order of what they add, with their gains.
-std::vector<SelectedGroup> selected_in(const SubsetSearch& search) {
-  std::vector<SelectedGroup> selected;
-  BlockFit before = search.base().fit;
-  for (auto& [g, fit] : search.in_order()) {
-    selected.push_back(freed_between(before, fit, g));
-    before = std::move(fit);
-  }
-  return selected;
-}
-
-/// The same, without those that gain too little to be worth a name, where they stand in the order
-/// or beside all others.
-std::vector<SelectedGroup> worth_a_name(SubsetSearch& search, double least_gain) {
-  while (true) {
-    std::vector<SelectedGroup> selected = selected_in(search);
-    std::optional<std::size_t> weakest;
-    double weakest_gain = infinity;
-    for (const SelectedGroup& s : selected) {
-      const Gain beside = gain_between(search.best_without(s.group).fit, search.best().fit);
-      const double least = std::min(s.gain_percent, beside.percent);
-      const bool earns = least >= least_gain && beside.percent > 2 * beside.se;
-      if (!earns && least < weakest_gain) {
-        weakest = s.group;
-        weakest_gain = least;
-      }
-    }
-    if (!weakest) return selected;
-    search.take_back(*weakest);
-  }
-}
-
 }  // namespace
 
 Selection select_subset(const SelectionProblem& problem, const SelectionOptions& options,
                         const SelectionProgress& progress) {
-  SubsetSearch search(problem, options, progress);
-  search.run();
-  const Record& record = search.record();
-  Selection result = nothing_selected(record, options);
-  result.aliased = search.aliased();
-  result.selected = worth_a_name(search, options.least_gain_percent);
-  const Model& best = search.best();
-  for (SelectedGroup& entry : result.selected) {
-    entry.indistinguishable = search.rivals(entry.group);
-    entry.p_value = chi_squared_tail(
-        search.best_without(entry.group).fit.squared_error() - best.fit.squared_error(),
-        static_cast<double>(problem.groups[entry.group].parameters.size()));
-  }
-
-  result.open = judge_open(record, best.fit, result,
-                           [&search](std::size_t g) { return search.best_with(g); });
-
-  const BlockFit named = search.named_alone();
-  result.base = model_fit(record, search.base().fit);
-  result.extended = model_fit(record, named);
-  result.complete = model_fit(record, best.fit);
-  result.unnamed = unnamed_in(record, best.fit, named);
-  return result;
+  return SubsetSearch(problem, options, progress).run();
 }
 
 }  // namespace tethercalc

@@ -552,17 +552,14 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   fit.covariance_independent = flatten(inverse * (minimum.at.sse / count * correction));
 
   for (Index i = 0; i < size; ++i) {
-    FittedParameter parameter{names[static_cast<std::size_t>(i)], {}, Bound::none};
-    parameter.at_bound = minimum.bounds[static_cast<std::size_t>(i)];
-    if (parameter.at_bound != Bound::none) {
-      constexpr double none = nan;
-      parameter.estimate = {minimum.x(i), none, none, none, none, none};
-    } else {
-      std::vector<double> gradient(static_cast<std::size_t>(size), 0.0);
-      gradient[static_cast<std::size_t>(i)] = 1;
-      parameter.estimate = propagate(fit, minimum.x(i), gradient);
-    }
-    fit.parameters.push_back(std::move(parameter));
+    const auto p = static_cast<std::size_t>(i);
+    std::vector<double> gradient(names.size(), 0.0);
+    gradient[p] = 1;
+    const bool free = minimum.bounds[p] == Bound::none;
+    fit.parameters.push_back({names[p],
+                              free ? propagate(fit, minimum.x(i), gradient)
+                                   : Estimate{minimum.x(i), nan, nan, nan, nan, nan},
+                              minimum.bounds[p]});
   }
   return fit;
 }
