@@ -13,7 +13,6 @@
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
-#include "tethercalc/identify/correlated_errors.hpp"
 
 namespace tethercalc {
 namespace {

@@ -13,7 +13,6 @@
 #include "identify/linear_algebra.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
-#include "tethercalc/identify/correlated_errors.hpp"
 
 // Notation, after the paper's section III-B: θ tilt, v forward speed over ground, w wind, u = v −
 // w, A_f, A_t effective areas, j linear speed, ρ air density, m mass, k = ρ/(2m). y = expected −

@@ -5,6 +5,9 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <numbers>
+
+#include "identify/linear_algebra.hpp"
 
 namespace tethercalc {
 namespace {
@@ -15,6 +18,17 @@ using Plain = boost::math::policies::policy<boost::math::policies::promote_doubl
 template <class Distribution>
 double tail(const Distribution& distribution, double value) {
   return boost::math::cdf(boost::math::complement(distribution, value));
+}
+
+/// The series less its mean.
+VectorXd centred(std::span<const double> series) {
+  const auto x = VectorXd::Map(series.data(), static_cast<Index>(series.size()));
+  return x.array() - x.mean();
+}
+
+/// Σ x_t·x_{t+lag}.
+double lagged_product(const VectorXd& x, Index lag) {
+  return x.head(x.size() - lag).dot(x.tail(x.size() - lag));
 }
 
 }  // namespace
@@ -36,6 +50,70 @@ double fisher_tail(double f, double numerator, double denominator) {
 
 double chi_squared_tail(double x, double degrees) {
   return tail(boost::math::chi_squared_distribution<double, Plain>(degrees), std::max(x, 0.0));
+}
+
+double autocorrelation(std::span<const double> series, std::size_t lag) {
+  if (series.size() <= lag) return 0;
+  const VectorXd x = centred(series);
+  const double variance = x.squaredNorm();
+  return variance > 0 ? lagged_product(x, static_cast<Index>(lag)) / variance : 0;
+}
+
+double effective_sample_size(std::span<const double> series) {
+  const auto size = static_cast<double>(series.size());
+  if (series.size() < 2) return size;
+  const VectorXd x = centred(series);
+  const double variance = x.squaredNorm();
+  if (!(variance > 0)) return size;
+  double correlation_time = -1;  // −1 + 2·Σ of the pairs, the first of which holds ρ_0 = 1
+  for (Index lag = 0; lag + 1 < x.size(); lag += 2) {
+    const double pair = (lagged_product(x, lag) + lagged_product(x, lag + 1)) / variance;
+    if (pair <= 0) break;
+    correlation_time += 2 * pair;
+  }
+  return std::clamp(size / std::max(correlation_time, 1.0), 1.0, size);
+}
+
+std::size_t cosine_terms(double samples, double effective_samples) {
+  constexpr double reference_worth = (1 - 0.7) / (1 + 0.7);
+  const double equivalent = std::min(samples, effective_samples / reference_worth);
+  return static_cast<std::size_t>(std::max(1.0, std::round(0.4 * std::pow(equivalent, 2.0 / 3.0))));
+}
+
+std::vector<double> long_run_covariance(std::span<const double> rows, std::size_t columns,
+                                        std::size_t terms) {
+  const auto width = static_cast<Index>(columns);
+  const auto height = static_cast<Index>(rows.size() / columns);
+  const auto count = static_cast<Index>(terms);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> z(
+      rows.data(), height, width);
+
+  // All cosines advance together by cos(a + d) = 2cos(d)cos(a) − cos(a − d), one cosine a term
+  // instead of one a sample and term. The recurrence's error grows no faster than N²·ε: 3e-7
+  // for an hour at 10 Hz, far below the 1/√ν by which the estimate itself scatters.
+  const double unit_step = std::numbers::pi / static_cast<double>(height);
+  const Eigen::ArrayXd steps =
+      Eigen::ArrayXd::LinSpaced(count, 1.0, static_cast<double>(terms)) * unit_step;
+  const Eigen::ArrayXd twice_cosine = 2 * steps.cos();
+
+  // In blocks of samples, so that the sums are matrix products.
+  constexpr Index block = 64;
+  Eigen::ArrayXXd cosines(count, block);
+  cosines.col(block - 2) = (1.5 * steps).cos();  // those before the first sample: cos is even
+  cosines.col(block - 1) = (0.5 * steps).cos();
+  MatrixXd coefficients = MatrixXd::Zero(count, width);
+  for (Index t = 0; t < height; t += block) {
+    const Index length = std::min(block, height - t);
+    for (Index i = 0; i < length; ++i) {
+      const Index one_before = (i + block - 1) % block;
+      const Index two_before = (i + block - 2) % block;
+      cosines.col(i) = twice_cosine * cosines.col(one_before) - cosines.col(two_before);
+    }
+    coefficients.noalias() += cosines.leftCols(length).matrix() * z.middleRows(t, length);
+  }
+  const MatrixXd covariance = coefficients.transpose() * coefficients *
+                              (2 / static_cast<double>(height) / static_cast<double>(terms));
+  return {covariance.data(), covariance.data() + covariance.size()};
 }
 
 }  // namespace tethercalc

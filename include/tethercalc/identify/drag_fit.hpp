@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "tethercalc/identify/flight_log.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/airframe.hpp"
 #include "tethercalc/model/units.hpp"
