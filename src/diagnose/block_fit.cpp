@@ -78,8 +78,9 @@ class FreedModel {
     return coefficients_.cwiseQuotient(size);
   }
 
-  void residuals(VectorXd& out) const {
-    record_->residuals(values_, out);
+  void residuals(VectorXd& out) const { residuals(values_, out); }
+  void residuals(const std::vector<double>& values, VectorXd& out) const {
+    record_->residuals(values, out);
     if (columns_.cols() > 0) out.noalias() -= columns_ * coefficients_;
   }
 
@@ -106,8 +107,7 @@ class FreedModel {
       const double step = slope_step * p.scale;
       const double there = here + step <= p.upper ? here + step : here - step;
       values[free_[k]] = there;
-      record_->residuals(values, beside);
-      if (columns_.cols() > 0) beside.noalias() -= columns_ * coefficients_;
+      residuals(values, beside);
       out.col(static_cast<Index>(k)) = (residual - beside) / ((there - here) / p.scale);
       values[free_[k]] = here;
     }

@@ -21,17 +21,7 @@ std::size_t owner_of(const Record& record, std::size_t parameter) {
   return owner;
 }
 
-/// Slopes of the prediction by the parameters of `group`, its own at their first values and all
-/// others at `values`: one column a parameter, over its scale.
-MatrixXd slopes_at_start(const Record& record, std::vector<double> values, std::size_t group) {
-  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    values[record.first_parameter(group) + k] = own[k].start;
-  }
-  return group_slopes(record, {group}, values);
-}
-
-/// Those of its sizes alone.
+/// The slopes at the first values by the sizes of the group alone.
 MatrixXd size_slopes(const Record& record, const std::vector<double>& values, std::size_t group) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   std::vector<Index> sizes;
@@ -41,7 +31,109 @@ MatrixXd size_slopes(const Record& record, const std::vector<double>& values, st
   return slopes_at_start(record, values, group)(Eigen::all, sizes);
 }
 
+/// The sizes of the group by one step of weighted least squares beside what is free in the fit.
+std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit,
+                                       std::size_t group) {
+  const MatrixXd sizes = size_slopes(record, fit.values, group);
+  MatrixXd slopes(sizes.rows(), fit.jacobian.cols() + sizes.cols());
+  slopes << fit.jacobian, sizes;
+  const VectorXd weight = fit.weight.cwiseSqrt();
+  slopes = weight.asDiagonal() * slopes;
+  const VectorXd residual = weight.cwiseProduct(fit.residual);
+  const MatrixXd gram = slopes.transpose() * slopes;
+  const VectorXd along = slopes.transpose() * residual;
+  const auto step = [](const MatrixXd& g, const VectorXd& a) -> VectorXd {
+    return symmetric_pseudo_inverse(g) * a;
+  };
+  const VectorXd whole = step(gram, along);
+  MatrixXd left_out(slopes.cols(), static_cast<Index>(record.blocks()));
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    const MatrixXd rows = slopes.middleRows(record.block_begin(b), record.block_size(b));
+    const VectorXd rest = residual.segment(record.block_begin(b), record.block_size(b));
+    left_out.col(static_cast<Index>(b)) =
+        step(gram - rows.transpose() * rows, along - rows.transpose() * rest);
+  }
+  const MatrixXd covariance = jackknife_covariance(std::move(left_out));
+
+  std::vector<SizeEstimate> estimates;
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (own[k].shape_only) continue;
+    const Index column = fit.jacobian.cols() + static_cast<Index>(estimates.size());
+    SizeEstimate& size = estimates.emplace_back();
+    size.parameter = record.first_parameter(group) + k;
+    size.value = own[k].neutral + own[k].scale * whole[column];
+    size.standard_error = own[k].scale * std::sqrt(covariance(column, column));
+    const auto base = std::find(fit.active.begin(), fit.active.end(), own[k].product_with);
+    if (base == fit.active.end()) continue;
+    const Index base_column = base - fit.active.begin();
+    const double relative = record.parameters()[*base].scale / fit.values[*base];
+    size.base = 1 + relative * whole[base_column];
+    size.base_error = relative * std::sqrt(covariance(base_column, base_column));
+    size.covariance = own[k].scale * relative * covariance(column, base_column);
+  }
+  return estimates;
+}
+
+/// A regressor of which less than this part of the sum of squares is its own, the rest being a
+/// combination of what the fit contains, would only add noise.
+constexpr double least_own_part = 1e-3;
+
+/// Sums over one block; all that a linear extension of the fit needs.
+struct BlockSums {
+  MatrixXd normal;    ///< JᵀJ
+  VectorXd gradient;  ///< Jᵀr
+  MatrixXd cross;     ///< JᵀZ
+  VectorXd own;       ///< Σz² of each regressor
+  VectorXd slope;     ///< Σz·r
+  double squared_residual = 0;
+};
+
+MatrixXd regressor_columns(const Record& record) {
+  const auto& unnamed = record.problem().unnamed;
+  MatrixXd columns(record.rows(), static_cast<Index>(unnamed.size()));
+  for (std::size_t k = 0; k < unnamed.size(); ++k) {
+    columns.col(static_cast<Index>(k)) = record.scaled_column(unnamed[k].column);
+  }
+  return columns;
+}
+
+/// Robustness weights count in the fits, not in the held-out error.
+BlockSums sums(const Record& record, const BlockFit& fit, const MatrixXd& columns,
+               std::size_t block, bool weighted) {
+  const auto rows = Eigen::seqN(record.block_begin(block), record.block_size(block));
+  const MatrixXd jacobian = fit.jacobian(rows, Eigen::all);
+  const MatrixXd z = columns(rows, Eigen::all);
+  const VectorXd residual = fit.residual(rows);
+  VectorXd weight = VectorXd::Ones(residual.size());
+  if (weighted) weight = fit.weight(rows);
+  BlockSums s;
+  s.normal = jacobian.transpose() * weight.asDiagonal() * jacobian;
+  s.gradient = jacobian.transpose() * weight.cwiseProduct(residual);
+  s.cross = jacobian.transpose() * weight.asDiagonal() * z;
+  s.own = z.array().square().matrix().transpose() * weight;
+  s.slope = z.transpose() * weight.cwiseProduct(residual);
+  s.squared_residual = residual.squaredNorm();
+  return s;
+}
+
+void add(BlockSums& total, const BlockSums& part, double sign) {
+  total.normal += sign * part.normal;
+  total.gradient += sign * part.gradient;
+  total.cross += sign * part.cross;
+  total.own += sign * part.own;
+  total.slope += sign * part.slope;
+}
+
 }  // namespace
+
+MatrixXd slopes_at_start(const Record& record, std::vector<double> values, std::size_t group) {
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    values[record.first_parameter(group) + k] = own[k].start;
+  }
+  return group_slopes(record, {group}, values);
+}
 
 double gain_percent(double before, double after) {
   return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
@@ -101,54 +193,6 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   return aliased;
 }
 
-namespace {
-
-/// The sizes of the group by one step of weighted least squares beside what is free in the fit.
-std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit,
-                                       std::size_t group) {
-  const MatrixXd sizes = size_slopes(record, fit.values, group);
-  MatrixXd slopes(sizes.rows(), fit.jacobian.cols() + sizes.cols());
-  slopes << fit.jacobian, sizes;
-  const VectorXd weight = fit.weight.cwiseSqrt();
-  slopes = weight.asDiagonal() * slopes;
-  const VectorXd residual = weight.cwiseProduct(fit.residual);
-  const MatrixXd gram = slopes.transpose() * slopes;
-  const VectorXd along = slopes.transpose() * residual;
-  const auto step = [](const MatrixXd& g, const VectorXd& a) -> VectorXd {
-    return symmetric_pseudo_inverse(g) * a;
-  };
-  const VectorXd whole = step(gram, along);
-  MatrixXd left_out(slopes.cols(), static_cast<Index>(record.blocks()));
-  for (std::size_t b = 0; b < record.blocks(); ++b) {
-    const MatrixXd rows = slopes.middleRows(record.block_begin(b), record.block_size(b));
-    const VectorXd rest = residual.segment(record.block_begin(b), record.block_size(b));
-    left_out.col(static_cast<Index>(b)) =
-        step(gram - rows.transpose() * rows, along - rows.transpose() * rest);
-  }
-  const MatrixXd covariance = jackknife_covariance(std::move(left_out));
-
-  std::vector<SizeEstimate> estimates;
-  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    if (own[k].shape_only) continue;
-    const Index column = fit.jacobian.cols() + static_cast<Index>(estimates.size());
-    SizeEstimate& size = estimates.emplace_back();
-    size.parameter = record.first_parameter(group) + k;
-    size.value = own[k].neutral + own[k].scale * whole[column];
-    size.standard_error = own[k].scale * std::sqrt(covariance(column, column));
-    const auto base = std::find(fit.active.begin(), fit.active.end(), own[k].product_with);
-    if (base == fit.active.end()) continue;
-    const Index base_column = base - fit.active.begin();
-    const double relative = record.parameters()[*base].scale / fit.values[*base];
-    size.base = 1 + relative * whole[base_column];
-    size.base_error = relative * std::sqrt(covariance(base_column, base_column));
-    size.covariance = own[k].scale * relative * covariance(column, base_column);
-  }
-  return estimates;
-}
-
-}  // namespace
-
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
                                         const Selection& found,
                                         const std::function<BlockFit(std::size_t)>& with) {
@@ -184,31 +228,6 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     add_fit(record, freed, {}, candidate.freed);
   }
   return open;
-}
-
-LinearisedGains::LinearisedGains(const Record& record, const BlockFit& fit,
-                                 const Groups& candidates) {
-  const VectorXd weight = fit.weight.cwiseSqrt();
-  const MatrixXd free = weight.asDiagonal() * fit.jacobian;
-  MatrixXd slopes(fit.residual.size(), 0);
-  for (const std::size_t g : candidates) {
-    const MatrixXd of_group = slopes_at_start(record, fit.values, g);
-    for (Index k = 0; k < of_group.cols(); ++k) columns_[g].push_back(slopes.cols() + k);
-    slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
-    slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
-  }
-  if (free.cols() > 0) slopes -= free * least_squares(free, slopes);
-  gram_ = slopes.transpose() * slopes;
-  along_ = slopes.transpose() * weight.cwiseProduct(fit.residual);
-}
-
-double LinearisedGains::of(const Groups& groups) const {
-  std::vector<Index> columns;
-  for (const std::size_t g : groups) {
-    columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
-  }
-  const VectorXd along = along_(columns);
-  return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
 }
 
 Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found) {
@@ -279,60 +298,6 @@ Selection nothing_selected(const Record& record, const SelectionOptions& options
 }
 
 // --- Structure without a name ---
-
-namespace {
-
-/// A regressor of which less than this part of the sum of squares is its own, the rest being a
-/// combination of what the fit contains, would only add noise.
-constexpr double least_own_part = 1e-3;
-
-/// Sums over one block; all that a linear extension of the fit needs.
-struct BlockSums {
-  MatrixXd normal;    ///< JᵀJ
-  VectorXd gradient;  ///< Jᵀr
-  MatrixXd cross;     ///< JᵀZ
-  VectorXd own;       ///< Σz² of each regressor
-  VectorXd slope;     ///< Σz·r
-  double squared_residual = 0;
-};
-
-MatrixXd regressor_columns(const Record& record) {
-  const auto& unnamed = record.problem().unnamed;
-  MatrixXd columns(record.rows(), static_cast<Index>(unnamed.size()));
-  for (std::size_t k = 0; k < unnamed.size(); ++k) {
-    columns.col(static_cast<Index>(k)) = record.scaled_column(unnamed[k].column);
-  }
-  return columns;
-}
-
-/// Robustness weights count in the fits, not in the held-out error.
-BlockSums sums(const Record& record, const BlockFit& fit, const MatrixXd& columns,
-               std::size_t block, bool weighted) {
-  const auto rows = Eigen::seqN(record.block_begin(block), record.block_size(block));
-  const MatrixXd jacobian = fit.jacobian(rows, Eigen::all);
-  const MatrixXd z = columns(rows, Eigen::all);
-  const VectorXd residual = fit.residual(rows);
-  VectorXd weight = VectorXd::Ones(residual.size());
-  if (weighted) weight = fit.weight(rows);
-  BlockSums s;
-  s.normal = jacobian.transpose() * weight.asDiagonal() * jacobian;
-  s.gradient = jacobian.transpose() * weight.cwiseProduct(residual);
-  s.cross = jacobian.transpose() * weight.asDiagonal() * z;
-  s.own = z.array().square().matrix().transpose() * weight;
-  s.slope = z.transpose() * weight.cwiseProduct(residual);
-  s.squared_residual = residual.squaredNorm();
-  return s;
-}
-
-void add(BlockSums& total, const BlockSums& part, double sign) {
-  total.normal += sign * part.normal;
-  total.gradient += sign * part.gradient;
-  total.cross += sign * part.cross;
-  total.own += sign * part.own;
-  total.slope += sign * part.slope;
-}
-
-}  // namespace
 
 std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& fit,
                                          const std::vector<std::size_t>& taken,

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -35,19 +34,10 @@ struct Gain {
 [[nodiscard]] std::optional<Selection::Aliased> aliased_in(const Record& record,
                                                            const BlockFit& fit, std::size_t group);
 
-/// By how much groups would lower the squared error of a fit if the prediction were linear in
-/// their parameters.
-class LinearisedGains {
- public:
-  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates);
-  /// Of these candidates together.
-  [[nodiscard]] double of(const Groups& groups) const;
-
- private:
-  std::map<std::size_t, std::vector<Index>> columns_;
-  MatrixXd gram_;   ///< of all slopes beside what is free in the fit
-  VectorXd along_;  ///< the residual along each of them
-};
+/// Slopes of the prediction by the parameters of `group`, its own at their first values and all
+/// others at `values`: one column a parameter, over its scale.
+[[nodiscard]] MatrixXd slopes_at_start(const Record& record, std::vector<double> values,
+                                       std::size_t group);
 
 /// What `fit` says of each candidate that is neither selected in `found`, nor aliased, nor a rival
 /// of one that is selected. `with` gives the fit with one of them freed.

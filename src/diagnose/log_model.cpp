@@ -232,6 +232,36 @@ ErrorBudget error_budget(const Selection& selection) {
   return budget;
 }
 
+std::vector<double> in_degrees(std::vector<double> angle) {
+  for (double& value : angle) value /= unit::degree;
+  return angle;
+}
+
+/// Central differences; one-sided at the ends.
+std::vector<double> rate_of(const std::vector<double>& x, const std::vector<double>& time) {
+  std::vector<double> rate(x.size(), 0.0);
+  for (std::size_t i = 0; i < x.size() && x.size() > 1; ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const std::size_t after = std::min(i + 1, x.size() - 1);
+    rate[i] = (x[after] - x[before]) / (time[after] - time[before]);
+  }
+  return rate;
+}
+
+std::vector<double> braking(const FlightRecord& record) {
+  std::vector<double> out = product(record.forward_speed, in_degrees(record.tilt));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    // Signed like the motion, so that a force against it lies on a line.
+    const double against = record.forward_speed[i] > 0 ? -out[i] : out[i];
+    out[i] = out[i] < 0 ? against : nan;
+  }
+  return out;
+}
+
+[[noreturn]] void unknown(const std::string& id) {
+  throw std::invalid_argument("there is no channel \"" + id + "\"");
+}
+
 }  // namespace
 
 void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
@@ -303,40 +333,6 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
 }
 
 // --- Channels ---
-
-namespace {
-
-std::vector<double> in_degrees(std::vector<double> angle) {
-  for (double& value : angle) value /= unit::degree;
-  return angle;
-}
-
-/// Central differences; one-sided at the ends.
-std::vector<double> rate_of(const std::vector<double>& x, const std::vector<double>& time) {
-  std::vector<double> rate(x.size(), 0.0);
-  for (std::size_t i = 0; i < x.size() && x.size() > 1; ++i) {
-    const std::size_t before = i == 0 ? 0 : i - 1;
-    const std::size_t after = std::min(i + 1, x.size() - 1);
-    rate[i] = (x[after] - x[before]) / (time[after] - time[before]);
-  }
-  return rate;
-}
-
-std::vector<double> braking(const FlightRecord& record) {
-  std::vector<double> out = product(record.forward_speed, in_degrees(record.tilt));
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    // Signed like the motion, so that a force against it lies on a line.
-    const double against = record.forward_speed[i] > 0 ? -out[i] : out[i];
-    out[i] = out[i] < 0 ? against : nan;
-  }
-  return out;
-}
-
-[[noreturn]] void unknown(const std::string& id) {
-  throw std::invalid_argument("there is no channel \"" + id + "\"");
-}
-
-}  // namespace
 
 Channel flight_channel(const std::string& id, const FlightRecord& record) {
   if (id == "forward_speed") return {"forward speed", "m/s", record.forward_speed};

@@ -66,17 +66,18 @@ int block_at(const PowerLog& log, std::size_t sample) {
 /// Takes away the stages that too few healthy stretches are left of, with what each would need.
 std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
   std::map<Stage, std::string> dropped;
-  for (const auto& [stage, usable] : screened.usable) {
+  std::erase_if(screened.usable, [&](const auto& found) {
+    const auto& [stage, usable] = found;
     std::set<int> blocks;
     for (std::size_t i = 0; i < usable.size(); ++i) {
       if (usable[i]) blocks.insert(block_at(screened.log, i));
     }
     const auto healthy = std::count(usable.begin(), usable.end(), char{1});
-    if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) continue;
+    if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) return false;
     dropped[stage] = fmt::format("instruments that work for longer: of {} samples {} are healthy",
                                  usable.size(), healthy);
-  }
-  for (const auto& [stage, reason] : dropped) screened.usable.erase(stage);
+    return true;
+  });
   return dropped;
 }
 

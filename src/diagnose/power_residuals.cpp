@@ -303,37 +303,31 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   const PowerStage& stage = stages_[k];
   const PowerInstruments& instruments = model.instruments;
   const PowerLog log = without_errors(screened_.log, instruments);
-  switch (stage.stage) {
-    case Stage::tether: {
-      const std::vector<double> resistance = loop_resistance(model, log, heat_);
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        const double lost = log.supply_voltage[i] - log.drone_voltage[i];
-        out[i] = (lost - log.supply_current[i] * resistance[i]) / stage.noise;
-      }
-      break;
+  if (stage.stage == Stage::tether) {
+    const std::vector<double> resistance = loop_resistance(model, log, heat_);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double lost = log.supply_voltage[i] - log.drone_voltage[i];
+      out[i] = (lost - log.supply_current[i] * resistance[i]) / stage.noise;
     }
-    case Stage::converter: {
-      const double in_gain = instruments.supply_current_gain;
-      const double out_gain = instruments.bus_current_gain;
-      const Converter& converter = model.design.supply.converter;
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        const double input = log.drone_voltage[i] * log.supply_current[i];
-        const double output = bus_power_[i] / out_gain;
-        const double slope = input_slope(converter, output);
-        const double variance = input_variance_ / (in_gain * in_gain) +
-                                slope * slope * output_variance_ / (out_gain * out_gain);
-        out[i] = (input - model.design.drone.auxiliary_power -
-                  converter_input_power(converter, output)) /
-                 (std::sqrt(variance) * stage.noise);
-      }
-      break;
+  } else if (stage.stage == Stage::converter) {
+    const double in_gain = instruments.supply_current_gain;
+    const double out_gain = instruments.bus_current_gain;
+    const Converter& converter = model.design.supply.converter;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double input = log.drone_voltage[i] * log.supply_current[i];
+      const double output = bus_power_[i] / out_gain;
+      const double slope = input_slope(converter, output);
+      const double variance = input_variance_ / (in_gain * in_gain) +
+                              slope * slope * output_variance_ / (out_gain * out_gain);
+      out[i] =
+          (input - model.design.drone.auxiliary_power - converter_input_power(converter, output)) /
+          (std::sqrt(variance) * stage.noise);
     }
-    default: {
-      const std::vector<double> power = motor_power(model, log);
-      const double gain = std::log(instruments.bus_current_gain);
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = (log_bus_power_[i] - gain - std::log(power[i])) / stage.noise;
-      }
+  } else {
+    const std::vector<double> power = motor_power(model, log);
+    const double gain = std::log(instruments.bus_current_gain);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = (log_bus_power_[i] - gain - std::log(power[i])) / stage.noise;
     }
   }
 }

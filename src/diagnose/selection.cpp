@@ -74,10 +74,11 @@ class Search {
     current_ = base;
     result.base = model_fit(base);
     for (const std::size_t g : candidates()) {
-      if (auto aliased = aliased_in(record_, base, g))
+      if (auto aliased = aliased_in(record_, base, g)) {
+        aliased_.insert(g);
         result.aliased.push_back(std::move(*aliased));
+      }
     }
-    for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
 
     // Every round either ends or puts an effect on the list of those never tried again.
     do {

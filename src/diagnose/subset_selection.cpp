@@ -59,6 +59,41 @@ ModelFit model_fit(const Record& record, const BlockFit& fit) {
   return all;
 }
 
+/// By how much groups would lower the squared error of a fit if the prediction were linear in
+/// their parameters.
+class LinearisedGains {
+ public:
+  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates) {
+    const VectorXd weight = fit.weight.cwiseSqrt();
+    const MatrixXd free = weight.asDiagonal() * fit.jacobian;
+    MatrixXd slopes(fit.residual.size(), 0);
+    for (const std::size_t g : candidates) {
+      const MatrixXd of_group = slopes_at_start(record, fit.values, g);
+      for (Index k = 0; k < of_group.cols(); ++k) columns_[g].push_back(slopes.cols() + k);
+      slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
+      slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
+    }
+    if (free.cols() > 0) slopes -= free * least_squares(free, slopes);
+    gram_ = slopes.transpose() * slopes;
+    along_ = slopes.transpose() * weight.cwiseProduct(fit.residual);
+  }
+
+  /// Of these candidates together.
+  [[nodiscard]] double of(const Groups& groups) const {
+    std::vector<Index> columns;
+    for (const std::size_t g : groups) {
+      columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
+    }
+    const VectorXd along = along_(columns);
+    return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
+  }
+
+ private:
+  std::map<std::size_t, std::vector<Index>> columns_;
+  MatrixXd gram_;   ///< of all slopes beside what is free in the fit
+  VectorXd along_;  ///< the residual along each of them
+};
+
 class SubsetSearch {
  public:
   SubsetSearch(const SelectionProblem& problem, const SelectionOptions& options,
@@ -218,17 +253,12 @@ class SubsetSearch {
 
   void find_aliased(const Model& model, bool beside_findings) {
     for (const std::size_t g : candidates_) {
-      if (is_aliased(g) || contains(model.named, g)) continue;
+      if (contains(model.named, g)) continue;
       auto aliased = aliased_in(record_, model.fit, g);
       if (aliased && !(aliased->with.empty() && beside_findings)) {
         aliased_.push_back(std::move(*aliased));
       }
     }
-  }
-
-  [[nodiscard]] bool is_aliased(std::size_t g) const {
-    return std::any_of(aliased_.begin(), aliased_.end(),
-                       [g](const Selection::Aliased& a) { return a.group == g; });
   }
 
   /// The best model, but for one of its names.
