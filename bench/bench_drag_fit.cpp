@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../tests/support/flight_csv.hpp"
-#include "tethercalc/identify/drag_identification.hpp"
+#include "tethercalc/identify/drag_fit.hpp"
 
 namespace {
 

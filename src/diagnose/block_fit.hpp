@@ -2,13 +2,12 @@
 // blocks.
 #pragma once
 
-#include <Eigen/Core>
-
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
 #include "diagnose/selection.hpp"
+#include "identify/linear_algebra.hpp"
 
 namespace tethercalc {
 
@@ -19,32 +18,32 @@ class Record {
   /// Keeps references: `problem` must outlive it.
   explicit Record(const SelectionProblem& problem);
 
-  [[nodiscard]] Eigen::Index rows() const { return static_cast<Eigen::Index>(rows_.size()); }
+  [[nodiscard]] Index rows() const { return static_cast<Index>(rows_.size()); }
   [[nodiscard]] std::size_t blocks() const { return block_begin_.size() - 1; }
-  [[nodiscard]] Eigen::Index block_begin(std::size_t b) const { return block_begin_[b]; }
-  [[nodiscard]] Eigen::Index block_size(std::size_t b) const {
+  [[nodiscard]] Index block_begin(std::size_t b) const { return block_begin_[b]; }
+  [[nodiscard]] Index block_size(std::size_t b) const {
     return block_begin_[b + 1] - block_begin_[b];
   }
   [[nodiscard]] const std::vector<ModelParameter>& parameters() const { return parameters_; }
   /// First parameter of a group.
   [[nodiscard]] std::size_t first_parameter(std::size_t group) const { return first_[group]; }
   [[nodiscard]] const SelectionProblem& problem() const { return problem_; }
-  [[nodiscard]] std::size_t row_in_problem(Eigen::Index i) const {
+  [[nodiscard]] std::size_t row_in_problem(Index i) const {
     return rows_[static_cast<std::size_t>(i)];
   }
 
   /// (measured − predicted)/noise.
-  void residuals(const std::vector<double>& values, Eigen::VectorXd& out) const;
+  void residuals(const std::vector<double>& values, VectorXd& out) const;
   /// A column over the problem's rows, divided by the noise.
-  [[nodiscard]] Eigen::VectorXd scaled_column(const std::vector<double>& column) const;
+  [[nodiscard]] VectorXd scaled_column(const std::vector<double>& column) const;
 
  private:
   const SelectionProblem& problem_;
   std::vector<ModelParameter> parameters_;
   std::vector<std::size_t> first_;
   std::vector<std::size_t> rows_;
-  std::vector<Eigen::Index> block_begin_;
-  Eigen::VectorXd inverse_noise_;
+  std::vector<Index> block_begin_;
+  VectorXd inverse_noise_;
   mutable std::vector<double> predicted_;
 };
 
@@ -67,14 +66,14 @@ struct Freed {
 struct BlockFit {
   Freed freed;
   std::vector<double> values;       ///< all parameters
-  Eigen::VectorXd coefficients;     ///< of the unnamed regressors as they are given
+  VectorXd coefficients;            ///< of the unnamed regressors as they are given
   std::vector<std::size_t> active;  ///< parameter of each leading column of the jacobian
-  Eigen::MatrixXd jacobian;         ///< of the prediction
-  Eigen::VectorXd residual;         ///< in sample
-  Eigen::VectorXd weight;           ///< robustness weights in (0, 1]
-  Eigen::MatrixXd left_out;  ///< change of the jacobian's parameters without block b: column b
-  Eigen::VectorXd holdout_residual;
-  Eigen::VectorXd block_error;  ///< held-out sum of squares, one a block
+  MatrixXd jacobian;                ///< of the prediction
+  VectorXd residual;                ///< in sample
+  VectorXd weight;                  ///< robustness weights in (0, 1]
+  MatrixXd left_out;  ///< change of the jacobian's parameters without block b: column b
+  VectorXd holdout_residual;
+  VectorXd block_error;  ///< held-out sum of squares, one a block
 
   [[nodiscard]] double squared_error() const { return block_error.sum(); }
   [[nodiscard]] double rmse() const {
@@ -87,16 +86,15 @@ struct BlockFit {
 /// the parameters' own first values.
 [[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near);
 
-/// Slopes of the prediction by the parameters of `group` over their scales, at `values`.
-[[nodiscard]] Eigen::MatrixXd group_slopes(const Record& record, std::size_t group,
-                                           const std::vector<double>& values);
+/// Slopes of the prediction by the parameters of `groups` over their scales, at `values`.
+[[nodiscard]] MatrixXd group_slopes(const Record& record, const Groups& groups,
+                                    const std::vector<double>& values);
 
 /// Covariance of some quantities by the delete-a-block jackknife, from their values (up to a
 /// constant) without each block: one row a quantity, one column a block.
-[[nodiscard]] Eigen::MatrixXd jackknife_covariance(Eigen::MatrixXd left_out);
+[[nodiscard]] MatrixXd jackknife_covariance(MatrixXd left_out);
 
 /// Covariance of the parameters `of` (columns of the jacobian) by the delete-a-block jackknife.
-[[nodiscard]] Eigen::MatrixXd jackknife_covariance(const BlockFit& fit,
-                                                   const std::vector<Eigen::Index>& of);
+[[nodiscard]] MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Index>& of);
 
 }  // namespace tethercalc

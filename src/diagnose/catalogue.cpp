@@ -2,10 +2,11 @@
 #include "tethercalc/diagnose/catalogue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnose/flight_prediction.hpp"
-#include "diagnose/power_effects.hpp"
+#include "diagnose/power_chain.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -221,6 +222,12 @@ std::span<const Effect> effect_catalogue() {
   return effects;
 }
 
+std::span<const Effect> effect_catalogue(LogKind kind) {
+  static const std::size_t flights = flight_effects().size();
+  const std::span<const Effect> all = effect_catalogue();
+  return kind == LogKind::flight ? all.first(flights) : all.subspan(flights);
+}
+
 const Effect* find_effect(std::string_view id) {
   const auto effects = effect_catalogue();
   const auto found = std::find_if(effects.begin(), effects.end(),
@@ -229,19 +236,9 @@ const Effect* find_effect(std::string_view id) {
 }
 
 std::string_view to_string(Stage stage) {
-  switch (stage) {
-    case Stage::supply:
-      return "supply";
-    case Stage::tether:
-      return "tether";
-    case Stage::converter:
-      return "converter";
-    case Stage::motors:
-      return "motors";
-    case Stage::airframe:
-      return "airframe";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> names{"supply", "tether", "converter", "motors",
+                                                  "airframe"};  // in the order of the stages
+  return names[static_cast<std::size_t>(stage)];
 }
 
 }  // namespace tethercalc

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identify/distributions.hpp"
-#include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double aliased_below = 0.01;
 /// Cosine beyond which a change of the prediction looks like another at all.
@@ -27,69 +21,15 @@ std::size_t owner_of(const Record& record, std::size_t parameter) {
   return owner;
 }
 
-}  // namespace
-
-MatrixXd size_slopes(const Record& record, std::vector<double> values, std::size_t group) {
+/// The slopes at the first values by the sizes of the group alone.
+MatrixXd size_slopes(const Record& record, const std::vector<double>& values, std::size_t group) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   std::vector<Index> sizes;
   for (std::size_t k = 0; k < own.size(); ++k) {
-    values[record.first_parameter(group) + k] = own[k].start;
     if (!own[k].shape_only) sizes.push_back(static_cast<Index>(k));
   }
-  return group_slopes(record, group, values)(Eigen::all, sizes);
+  return slopes_at_start(record, values, group)(Eigen::all, sizes);
 }
-
-double gain_percent(double before, double after) {
-  return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
-}
-
-double gain_se_percent(const VectorXd& before, const VectorXd& after, double other) {
-  const auto blocks = static_cast<double>(before.size());
-  VectorXd gain(before.size());
-  for (Index b = 0; b < gain.size(); ++b) {
-    gain[b] = gain_percent(other + before.sum() - before[b], other + after.sum() - after[b]);
-  }
-  return std::sqrt((blocks - 1) / blocks * (gain.array() - gain.mean()).square().sum());
-}
-
-std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFit& fit,
-                                             std::size_t group) {
-  std::vector<Index> columns;
-  for (std::size_t k = 0; k < fit.active.size(); ++k) {
-    if (record.problem().groups[group].replaces != owner_of(record, fit.active[k])) {
-      columns.push_back(static_cast<Index>(k));
-    }
-  }
-  MatrixXd slopes = size_slopes(record, fit.values, group);
-  const VectorXd norms = slopes.colwise().norm();
-  if (norms.minCoeff() <= 0) return Selection::Aliased{group, {}};
-  slopes = slopes * norms.cwiseInverse().asDiagonal();
-  const VectorXd size = slopes.col(0);
-  if (!columns.empty()) {
-    const MatrixXd others = fit.jacobian(Eigen::all, columns);
-    slopes -= others * least_squares(others, slopes);
-  }
-  const MatrixXd gram = slopes.transpose() * slopes;
-  const double least = least_eigenvalue(gram).value;
-  if (std::sqrt(std::max(least, 0.0)) >= aliased_below) return std::nullopt;
-
-  std::vector<std::pair<double, std::size_t>> nearness;
-  for (const Index k : columns) {
-    const VectorXd other = fit.jacobian.col(k);
-    const double cosine = std::abs(other.dot(size)) / std::max(other.norm(), 1e-300);
-    if (cosine > alike) {
-      nearness.emplace_back(-cosine, owner_of(record, fit.active[static_cast<std::size_t>(k)]));
-    }
-  }
-  std::sort(nearness.begin(), nearness.end());
-  Selection::Aliased aliased{group, {}};
-  for (const auto& [cosine, owner] : nearness) {
-    if (!contains(aliased.with, owner)) aliased.with.push_back(owner);
-  }
-  return aliased;
-}
-
-namespace {
 
 /// The sizes of the group by one step of weighted least squares beside what is free in the fit.
 std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit,
@@ -135,12 +75,140 @@ std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit
   return estimates;
 }
 
+/// A regressor of which less than this part of the sum of squares is its own, the rest being a
+/// combination of what the fit contains, would only add noise.
+constexpr double least_own_part = 1e-3;
+
+/// Sums over one block; all that a linear extension of the fit needs.
+struct BlockSums {
+  MatrixXd normal;    ///< JᵀJ
+  VectorXd gradient;  ///< Jᵀr
+  MatrixXd cross;     ///< JᵀZ
+  VectorXd own;       ///< Σz² of each regressor
+  VectorXd slope;     ///< Σz·r
+  double squared_residual = 0;
+};
+
+MatrixXd regressor_columns(const Record& record) {
+  const auto& unnamed = record.problem().unnamed;
+  MatrixXd columns(record.rows(), static_cast<Index>(unnamed.size()));
+  for (std::size_t k = 0; k < unnamed.size(); ++k) {
+    columns.col(static_cast<Index>(k)) = record.scaled_column(unnamed[k].column);
+  }
+  return columns;
+}
+
+/// Robustness weights count in the fits, not in the held-out error.
+BlockSums sums(const Record& record, const BlockFit& fit, const MatrixXd& columns,
+               std::size_t block, bool weighted) {
+  const auto rows = Eigen::seqN(record.block_begin(block), record.block_size(block));
+  const MatrixXd jacobian = fit.jacobian(rows, Eigen::all);
+  const MatrixXd z = columns(rows, Eigen::all);
+  const VectorXd residual = fit.residual(rows);
+  VectorXd weight = VectorXd::Ones(residual.size());
+  if (weighted) weight = fit.weight(rows);
+  BlockSums s;
+  s.normal = jacobian.transpose() * weight.asDiagonal() * jacobian;
+  s.gradient = jacobian.transpose() * weight.cwiseProduct(residual);
+  s.cross = jacobian.transpose() * weight.asDiagonal() * z;
+  s.own = z.array().square().matrix().transpose() * weight;
+  s.slope = z.transpose() * weight.cwiseProduct(residual);
+  s.squared_residual = residual.squaredNorm();
+  return s;
+}
+
+void add(BlockSums& total, const BlockSums& part, double sign) {
+  total.normal += sign * part.normal;
+  total.gradient += sign * part.gradient;
+  total.cross += sign * part.cross;
+  total.own += sign * part.own;
+  total.slope += sign * part.slope;
+}
+
 }  // namespace
 
+MatrixXd slopes_at_start(const Record& record, std::vector<double> values, std::size_t group) {
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    values[record.first_parameter(group) + k] = own[k].start;
+  }
+  return group_slopes(record, {group}, values);
+}
+
+double gain_percent(double before, double after) {
+  return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
+}
+
+Gain gain_between(const BlockFit& before, const BlockFit& after) {
+  const double all_before = before.squared_error();
+  const double all_after = after.squared_error();
+  const auto blocks = static_cast<double>(before.block_error.size());
+  VectorXd without(before.block_error.size());
+  for (Index b = 0; b < without.size(); ++b) {
+    without[b] = gain_percent(all_before - before.block_error[b], all_after - after.block_error[b]);
+  }
+  const double spread = (without.array() - without.mean()).square().sum();
+  return {gain_percent(all_before, all_after), std::sqrt((blocks - 1) / blocks * spread)};
+}
+
+SelectedGroup freed_between(const BlockFit& before, const BlockFit& after, std::size_t group) {
+  const Gain gained = gain_between(before, after);
+  return {group, before.rmse(), after.rmse(), gained.percent, gained.se};
+}
+
+std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFit& fit,
+                                             std::size_t group) {
+  std::vector<Index> columns;
+  for (std::size_t k = 0; k < fit.active.size(); ++k) {
+    if (record.problem().groups[group].replaces != owner_of(record, fit.active[k])) {
+      columns.push_back(static_cast<Index>(k));
+    }
+  }
+  MatrixXd slopes = size_slopes(record, fit.values, group);
+  const VectorXd norms = slopes.colwise().norm();
+  if (norms.minCoeff() <= 0) return Selection::Aliased{group, {}};
+  slopes = slopes * norms.cwiseInverse().asDiagonal();
+  const VectorXd size = slopes.col(0);
+  if (!columns.empty()) {
+    const MatrixXd others = fit.jacobian(Eigen::all, columns);
+    slopes -= others * least_squares(others, slopes);
+  }
+  const MatrixXd gram = slopes.transpose() * slopes;
+  const double least = least_eigenvalue(gram).value;
+  if (std::sqrt(std::max(least, 0.0)) >= aliased_below) return std::nullopt;
+
+  std::vector<std::pair<double, std::size_t>> nearness;
+  for (const Index k : columns) {
+    const VectorXd other = fit.jacobian.col(k);
+    const double cosine = std::abs(other.dot(size)) / std::max(other.norm(), 1e-300);
+    if (cosine > alike) {
+      nearness.emplace_back(-cosine, owner_of(record, fit.active[static_cast<std::size_t>(k)]));
+    }
+  }
+  std::sort(nearness.begin(), nearness.end());
+  Selection::Aliased aliased{group, {}};
+  for (const auto& [cosine, owner] : nearness) {
+    if (!contains(aliased.with, owner)) aliased.with.push_back(owner);
+  }
+  return aliased;
+}
+
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
-                                        const Groups& candidates,
+                                        const Selection& found,
                                         const std::function<BlockFit(std::size_t)>& with) {
   const auto degrees = static_cast<double>(record.blocks() - 1);
+  Groups candidates;
+  for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
+    const auto is_told = [g](const SelectedGroup& s) {
+      return s.group == g || contains(s.indistinguishable, g);
+    };
+    const auto is_aliased = [g](const Selection::Aliased& a) { return a.group == g; };
+    if (!record.problem().groups[g].fitted &&
+        std::none_of(found.selected.begin(), found.selected.end(), is_told) &&
+        std::none_of(found.aliased.begin(), found.aliased.end(), is_aliased)) {
+      candidates.push_back(g);
+    }
+  }
   std::vector<Selection::Open> open;
   for (const std::size_t g : candidates) {
     Selection::Open& candidate = open.emplace_back();
@@ -153,47 +221,11 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
     }
     const BlockFit freed = with(g);
-    candidate.gain_percent = gain_percent(fit.squared_error(), freed.squared_error());
-    candidate.gain_se_percent = gain_se_percent(fit.block_error, freed.block_error);
-    candidate.freed = neutral_fit(record.problem(), record.blocks());
+    const Gain gained = gain_between(fit, freed);
+    candidate.gain_percent = gained.percent;
+    candidate.gain_se_percent = gained.se;
+    candidate.freed = neutral_fit(record);
     add_fit(record, freed, {}, candidate.freed);
-  }
-  return open;
-}
-
-LinearisedGains::LinearisedGains(const Record& record, const BlockFit& fit,
-                                 const Groups& candidates) {
-  const VectorXd weight = fit.weight.cwiseSqrt();
-  const MatrixXd free = weight.asDiagonal() * fit.jacobian;
-  MatrixXd slopes(fit.residual.size(), 0);
-  for (const std::size_t g : candidates) {
-    std::vector<double> values = fit.values;
-    const std::vector<ModelParameter>& own = record.problem().groups[g].parameters;
-    for (std::size_t k = 0; k < own.size(); ++k) {
-      values[record.first_parameter(g) + k] = own[k].start;
-      columns_[g].push_back(slopes.cols() + static_cast<Index>(k));
-    }
-    const MatrixXd of_group = group_slopes(record, g, values);
-    slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
-    slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
-  }
-  if (free.cols() > 0) slopes -= free * least_squares(free, slopes);
-  gram_ = slopes.transpose() * slopes;
-  along_ = slopes.transpose() * weight.cwiseProduct(fit.residual);
-}
-
-double LinearisedGains::of(const Groups& groups) const {
-  std::vector<Index> columns;
-  for (const std::size_t g : groups) {
-    columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
-  }
-  const VectorXd along = along_(columns);
-  return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
-}
-
-Groups without_rivals(Groups open, const std::vector<SelectedGroup>& selected) {
-  for (const SelectedGroup& s : selected) {
-    std::erase_if(open, [&s](std::size_t g) { return contains(s.indistinguishable, g); });
   }
   return open;
 }
@@ -205,22 +237,12 @@ Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found) {
   return groups;
 }
 
-Groups twins_of(const SelectionProblem& problem, std::size_t group) {
-  Groups twins;
-  for (std::size_t g = 0; g < problem.groups.size(); ++g) {
-    if (problem.groups[g].twin_of == group && !problem.groups[g].fitted) twins.push_back(g);
-  }
-  return twins;
-}
-
-ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks) {
+ModelFit neutral_fit(const Record& record) {
   ModelFit fit;
-  for (const ParameterGroup& group : problem.groups) {
-    for (const ModelParameter& p : group.parameters) fit.values.push_back(p.neutral);
-  }
+  for (const ModelParameter& p : record.parameters()) fit.values.push_back(p.neutral);
   fit.standard_error.assign(fit.values.size(), 0);
   fit.product_covariance.assign(fit.values.size(), 0);
-  fit.without_block.assign(blocks, fit.values);
+  fit.without_block.assign(record.blocks(), fit.values);
   return fit;
 }
 
@@ -253,11 +275,89 @@ void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systemat
   }
 }
 
-void name_channels(const SelectionProblem& problem, UnnamedStructure& unnamed) {
+UnnamedStructure unnamed_in(const Record& record, const BlockFit& complete, const BlockFit& named) {
+  UnnamedStructure unnamed;
+  if (complete.freed.unnamed.empty()) return unnamed;
+  unnamed.regressors = complete.freed.unnamed;
+  unnamed.coefficients.assign(complete.coefficients.begin(), complete.coefficients.end());
   for (const std::size_t u : unnamed.regressors) {
-    const std::string& channel = problem.unnamed[u].channel;
+    const std::string& channel = record.problem().unnamed[u].channel;
     if (!contains(unnamed.channels, channel)) unnamed.channels.push_back(channel);
   }
+  unnamed.share_percent = 100 * std::max(0.0, 1 - complete.squared_error() / named.squared_error());
+  return unnamed;
+}
+
+Selection nothing_selected(const Record& record, const SelectionOptions& options) {
+  Selection nothing;
+  nothing.rows = static_cast<std::size_t>(record.rows());
+  nothing.blocks = record.blocks();
+  nothing.student_factor = student_quantile(static_cast<double>(record.blocks() - 1), 0.975);
+  nothing.least_gain_percent = options.least_gain_percent;
+  return nothing;
+}
+
+// --- Structure without a name ---
+
+std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& fit,
+                                         const std::vector<std::size_t>& taken,
+                                         double false_alarm_probability) {
+  const auto count = static_cast<Index>(record.problem().unnamed.size());
+  if (count == 0) return std::nullopt;
+  const MatrixXd columns = regressor_columns(record);
+  const auto blocks = static_cast<Index>(record.blocks());
+
+  std::vector<BlockSums> held_out;
+  std::vector<BlockSums> fitted;
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    held_out.push_back(sums(record, fit, columns, b, false));
+    fitted.push_back(sums(record, fit, columns, b, true));
+  }
+  BlockSums total = fitted.front();
+  for (std::size_t b = 1; b < record.blocks(); ++b) add(total, fitted[b], 1);
+
+  MatrixXd coefficient(blocks, count);
+  MatrixXd error(blocks, count);
+  VectorXd own_part = VectorXd::Ones(count);
+  for (Index b = 0; b < blocks; ++b) {
+    BlockSums rest = total;
+    add(rest, fitted[static_cast<std::size_t>(b)], -1);
+    const BlockSums& out = held_out[static_cast<std::size_t>(b)];
+    const Index size = rest.normal.rows();
+    MatrixXd along = MatrixXd::Zero(size, count);  // (JᵀJ)⁻¹JᵀZ
+    VectorXd step = VectorXd::Zero(size);
+    if (size > 0) {
+      along = solve_symmetric(rest.normal, rest.cross);
+      step = solve_symmetric(rest.normal, rest.gradient);
+    }
+    for (Index k = 0; k < count; ++k) {
+      const double own = rest.own[k] - rest.cross.col(k).dot(along.col(k));
+      own_part[k] = std::min(own_part[k], rest.own[k] > 0 ? own / rest.own[k] : 0);
+      if (own_part[k] < least_own_part) continue;
+      const double beta = (rest.slope[k] - rest.cross.col(k).dot(step)) / own;
+      const VectorXd delta = step - along.col(k) * beta;
+      coefficient(b, k) = beta;
+      error(b, k) = out.squared_residual + delta.dot(out.normal * delta) +
+                    beta * beta * out.own[k] - 2 * (delta.dot(out.gradient) + beta * out.slope[k]) +
+                    2 * beta * delta.dot(out.cross.col(k));
+    }
+  }
+
+  const auto degrees = static_cast<double>(blocks - 1);
+  const double threshold =
+      -student_quantile(degrees, false_alarm_probability / 2 / static_cast<double>(count));
+  std::optional<Index> best;
+  for (Index k = 0; k < count; ++k) {
+    if (own_part[k] < least_own_part || contains(taken, static_cast<std::size_t>(k))) continue;
+    const VectorXd values = coefficient.col(k);
+    const double mean = values.mean();
+    const double se =
+        std::sqrt(degrees / static_cast<double>(blocks) * (values.array() - mean).square().sum());
+    if (!(std::abs(mean) > threshold * se)) continue;
+    if (!best || error.col(k).sum() < error.col(*best).sum()) best = k;
+  }
+  if (!best) return std::nullopt;
+  return UnnamedTrial{static_cast<std::size_t>(*best), error.col(*best)};
 }
 
 }  // namespace tethercalc

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -17,10 +16,16 @@ inline constexpr double rival_gain = 0.5;
 /// 100·(1 − √(after/before)) for squared errors; 0 where there was none.
 [[nodiscard]] double gain_percent(double before, double after);
 
-/// Standard error of the gain by leaving out one block after the other, from the squared errors of
-/// the blocks. `other` is the squared error that does not change.
-[[nodiscard]] double gain_se_percent(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
-                                     double other = 0);
+/// By how much a fit lowers the held-out error of another.
+struct Gain {
+  double percent = 0;  ///< as `gain_percent`
+  double se = 0;       ///< its standard error, by leaving out one block after the other
+};
+[[nodiscard]] Gain gain_between(const BlockFit& before, const BlockFit& after);
+
+/// The group that was freed between the two fits, with its gain.
+[[nodiscard]] SelectedGroup freed_between(const BlockFit& before, const BlockFit& after,
+                                          std::size_t group);
 
 /// Whether less than a hundredth of what the group's size does to the prediction, in root mean
 /// square, is its own beside what is free in `fit`: its variance is then inflated ten-thousandfold,
@@ -29,49 +34,46 @@ inline constexpr double rival_gain = 0.5;
 [[nodiscard]] std::optional<Selection::Aliased> aliased_in(const Record& record,
                                                            const BlockFit& fit, std::size_t group);
 
-/// Slopes of the prediction by the sizes of `group`, its own parameters at their first values and
-/// all others at `values`: one column a size, over its scale.
-[[nodiscard]] Eigen::MatrixXd size_slopes(const Record& record, std::vector<double> values,
-                                          std::size_t group);
+/// Slopes of the prediction by the parameters of `group`, its own at their first values and all
+/// others at `values`: one column a parameter, over its scale.
+[[nodiscard]] MatrixXd slopes_at_start(const Record& record, std::vector<double> values,
+                                       std::size_t group);
 
-/// By how much groups would lower the squared error of a fit if the prediction were linear in
-/// their parameters.
-class LinearisedGains {
- public:
-  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates);
-  /// Of these candidates together.
-  [[nodiscard]] double of(const Groups& groups) const;
-
- private:
-  std::map<std::size_t, std::vector<Eigen::Index>> columns_;
-  Eigen::MatrixXd gram_;   ///< of all slopes beside what is free in the fit
-  Eigen::VectorXd along_;  ///< the residual along each of them
-};
-
-/// What the fit says of each of `candidates`. `with` gives the fit with one of them freed.
+/// What `fit` says of each candidate that is neither selected in `found`, nor aliased, nor a rival
+/// of one that is selected. `with` gives the fit with one of them freed.
 [[nodiscard]] std::vector<Selection::Open> judge_open(
-    const Record& record, const BlockFit& fit, const Groups& candidates,
+    const Record& record, const BlockFit& fit, const Selection& found,
     const std::function<BlockFit(std::size_t)>& with);
-
-/// `open` without what the selected are indistinguishable from.
-[[nodiscard]] Groups without_rivals(Groups open, const std::vector<SelectedGroup>& selected);
 
 /// The groups by rising distance.
 [[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);
 
-/// The groups that every record shows in the same way as `group`.
-[[nodiscard]] Groups twins_of(const SelectionProblem& problem, std::size_t group);
-
 /// A fit of nothing: neutral values.
-[[nodiscard]] ModelFit neutral_fit(const SelectionProblem& problem, std::size_t blocks);
+[[nodiscard]] ModelFit neutral_fit(const Record& record);
 
 /// Writes what `fit` freed into `all`. Errors are those of the spread between blocks, with
 /// `systematic` (of the jacobian's columns, over their scales; may be empty) added to their
 /// squares; where `all` has a larger one already it stays.
-void add_fit(const Record& record, const BlockFit& fit, const Eigen::VectorXd& systematic,
-             ModelFit& all);
+void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systematic, ModelFit& all);
 
-/// The channels of the regressors found, without repetition.
-void name_channels(const SelectionProblem& problem, UnnamedStructure& unnamed);
+/// What the unnamed shapes of `complete` explain that `named`, without them, does not.
+[[nodiscard]] UnnamedStructure unnamed_in(const Record& record, const BlockFit& complete,
+                                          const BlockFit& named);
+
+/// The frame of a result: what the record and the options say by themselves.
+[[nodiscard]] Selection nothing_selected(const Record& record, const SelectionOptions& options);
+
+struct UnnamedTrial {
+  std::size_t regressor = 0;  ///< index into SelectionProblem::unnamed
+  VectorXd block_error;       ///< held out, with the regressor added and all else refitted
+};
+
+/// The regressor that, added to `fit`, leaves the least held-out error, among those whose
+/// coefficient beats chance: Student's test with the jackknife's standard error, at
+/// `false_alarm_probability` over all regressors (Bonferroni). Those in `taken` and those that the
+/// fit already contains are passed over.
+[[nodiscard]] std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& fit,
+                                                       const std::vector<std::size_t>& taken,
+                                                       double false_alarm_probability);
 
 }  // namespace tethercalc

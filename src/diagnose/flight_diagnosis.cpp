@@ -6,16 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "diagnose/channels.hpp"
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_prediction.hpp"
-#include "diagnose/flight_structure.hpp"
 #include "diagnose/log_model.hpp"
-#include "diagnose/unit_checks.hpp"
-#include "identify/series.hpp"
+#include "diagnose/unnamed_shapes.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
-#include "tethercalc/identify/correlated_errors.hpp"
 
 namespace tethercalc {
 namespace {
@@ -145,9 +142,8 @@ class FlightModel : public LogModel {
   FlightModel(const Design& design, const FlightData& data, const std::vector<std::string>& base)
       : data_(data), base_(base_parameters(data)) {
     for (const Effect& effect : base_) add(effect, design, true);
-    for (const Effect& effect : effect_catalogue()) {
-      if (effect.log != LogKind::flight || !testable(effect, data.faults)) continue;
-      add(effect, design, contains(base, effect.id));
+    for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+      if (testable(effect, data.faults)) add(effect, design, contains(base, effect.id));
     }
     problem.measured = data.observations.forward_acceleration;
     problem.noise.assign(problem.measured.size(), 1.0);
@@ -314,13 +310,10 @@ Diagnosis too_short(const FlightData& data) {
   d.base.holdout_rmse = nan;
   d.extended.holdout_rmse = d.base.holdout_rmse;
   const double needed = shortest_block * static_cast<double>(fewest_blocks);
-  for (const Effect& effect : effect_catalogue()) {
-    if (effect.log == LogKind::flight) {
-      d.not_testable.push_back(
-          {effect.id,
-           fmt::format("a longer flight: {:.0f} s, this one has {:.1f} s that can be used", needed,
-                       data.usable)});
-    }
+  const std::string needs = fmt::format(
+      "a longer flight: {:.0f} s, this one has {:.1f} s that can be used", needed, data.usable);
+  for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+    d.not_testable.push_back({effect.id, needs});
   }
   d.notes.push_back(fmt::format(
       "too short to tell an effect from chance: {:.1f} s of usable flight, {:.0f} s are needed",
@@ -345,12 +338,12 @@ Diagnosis diagnose_flight(const Design& design, const FlightLog& log,
   } else {
     FlightModel model(design, data, options.base);
     Preliminary preliminary = preliminary_fit(design, data);
-    model.problem.unnamed = flight_structure(data.observations, preliminary.wind);
+    model.problem.unnamed = flight_shapes(data.observations, preliminary.wind);
     model.problem.systematic.push_back(std::move(preliminary.time_stamp_error));
     const Selection selection = select_effects(model.problem, options.selection, progress);
     report(data, model, selection, options, d);
-    for (const Effect& effect : effect_catalogue()) {
-      if (effect.log == LogKind::flight && !testable(effect, data.faults)) {
+    for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+      if (!testable(effect, data.faults)) {
         d.not_testable.push_back({effect.id, "a down velocity that moves (vd_m_s)"});
       }
     }

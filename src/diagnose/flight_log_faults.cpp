@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
@@ -88,6 +88,48 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
     }
   }
   return faults;
+}
+
+void check_flight_units(const FlightRecord& flight, const std::vector<double>& forward_acceleration,
+                        double step) {
+  const auto stuck = [&flight](double tilt) { return tilt == flight.tilt.front(); };
+  if (std::all_of(flight.tilt.begin(), flight.tilt.end(), stuck)) {
+    throw UnsuitableFlight(
+        "the pitch never moves, as if its sensor were stuck: nothing can be predicted from it");
+  }
+  const auto lag = static_cast<std::size_t>(std::max(1.0, std::round(1 / step)));
+  if (flight.size() < 10 * lag) return;  // too short to judge, which is told elsewhere
+  const auto by_force = [&](std::size_t i) {
+    return forward_acceleration[i] - flight.turn_acceleration[i];
+  };
+  double both = 0, leaning = 0, measured = 0;
+  for (std::size_t i = lag; i < flight.size(); ++i) {
+    const double expected = flight.gravity * (flight.tan_tilt[i] - flight.tan_tilt[i - lag]);
+    const double seen = by_force(i) - by_force(i - lag);
+    both += expected * seen;
+    leaning += expected * expected;
+    measured += seen * seen;
+  }
+  if (!(leaning > 0 && measured > 0)) return;
+  constexpr double level = 0.1;
+  if (std::sqrt(leaning / measured) < level) {
+    throw UnsuitableFlight(
+        "the pitch is far too level for the logged accelerations; are the angles in radians?");
+  }
+  constexpr double clear = 0.5;  // real flights have correlations of 0.8 to 0.95
+  const double correlation = both / std::sqrt(leaning * measured);
+  const double slope = both / leaning;
+  if (correlation < -clear) {
+    throw UnsuitableFlight(
+        "the drone speeds up when its pitch rises: pitch must be positive nose-up");
+  }
+  if (correlation > clear && (slope > 1.6 || slope < 0.1)) {
+    const char* hint = slope < 0.1  ? "is the time in milliseconds?"
+                       : slope < 10 ? "are the velocities in km/h, or knots?"
+                                    : "are the angles in radians?";
+    throw UnsuitableFlight(fmt::format(
+        "the forward acceleration is {:.2g} times what the pitch makes expect; {}", slope, hint));
+  }
 }
 
 }  // namespace tethercalc

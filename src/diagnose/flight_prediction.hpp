@@ -60,10 +60,9 @@ struct FlightPrediction {
   const FlightRecord& record;    ///< what is predicted from
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
-  std::vector<double> crosswind;     ///< the same to the right
-  AirframeDrag law;                  ///< of the drag
-  std::vector<double> airspeed;      ///< m/s, forward positive; known in the force phase
-  std::vector<double> drag;          ///< N against the motion; known in the force phase
+  AirframeDrag law;              ///< of the drag
+  std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
+  std::vector<double> drag;      ///< N against the motion; known in the force phase
   std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
 
   /// Sized for `flight`, which must outlive it.

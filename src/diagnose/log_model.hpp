@@ -11,6 +11,9 @@
 
 namespace tethercalc {
 
+struct FlightRecord;  // diagnose/flight_prediction.hpp
+struct PowerLog;      // diagnose/power_log.hpp
+
 /// One log of some kind. Groups that are no effects of the catalogue, such as drag areas, are
 /// described as such too: an `Effect` without an id, that is always fitted.
 class LogModel {
@@ -59,5 +62,15 @@ void check_base_effects(LogKind kind, std::span<const std::string> ids);
 /// All that is told alike of every kind of log: qualities and parameters of the models, findings
 /// with their traces, aliases, the error budget, and of the unexplained all but its size.
 void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis);
+
+/// The channel of a flight that `id`, as in `Effect::channel`, names, one value a sample:
+/// "forward_speed", "tilt", "tilt_rate", "yaw", "time", "braking" (forward speed times tilt while
+/// they oppose, else NaN) or "sinking" (forward speed times down speed). Throws
+/// std::invalid_argument for any other.
+[[nodiscard]] Channel flight_channel(const std::string& id, const FlightRecord& record);
+
+/// The same of a power log: "supply_current", "current_height" (their product), "bus_power",
+/// "height", "airspeed" or "time". The log needs the channels in question.
+[[nodiscard]] Channel power_channel(const std::string& id, const PowerLog& log);
 
 }  // namespace tethercalc

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/model/design.hpp"
 #include "tethercalc/model/tether_heat.hpp"
@@ -71,5 +72,8 @@ class CableHeat {
 /// the tilt does not count, so that the value stays finite: a log shows what was flown. NaN beyond
 /// a tilt of 80°.
 [[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
+
+/// The entries of the catalogue for power logs, from the ground to the air.
+[[nodiscard]] std::vector<Effect> power_effects();
 
 }  // namespace tethercalc

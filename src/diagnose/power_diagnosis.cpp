@@ -7,18 +7,14 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
-#include "diagnose/channels.hpp"
 #include "diagnose/log_model.hpp"
-#include "diagnose/power_channels.hpp"
-#include "diagnose/power_effects.hpp"
 #include "diagnose/power_residuals.hpp"
-#include "diagnose/power_shapes.hpp"
-#include "diagnose/subset_selection.hpp"
-#include "diagnose/unit_checks.hpp"
-#include "identify/series.hpp"
+#include "diagnose/unnamed_shapes.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/model/flight_state.hpp"
 
@@ -70,17 +66,18 @@ int block_at(const PowerLog& log, std::size_t sample) {
 /// Takes away the stages that too few healthy stretches are left of, with what each would need.
 std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
   std::map<Stage, std::string> dropped;
-  for (const auto& [stage, usable] : screened.usable) {
+  std::erase_if(screened.usable, [&](const auto& found) {
+    const auto& [stage, usable] = found;
     std::set<int> blocks;
     for (std::size_t i = 0; i < usable.size(); ++i) {
       if (usable[i]) blocks.insert(block_at(screened.log, i));
     }
     const auto healthy = std::count(usable.begin(), usable.end(), char{1});
-    if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) continue;
+    if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) return false;
     dropped[stage] = fmt::format("instruments that work for longer: of {} samples {} are healthy",
                                  usable.size(), healthy);
-  }
-  for (const auto& [stage, reason] : dropped) screened.usable.erase(stage);
+    return true;
+  });
   return dropped;
 }
 
@@ -140,9 +137,15 @@ class PowerLogModel : public LogModel {
     };
   }
 
-  /// The base model with every effect that is not neutral.
-  [[nodiscard]] PowerModel model(std::span<const double> values) const {
-    return model(values, [](const Effect&) { return true; });
+  /// The base model with every effect that is not neutral, or those that act on one comparison.
+  [[nodiscard]] PowerModel model(std::span<const double> values,
+                                 std::optional<Stage> compared = {}) const {
+    PowerModel changed = base_;
+    for (std::size_t g = 0; g < effects().size(); ++g) {
+      const bool wanted = !compared || acts_on(effect(g), *compared);
+      if (wanted && !is_neutral(g, values)) effect(g).on_power(changed, own(g, values));
+    }
+    return changed;
   }
 
   /// After the residuals' noise has changed.
@@ -170,15 +173,6 @@ class PowerLogModel : public LogModel {
   }
 
  private:
-  template <typename Wanted>
-  [[nodiscard]] PowerModel model(std::span<const double> values, Wanted wanted) const {
-    PowerModel changed = base_;
-    for (std::size_t g = 0; g < effects().size(); ++g) {
-      if (wanted(effect(g)) && !is_neutral(g, values)) effect(g).on_power(changed, own(g, values));
-    }
-    return changed;
-  }
-
   /// Minus the whitened residual of every row. A stage whose effects have the values of the last
   /// call is not computed again: slopes move one parameter at a time.
   void predict(std::span<const double> values, std::span<double> out) {
@@ -193,8 +187,7 @@ class PowerLogModel : public LogModel {
       }
       Cached& last = cache_[k];
       if (last.rows.empty() || last.key != key) {
-        const auto wanted = [&](const Effect& e) { return acts_on(e, compared.stage); };
-        residuals_.standardised(k, model(values, wanted), standardised);
+        residuals_.standardised(k, model(values, compared.stage), standardised);
         last.key = std::move(key);
         last.rows.resize(compared.rows);
         residuals_.whitened(k, standardised, last.rows);
@@ -300,13 +293,12 @@ double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
   return count > 0 ? percent * stage.noise * std::sqrt(sum / static_cast<double>(count)) : 0;
 }
 
-/// The effects of `catalogue` that the log can show; the others go to `diagnosis.not_testable`.
-std::vector<const Effect*> testable_effects(const std::vector<Effect>& catalogue,
-                                            const PowerLog& log,
+/// The effects that the log can show; the others go to `diagnosis.not_testable`.
+std::vector<const Effect*> testable_effects(const PowerLog& log,
                                             const std::map<Stage, std::string>& unusable,
                                             Diagnosis& diagnosis) {
   std::vector<const Effect*> effects;
-  for (const Effect& effect : catalogue) {
+  for (const Effect& effect : effect_catalogue(LogKind::power)) {
     std::string needs = lacking(effect, log);
     for (const auto& [stage, reason] : unusable) {
       if (needs.empty() && acts_on(effect, stage)) needs = reason;
@@ -321,13 +313,15 @@ std::vector<const Effect*> testable_effects(const std::vector<Effect>& catalogue
 }
 
 /// True where nothing can be judged from a log this short, which is then told.
-bool too_short(const PowerLog& log, const std::vector<Effect>& catalogue, Diagnosis& diagnosis) {
+bool too_short(const PowerLog& log, Diagnosis& diagnosis) {
   const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
   if (duration >= shortest_power_log && log.time.size() >= fewest_power_samples) return false;
   const std::string needs =
       fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
                   shortest_power_log, duration, log.time.size());
-  for (const Effect& effect : catalogue) diagnosis.not_testable.push_back({effect.id, needs});
+  for (const Effect& effect : effect_catalogue(LogKind::power)) {
+    diagnosis.not_testable.push_back({effect.id, needs});
+  }
   diagnosis.notes.push_back("the log is too short to judge");
   return true;
 }
@@ -370,7 +364,6 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
     throw std::invalid_argument(
         "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
   }
-  const std::vector<Effect> catalogue = power_effects();
   check_base_effects(LogKind::power, base_effects);
 
   PowerDiagnosis result{{}, design};
@@ -381,7 +374,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.samples = log.time.size();
   diagnosis.base.holdout_rmse = nan;
   diagnosis.extended.holdout_rmse = nan;
-  if (too_short(log, catalogue, diagnosis)) return result;
+  if (too_short(log, diagnosis)) return result;
   check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
@@ -391,8 +384,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
   PowerResiduals residuals(base, std::move(screened));
-  const std::vector<const Effect*> effects =
-      testable_effects(catalogue, residuals.log(), unusable, diagnosis);
+  const std::vector<const Effect*> effects = testable_effects(residuals.log(), unusable, diagnosis);
   if (residuals.stages().empty()) return result;
 
   PowerLogModel view(base, residuals, effects, {base_effects.begin(), base_effects.end()});

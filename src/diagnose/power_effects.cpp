@@ -1,9 +1,7 @@
-#include "diagnose/power_effects.hpp"
+#include "diagnose/power_chain.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include "diagnose/power_chain.hpp"
 
 namespace tethercalc {
 namespace {

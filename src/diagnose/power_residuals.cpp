@@ -1,15 +1,13 @@
 #include "diagnose/power_residuals.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
-#include "diagnose/unnamed_structure.hpp"
 #include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
@@ -63,11 +61,10 @@ std::vector<double> steadied(const std::vector<double>& x) {
 /// Smooth shapes that any of the effects, named or not, may leave in a stage: slow waves in time
 /// together with low powers of height and airspeed; for the tether multiplied with the current, for
 /// the converter joined by its load.
-Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
-                              const std::vector<double>& bus_power) {
+MatrixXd smooth_shapes(const PowerLog& log, Stage stage, const std::vector<double>& bus_power) {
   constexpr int waves = 6;
-  const auto n = static_cast<Eigen::Index>(log.time.size());
-  std::vector<Eigen::VectorXd> columns;
+  const auto n = static_cast<Index>(log.time.size());
+  std::vector<VectorXd> columns;
   const Series height = as_series(log.height) / 10;
   const Series speed = as_series(log.airspeed) / 5;
   const Series elapsed = as_series(log.time) - log.time.front();
@@ -82,38 +79,38 @@ Eigen::MatrixXd smooth_shapes(const PowerLog& log, Stage stage,
     if (stage == Stage::tether) columns.emplace_back((wave * height).matrix());
   }
   if (stage == Stage::tether) {
-    for (Eigen::VectorXd& column : columns) column.array() *= as_series(log.supply_current);
+    for (VectorXd& column : columns) column.array() *= as_series(log.supply_current);
   }
   if (stage == Stage::converter) {
     columns.emplace_back((as_series(bus_power) / 300).matrix());
     columns.emplace_back((as_series(bus_power) / 300).square().matrix());
   }
-  Eigen::MatrixXd shapes(n, static_cast<Eigen::Index>(columns.size()));
+  MatrixXd shapes(n, static_cast<Index>(columns.size()));
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    shapes.col(static_cast<Eigen::Index>(c)) = columns[c];
+    shapes.col(static_cast<Index>(c)) = columns[c];
   }
   return shapes;
 }
 
 /// The usable values, 0 in place of the others.
-Eigen::VectorXd usable_part(const std::vector<double>& x, const std::vector<char>& usable) {
-  Eigen::VectorXd part(static_cast<Eigen::Index>(x.size()));
+VectorXd usable_part(const std::vector<double>& x, const std::vector<char>& usable) {
+  VectorXd part(static_cast<Index>(x.size()));
   std::transform(x.begin(), x.end(), usable.begin(), part.begin(),
                  [](double value, char ok) { return ok ? value : 0.0; });
   return part;
 }
 
 /// What `shapes` leave of `x` by least squares over usable rows; 0 in the others.
-std::vector<double> without_shapes(const Eigen::MatrixXd& shapes, const std::vector<double>& x,
+std::vector<double> without_shapes(const MatrixXd& shapes, const std::vector<double>& x,
                                    const std::vector<char>& usable) {
-  const Eigen::VectorXd target = usable_part(x, usable);
-  Eigen::MatrixXd used = shapes;
-  for (Eigen::Index i = 0; i < shapes.rows(); ++i) {
+  const VectorXd target = usable_part(x, usable);
+  MatrixXd used = shapes;
+  for (Index i = 0; i < shapes.rows(); ++i) {
     if (!usable[static_cast<std::size_t>(i)]) used.row(i).setZero();
   }
   // Heights or airspeeds that never change make columns equal: the decomposition must bear that.
-  const Eigen::MatrixXd normal = used.transpose() * used;
-  const Eigen::VectorXd rest =
+  const MatrixXd normal = used.transpose() * used;
+  const VectorXd rest =
       target - used * (symmetric_pseudo_inverse(normal) * (used.transpose() * target));
   return {rest.begin(), rest.end()};
 }
@@ -125,23 +122,23 @@ struct Autoregression {
 };
 
 /// Of `x`, which is 0 where it is not usable; `samples` of it are.
-Autoregression autoregression(const Eigen::VectorXd& x, double samples) {
-  const Eigen::Index orders = std::min<Eigen::Index>(20, x.size() / 20);
+Autoregression autoregression(const VectorXd& x, double samples) {
+  const Index orders = std::min<Index>(20, x.size() / 20);
   // Without a division by the number of pairs the sequence stays positive definite.
-  Eigen::VectorXd covariance(orders + 1);
-  for (Eigen::Index lag = 0; lag <= orders; ++lag) {
+  VectorXd covariance(orders + 1);
+  for (Index lag = 0; lag <= orders; ++lag) {
     covariance[lag] = x.head(x.size() - lag).dot(x.tail(x.size() - lag));
   }
   Autoregression best;
   if (!(covariance[0] > 0)) return best;
   covariance /= covariance[0];
-  Eigen::VectorXd phi;
+  VectorXd phi;
   double variance = 1;
   double best_criterion = 0;
-  for (Eigen::Index order = 1; order <= orders; ++order) {
+  for (Index order = 1; order <= orders; ++order) {
     const double reflected =
         (covariance[order] - phi.dot(covariance.segment(1, order - 1).reverse())) / variance;
-    Eigen::VectorXd next = Eigen::VectorXd::Constant(order, reflected);
+    VectorXd next = VectorXd::Constant(order, reflected);
     next.head(order - 1) = phi - reflected * phi.reverse();
     phi = std::move(next);
     variance *= 1 - reflected * reflected;
@@ -188,7 +185,7 @@ std::vector<double> row_means(const PowerStage& stage, std::span<const double> s
 }
 
 /// Standard deviation of the usable values after a fit of so many parameters; 0 of none.
-double deviation_of(const Eigen::VectorXd& usable_values, double count, double parameters) {
+double deviation_of(const VectorXd& usable_values, double count, double parameters) {
   return count > 0 ? std::sqrt(usable_values.squaredNorm() / std::max(1.0, count - parameters)) : 0;
 }
 
@@ -202,7 +199,7 @@ void set_noise(std::vector<double> noise, double parameters, PowerStage& stage) 
   if (!(stage.noise > 0) || !std::isfinite(stage.noise)) stage.noise = 1;
   for (double& x : noise) x /= stage.noise;
   set_usable_rows(stage);
-  const Eigen::VectorXd averaged = usable_part(row_means(stage, noise), stage.usable_rows);
+  const VectorXd averaged = usable_part(row_means(stage, noise), stage.usable_rows);
   const double rows = count_of(stage.usable_rows);
   const Autoregression fitted = autoregression(averaged, rows);
   stage.memory = fitted.memory;
@@ -279,7 +276,7 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(raw[i])) stage.usable[i] = 0;
   }
-  const Eigen::MatrixXd shapes = smooth_shapes(log, stage.stage, bus_power_);
+  const MatrixXd shapes = smooth_shapes(log, stage.stage, bus_power_);
   std::vector<double> noise = without_shapes(shapes, raw, stage.usable);
   // Spikes that the channels alone do not show; after them the shapes fit better.
   for (int pass = 0; pass < 2; ++pass) {
@@ -306,37 +303,31 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   const PowerStage& stage = stages_[k];
   const PowerInstruments& instruments = model.instruments;
   const PowerLog log = without_errors(screened_.log, instruments);
-  switch (stage.stage) {
-    case Stage::tether: {
-      const std::vector<double> resistance = loop_resistance(model, log, heat_);
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        const double lost = log.supply_voltage[i] - log.drone_voltage[i];
-        out[i] = (lost - log.supply_current[i] * resistance[i]) / stage.noise;
-      }
-      break;
+  if (stage.stage == Stage::tether) {
+    const std::vector<double> resistance = loop_resistance(model, log, heat_);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double lost = log.supply_voltage[i] - log.drone_voltage[i];
+      out[i] = (lost - log.supply_current[i] * resistance[i]) / stage.noise;
     }
-    case Stage::converter: {
-      const double in_gain = instruments.supply_current_gain;
-      const double out_gain = instruments.bus_current_gain;
-      const Converter& converter = model.design.supply.converter;
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        const double input = log.drone_voltage[i] * log.supply_current[i];
-        const double output = bus_power_[i] / out_gain;
-        const double slope = input_slope(converter, output);
-        const double variance = input_variance_ / (in_gain * in_gain) +
-                                slope * slope * output_variance_ / (out_gain * out_gain);
-        out[i] = (input - model.design.drone.auxiliary_power -
-                  converter_input_power(converter, output)) /
-                 (std::sqrt(variance) * stage.noise);
-      }
-      break;
+  } else if (stage.stage == Stage::converter) {
+    const double in_gain = instruments.supply_current_gain;
+    const double out_gain = instruments.bus_current_gain;
+    const Converter& converter = model.design.supply.converter;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double input = log.drone_voltage[i] * log.supply_current[i];
+      const double output = bus_power_[i] / out_gain;
+      const double slope = input_slope(converter, output);
+      const double variance = input_variance_ / (in_gain * in_gain) +
+                              slope * slope * output_variance_ / (out_gain * out_gain);
+      out[i] =
+          (input - model.design.drone.auxiliary_power - converter_input_power(converter, output)) /
+          (std::sqrt(variance) * stage.noise);
     }
-    default: {
-      const std::vector<double> power = motor_power(model, log);
-      const double gain = std::log(instruments.bus_current_gain);
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = (log_bus_power_[i] - gain - std::log(power[i])) / stage.noise;
-      }
+  } else {
+    const std::vector<double> power = motor_power(model, log);
+    const double gain = std::log(instruments.bus_current_gain);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = (log_bus_power_[i] - gain - std::log(power[i])) / stage.noise;
     }
   }
 }

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/power_chain.hpp"
 #include "diagnose/power_screening.hpp"
-#include "tethercalc/diagnose/catalogue.hpp"
 
 namespace tethercalc {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
-#include "diagnose/power_channels.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
@@ -272,6 +272,54 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
   }
   align(model, healthy, clean, screened.notes);
   return screened;
+}
+
+void check_power_units(const Design& design, const PowerLog& log) {
+  std::string problems;
+  const auto report = [&problems](const std::string& problem) {
+    problems += (problems.empty() ? "" : "; ") + problem;
+  };
+  const double voltage = median(log.supply_voltage);
+  const double current = median(log.supply_current);
+  if (!(voltage > 0)) report(fmt::format("supply_voltage_V is {:.3g} V in the median", voltage));
+  if (!(current > 0)) report(fmt::format("supply_current_A is {:.3g} A in the median", current));
+  if (voltage > 0 && (voltage > 5 * design.supply.voltage || 5 * voltage < design.supply.voltage)) {
+    report(fmt::format("supply_voltage_V is {:.3g} V in the median, the spec has {:.3g} V", voltage,
+                       design.supply.voltage));
+  }
+  if (!log.drone_voltage.empty()) {
+    const double received = median(log.drone_voltage);
+    if (!(received > 0) || received > 1.02 * voltage) {
+      report(
+          fmt::format("drone_voltage_V is {:.3g} V in the median and supply_voltage_V {:.3g} V: "
+                      "the tether cannot raise it",
+                      received, voltage));
+    }
+  }
+  if (!log.bus_voltage.empty() && !log.bus_current.empty() && voltage > 0 && current > 0) {
+    const double bus = median(product(log.bus_voltage, log.bus_current));
+    const double supply = median(product(log.supply_voltage, log.supply_current));
+    if (!(bus > 0.1 * supply && bus < 3 * supply)) {
+      report(
+          fmt::format("the bus takes {:.3g} W in the median where the supply gives {:.3g} W; a "
+                      "current or voltage has another unit",
+                      bus, supply));
+    }
+  }
+  const double highest = quantile(log.height, 0.99);
+  if (highest > 1.5 * design.tether.length) {
+    report(fmt::format(
+        "height_m reaches {:.3g} m, the tether of the spec {:.3g} m; is the height in feet?",
+        highest, design.tether.length));
+  }
+  if (!log.ambient_temperature_C.empty()) {
+    const double ambient = median(log.ambient_temperature_C);
+    if (!(ambient > -80 && ambient < 80)) {
+      report(fmt::format("ambient_temperature_C is {:.3g} °C in the median; is it in kelvin?",
+                         ambient));
+    }
+  }
+  if (!problems.empty()) throw std::invalid_argument(problems);
 }
 
 }  // namespace tethercalc

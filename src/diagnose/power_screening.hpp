@@ -1,5 +1,5 @@
-// A power log made fit for comparison: instruments that hang, spikes and clocks that disagree are
-// found and dealt with before any physics is judged.
+// A power log made fit for comparison: wrong units, instruments that hang, spikes and clocks that
+// disagree are found and dealt with before any physics is judged.
 #pragma once
 
 #include <map>
@@ -41,5 +41,12 @@ struct ScreenedPowerLog {
 /// `model` is the base model; its design needs a cable cross-section. `log` needs at least 8
 /// samples.
 [[nodiscard]] ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log);
+
+/// Throws std::invalid_argument with all that is wrong: currents or voltages that are not positive,
+/// a drone voltage above the supply voltage, powers at the two ends of the tether that differ more
+/// than any converter explains, heights beyond the tether, temperatures of no weather. Bounds leave
+/// room for the ammeter gains and spec errors that are effects. Medians are compared, so that
+/// spikes do not matter.
+void check_power_units(const Design& design, const PowerLog& log);
 
 }  // namespace tethercalc

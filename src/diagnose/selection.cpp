@@ -5,18 +5,11 @@
 #include <set>
 
 #include "diagnose/fit_judgement.hpp"
-#include "diagnose/unnamed_structure.hpp"
-#include "identify/distributions.hpp"
-#include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// An unnamed regressor outdoes a name only by at least this part of what the name removes: less is
 /// within what the idealised shape of any named effect misses of nature.
@@ -71,24 +64,21 @@ class Search {
          const SelectionProgress& progress)
       : record_(problem), options_(options), progress_(progress) {
     degrees_ = static_cast<double>(record_.blocks() - 1);
-    student_factor_ = student_quantile(degrees_, 0.975);
   }
 
   Selection run() {
-    Selection result;
-    result.rows = static_cast<std::size_t>(record_.rows());
-    result.blocks = record_.blocks();
-    result.student_factor = student_factor_;
-
+    Selection result = nothing_selected(record_, options_);
+    student_factor_ = result.student_factor;
     tell("fitting the base model");
     const BlockFit base = fit(selected_, nullptr);
     current_ = base;
     result.base = model_fit(base);
     for (const std::size_t g : candidates()) {
-      if (auto aliased = aliased_in(record_, base, g))
+      if (auto aliased = aliased_in(record_, base, g)) {
+        aliased_.insert(g);
         result.aliased.push_back(std::move(*aliased));
+      }
     }
-    for (const Selection::Aliased& aliased : result.aliased) aliased_.insert(aliased.group);
 
     // Every round either ends or puts an effect on the list of those never tried again.
     do {
@@ -200,20 +190,19 @@ class Search {
     if (unnamed_.empty()) return true;
     const BlockFit without = fit(selected_, {}, &current_);
     const BlockFit with = fit(selected_with(g), {}, &without);
-    return gain_percent(without.squared_error(), with.squared_error()) >=
-           options_.least_gain_percent;
+    return gain_between(without, with).percent >= options_.least_gain_percent;
   }
 
-  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with,
-                            std::size_t tested) const {
+  [[nodiscard]] Trial judge(std::size_t g, const BlockFit& without, BlockFit with) const {
+    const std::size_t tested = candidates().size() + (contains(selected_, g) ? 1 : 0);
     Trial trial;
     trial.group = g;
     trial.p_value = p_value(g, without, with);
-    const double gain = gain_percent(without.squared_error(), with.squared_error());
+    const Gain gained = gain_between(without, with);
     const double least_gain =
         options_.least_gain_percent * (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed);
     trial.worth_a_name =
-        gain >= least_gain && gain > 2 * gain_se_percent(without.block_error, with.block_error) &&
+        gained.percent >= least_gain && gained.percent > 2 * gained.se &&
         trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
     trial.fit = std::move(with);
     return trial;
@@ -236,11 +225,10 @@ class Search {
   /// one with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical
   /// Learning, 2nd ed., section 7.10).
   [[nodiscard]] std::optional<Trial> best_step() const {
-    const Groups open = candidates();
     std::vector<Trial> worthy;
-    for (const std::size_t g : open) {
+    for (const std::size_t g : candidates()) {
       tell("trying " + group(g).id);
-      Trial trial = judge(g, current_, fit(selected_with(g), &current_), open.size());
+      Trial trial = judge(g, current_, fit(selected_with(g), &current_));
       if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
     }
     if (worthy.empty()) return std::nullopt;
@@ -282,8 +270,7 @@ class Search {
       BlockFit rest_fit;
       for (const std::size_t g : selected_) {
         BlockFit without = fit(selected_without(g), &current_);
-        const std::size_t tested = candidates().size() + 1;
-        const bool earns = judge(g, without, current_, tested).worth_a_name;
+        const bool earns = judge(g, without, current_).worth_a_name;
         if (!earns && without.squared_error() < weakest_error) {
           weakest = g;
           weakest_error = without.squared_error();
@@ -317,8 +304,7 @@ class Search {
       shapes.push_back(best->regressor);
       BlockFit beside = fit(selected_, shapes, &current_);
       const BlockFit instead = fit(selected_without(g), shapes, &beside);
-      const std::size_t tested = candidates().size() + 1;
-      if (judge(g, instead, std::move(beside), tested).worth_a_name) continue;
+      if (judge(g, instead, std::move(beside)).worth_a_name) continue;
       tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
            " explains more");
       selected_ = selected_without(g);
@@ -363,18 +349,13 @@ class Search {
     BlockFit before = base;
     Groups so_far;
     for (const std::size_t g : selected_) {
-      SelectedGroup& entry = result.selected.emplace_back();
-      entry.group = g;
-      const BlockFit without = fit(selected_without(g), &current_);
-      entry.p_value = p_value(g, without, current_);
-      entry.indistinguishable = rivals(g, without);
       // Gains are those of the named part alone, one finding after the other.
       so_far.push_back(g);
       BlockFit after = fit(so_far, {}, &before);
-      entry.rmse_before = before.rmse();
-      entry.rmse_after = after.rmse();
-      entry.gain_percent = gain_percent(before.squared_error(), after.squared_error());
-      entry.gain_se_percent = gain_se_percent(before.block_error, after.block_error);
+      SelectedGroup& entry = result.selected.emplace_back(freed_between(before, after, g));
+      const BlockFit without = fit(selected_without(g), &current_);
+      entry.p_value = p_value(g, without, current_);
+      entry.indistinguishable = rivals(g, without);
       before = std::move(after);
     }
     result.extended = model_fit(before);
@@ -383,25 +364,10 @@ class Search {
         share >= structure_that_disturbs && precision(current_) > precision(before);
     const BlockFit& complete = disturbed ? current_ : before;
     result.complete = model_fit(complete);
-    result.least_gain_percent = options_.least_gain_percent;
-    result.open = judge_open(record_, complete, open_beside(result.selected), [&](std::size_t g) {
+    result.open = judge_open(record_, complete, result, [&](std::size_t g) {
       return fit(selected_with(g), complete.freed.unnamed, &complete);
     });
-
-    if (unnamed_.empty()) return;
-    result.unnamed.regressors = unnamed_;
-    result.unnamed.coefficients.assign(current_.coefficients.begin(), current_.coefficients.end());
-    name_channels(record_.problem(), result.unnamed);
-    result.unnamed.share_percent = 100 * std::max(0.0, share);
-  }
-
-  /// Candidates that are not selected, nor told as rivals of one that is.
-  [[nodiscard]] Groups open_beside(const std::vector<SelectedGroup>& selected) const {
-    Groups open;
-    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      if (is_open(g)) open.push_back(g);
-    }
-    return without_rivals(std::move(open), selected);
+    result.unnamed = unnamed_in(record_, current_, before);
   }
 
   [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {
@@ -420,7 +386,7 @@ class Search {
   }
 
   [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const {
-    ModelFit result = neutral_fit(record_.problem(), record_.blocks());
+    ModelFit result = neutral_fit(record_);
     add_fit(record_, fit, systematic_variance(record_, fit), result);
     result.holdout_rmse = fit.rmse();
     result.holdout_residual.assign(record_.problem().measured.size(), 0);

@@ -1,6 +1,3 @@
-#include "diagnose/subset_selection.hpp"
-
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,18 +6,11 @@
 #include <utility>
 
 #include "diagnose/fit_judgement.hpp"
-#include "diagnose/unnamed_structure.hpp"
-#include "identify/distributions.hpp"
-#include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
 /// likelihood.
@@ -45,6 +35,65 @@ struct Model {
   double length = 0;  ///< description length, in units of squared noise
 };
 
+/// What is told of a fit, with standard errors from the curvature of the likelihood. Unlike the
+/// jackknife of the fit, they count what a parameter that rests on a bound leaves open in the
+/// others.
+ModelFit model_fit(const Record& record, const BlockFit& fit) {
+  ModelFit all = neutral_fit(record);
+  all.holdout_rmse = fit.rmse();
+  const MatrixXd slopes = group_slopes(record, fit.freed.groups, fit.values);
+  const auto shapes = static_cast<Index>(fit.freed.unnamed.size());
+  MatrixXd jacobian(record.rows(), slopes.cols() + shapes);
+  jacobian << slopes, fit.jacobian.rightCols(shapes);
+  MatrixXd covariance;
+  if (slopes.cols() > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+  Index column = 0;
+  for (const std::size_t g : fit.freed.groups) {
+    std::size_t index = record.first_parameter(g);
+    for (const ModelParameter& p : record.problem().groups[g].parameters) {
+      all.standard_error[index++] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
+      ++column;
+    }
+  }
+  add_fit(record, fit, {}, all);
+  return all;
+}
+
+/// By how much groups would lower the squared error of a fit if the prediction were linear in
+/// their parameters.
+class LinearisedGains {
+ public:
+  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates) {
+    const VectorXd weight = fit.weight.cwiseSqrt();
+    const MatrixXd free = weight.asDiagonal() * fit.jacobian;
+    MatrixXd slopes(fit.residual.size(), 0);
+    for (const std::size_t g : candidates) {
+      const MatrixXd of_group = slopes_at_start(record, fit.values, g);
+      for (Index k = 0; k < of_group.cols(); ++k) columns_[g].push_back(slopes.cols() + k);
+      slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
+      slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
+    }
+    if (free.cols() > 0) slopes -= free * least_squares(free, slopes);
+    gram_ = slopes.transpose() * slopes;
+    along_ = slopes.transpose() * weight.cwiseProduct(fit.residual);
+  }
+
+  /// Of these candidates together.
+  [[nodiscard]] double of(const Groups& groups) const {
+    std::vector<Index> columns;
+    for (const std::size_t g : groups) {
+      columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
+    }
+    const VectorXd along = along_(columns);
+    return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
+  }
+
+ private:
+  std::map<std::size_t, std::vector<Index>> columns_;
+  MatrixXd gram_;   ///< of all slopes beside what is free in the fit
+  VectorXd along_;  ///< the residual along each of them
+};
+
 class SubsetSearch {
  public:
   SubsetSearch(const SelectionProblem& problem, const SelectionOptions& options,
@@ -65,7 +114,7 @@ class SubsetSearch {
     shape_price_ = price(problem.unnamed.size());
   }
 
-  void run() {
+  Selection run() {
     base_ = model({}, {}, nullptr);
     best_ = base_;
     find_aliased(base_, false);
@@ -74,78 +123,8 @@ class SubsetSearch {
     search_shapes();
     if (!best_.shapes.empty()) add_names();
     if (!best_.named.empty()) find_aliased(best_, true);
-  }
-
-  /// Leaves a name of the best model out.
-  void take_back(std::size_t g) { best_ = best_without(g); }
-
-  [[nodiscard]] const Record& record() const { return record_; }
-  [[nodiscard]] const Model& base() const { return base_; }
-  [[nodiscard]] const Model& best() const { return best_; }
-  [[nodiscard]] const std::vector<Selection::Aliased>& aliased() const { return aliased_; }
-
-  /// The named effects of the best model in the order of what they add, with the fit after each.
-  [[nodiscard]] std::vector<std::pair<std::size_t, BlockFit>> in_order() const {
-    std::vector<std::pair<std::size_t, BlockFit>> order;
-    Groups so_far;
-    const BlockFit* near = &best_.fit;
-    while (so_far.size() < best_.named.size()) {
-      std::optional<std::pair<std::size_t, BlockFit>> next;
-      for (const std::size_t g : best_.named) {
-        if (contains(so_far, g)) continue;
-        BlockFit fit = model(with_group(so_far, g), {}, near).fit;
-        if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
-      }
-      so_far = with_group(so_far, next->first);
-      order.push_back(std::move(*next));
-    }
-    return order;
-  }
-
-  /// Its names without its shapes.
-  [[nodiscard]] BlockFit named_alone() const {
-    return best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit).fit;
-  }
-
-  [[nodiscard]] Groups rivals(std::size_t g) const {
-    const Groups rest = without_group(best_.named, g);
-    const double alone = best_without(g).fit.squared_error();
-    const double earned = alone - best_.fit.squared_error();
-    std::vector<std::pair<double, std::size_t>> found;
-    for (const std::size_t c : candidates_) {
-      if (contains(best_.named, c)) continue;
-      const Model rival = model(with_group(rest, c), best_.shapes, &best_.fit);
-      if (rival.length - best_.length <= rival_excess &&
-          alone - rival.fit.squared_error() >= rival_gain * earned) {
-        found.emplace_back(rival.length, c);
-      }
-    }
-    Groups result = twins_of(problem_, g);
-    for (const std::size_t c : in_order_of_nearness(std::move(found))) {
-      result.push_back(c);
-      for (const std::size_t twin : twins_of(problem_, c)) result.push_back(twin);
-    }
-    return result;
-  }
-
-  /// Candidates, and their twins, that are not selected, nor told as rivals of one that is.
-  [[nodiscard]] std::vector<Selection::Open> open_beside(
-      const std::vector<SelectedGroup>& selected) const {
-    Groups open;
-    for (std::size_t g = 0; g < problem_.groups.size(); ++g) {
-      if (!problem_.groups[g].fitted && !contains(best_.named, g) && !is_aliased(g)) {
-        open.push_back(g);
-      }
-    }
-    return judge_open(record_, best_.fit, without_rivals(std::move(open), selected),
-                      [this](std::size_t g) {
-                        return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
-                      });
-  }
-
-  /// The best model, but for one of its names.
-  [[nodiscard]] Model best_without(std::size_t g) const {
-    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
+    drop_small_gains();
+    return sum_up();
   }
 
  private:
@@ -274,7 +253,7 @@ class SubsetSearch {
 
   void find_aliased(const Model& model, bool beside_findings) {
     for (const std::size_t g : candidates_) {
-      if (is_aliased(g) || contains(model.named, g)) continue;
+      if (contains(model.named, g)) continue;
       auto aliased = aliased_in(record_, model.fit, g);
       if (aliased && !(aliased->with.empty() && beside_findings)) {
         aliased_.push_back(std::move(*aliased));
@@ -282,9 +261,94 @@ class SubsetSearch {
     }
   }
 
-  [[nodiscard]] bool is_aliased(std::size_t g) const {
-    return std::any_of(aliased_.begin(), aliased_.end(),
-                       [g](const Selection::Aliased& a) { return a.group == g; });
+  /// The best model, but for one of its names.
+  [[nodiscard]] Model best_without(std::size_t g) const {
+    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
+  }
+
+  [[nodiscard]] Groups rivals(std::size_t g) const {
+    const Groups rest = without_group(best_.named, g);
+    const double alone = best_without(g).fit.squared_error();
+    const double earned = alone - best_.fit.squared_error();
+    std::vector<std::pair<double, std::size_t>> found;
+    for (const std::size_t c : candidates_) {
+      if (contains(best_.named, c)) continue;
+      const Model rival = model(with_group(rest, c), best_.shapes, &best_.fit);
+      if (rival.length - best_.length <= rival_excess &&
+          alone - rival.fit.squared_error() >= rival_gain * earned) {
+        found.emplace_back(rival.length, c);
+      }
+    }
+    Groups alike{g};
+    for (const std::size_t c : in_order_of_nearness(std::move(found))) alike.push_back(c);
+    Groups result;  // each with its twins, which every record shows alike
+    for (const std::size_t c : alike) {
+      if (c != g) result.push_back(c);
+      for (std::size_t twin = 0; twin < problem_.groups.size(); ++twin) {
+        const ParameterGroup& other = problem_.groups[twin];
+        if (other.twin_of == c && !other.fitted) result.push_back(twin);
+      }
+    }
+    return result;
+  }
+
+  /// The names of the best model in the order of what they add, with their gains.
+  [[nodiscard]] std::vector<SelectedGroup> selected() const {
+    std::vector<SelectedGroup> order;
+    Groups so_far;
+    BlockFit before = base_.fit;
+    while (so_far.size() < best_.named.size()) {
+      std::optional<std::pair<std::size_t, BlockFit>> next;
+      for (const std::size_t g : best_.named) {
+        if (contains(so_far, g)) continue;
+        BlockFit fit = model(with_group(so_far, g), {}, &best_.fit).fit;
+        if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
+      }
+      so_far = with_group(so_far, next->first);
+      order.push_back(freed_between(before, next->second, next->first));
+      before = std::move(next->second);
+    }
+    return order;
+  }
+
+  /// Leaves out the names that gain too little to be worth one, where they stand in the order or
+  /// beside all others.
+  void drop_small_gains() {
+    while (true) {
+      std::optional<std::size_t> weakest;
+      double weakest_gain = options_.least_gain_percent;
+      for (const SelectedGroup& s : selected()) {
+        const Gain beside = gain_between(best_without(s.group).fit, best_.fit);
+        const double gain = std::min(s.gain_percent, beside.percent);
+        if (gain >= weakest_gain) continue;
+        weakest = s.group;
+        weakest_gain = gain;
+      }
+      if (!weakest) return;
+      best_ = best_without(*weakest);
+    }
+  }
+
+  [[nodiscard]] Selection sum_up() const {
+    Selection result = nothing_selected(record_, options_);
+    result.aliased = aliased_;
+    result.selected = selected();
+    for (SelectedGroup& entry : result.selected) {
+      entry.indistinguishable = rivals(entry.group);
+      entry.p_value = chi_squared_tail(
+          best_without(entry.group).fit.squared_error() - best_.fit.squared_error(),
+          static_cast<double>(problem_.groups[entry.group].parameters.size()));
+    }
+    result.open = judge_open(record_, best_.fit, result, [this](std::size_t g) {
+      return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
+    });
+    const BlockFit named =
+        best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit).fit;
+    result.base = model_fit(record_, base_.fit);
+    result.extended = model_fit(record_, named);
+    result.complete = model_fit(record_, best_.fit);
+    result.unnamed = unnamed_in(record_, best_.fit, named);
+    return result;
   }
 
   const SelectionProblem& problem_;
@@ -300,110 +364,11 @@ class SubsetSearch {
   std::vector<Selection::Aliased> aliased_;
 };
 
-/// What is told of a fit, with standard errors from the curvature of the likelihood. Unlike the
-/// jackknife of the fit, they count what a parameter that rests on a bound leaves open in the
-/// others.
-ModelFit model_fit(const Record& record, const BlockFit& fit) {
-  ModelFit all = neutral_fit(record.problem(), record.blocks());
-  all.holdout_rmse = fit.rmse();
-  std::vector<std::size_t> parameters;
-  MatrixXd jacobian(record.rows(), 0);
-  for (const std::size_t g : fit.freed.groups) {
-    const MatrixXd slopes = group_slopes(record, g, fit.values);
-    jacobian.conservativeResize(Eigen::NoChange, jacobian.cols() + slopes.cols());
-    jacobian.rightCols(slopes.cols()) = slopes;
-    for (Index k = 0; k < slopes.cols(); ++k) {
-      parameters.push_back(record.first_parameter(g) + static_cast<std::size_t>(k));
-    }
-  }
-  const auto shapes = static_cast<Index>(fit.freed.unnamed.size());
-  const Index named = jacobian.cols();
-  jacobian.conservativeResize(Eigen::NoChange, named + shapes);
-  jacobian.rightCols(shapes) = fit.jacobian.rightCols(shapes);
-
-  MatrixXd covariance;
-  if (named > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
-  for (Index k = 0; k < named; ++k) {
-    const std::size_t index = parameters[static_cast<std::size_t>(k)];
-    all.standard_error[index] =
-        record.parameters()[index].scale * std::sqrt(std::max(0.0, covariance(k, k)));
-  }
-  add_fit(record, fit, {}, all);
-  return all;
-}
-
-/// The names of the best model in the order of what they add, with their gains.
-std::vector<SelectedGroup> selected_in(const SubsetSearch& search) {
-  std::vector<SelectedGroup> selected;
-  BlockFit before = search.base().fit;
-  for (auto& [g, fit] : search.in_order()) {
-    SelectedGroup& entry = selected.emplace_back();
-    entry.group = g;
-    entry.rmse_before = before.rmse();
-    entry.rmse_after = fit.rmse();
-    entry.gain_percent = gain_percent(before.squared_error(), fit.squared_error());
-    entry.gain_se_percent = gain_se_percent(before.block_error, fit.block_error);
-    before = std::move(fit);
-  }
-  return selected;
-}
-
-/// The same, without those that gain too little to be worth a name, where they stand in the order
-/// or beside all others. That the gain is no chance is what the description length asks.
-std::vector<SelectedGroup> worth_a_name(SubsetSearch& search, double least_gain) {
-  while (true) {
-    std::vector<SelectedGroup> selected = selected_in(search);
-    std::optional<std::size_t> weakest;
-    double weakest_gain = least_gain;
-    for (const SelectedGroup& s : selected) {
-      const double beside = gain_percent(search.best_without(s.group).fit.squared_error(),
-                                         search.best().fit.squared_error());
-      const double gain = std::min(s.gain_percent, beside);
-      if (gain >= weakest_gain) continue;
-      weakest = s.group;
-      weakest_gain = gain;
-    }
-    if (!weakest) return selected;
-    search.take_back(*weakest);
-  }
-}
-
 }  // namespace
 
 Selection select_subset(const SelectionProblem& problem, const SelectionOptions& options,
                         const SelectionProgress& progress) {
-  SubsetSearch search(problem, options, progress);
-  search.run();
-  const Record& record = search.record();
-  Selection result;
-  result.rows = static_cast<std::size_t>(record.rows());
-  result.blocks = record.blocks();
-  result.student_factor = student_quantile(static_cast<double>(result.blocks) - 1, 0.975);
-  result.aliased = search.aliased();
-  result.selected = worth_a_name(search, options.least_gain_percent);
-  const Model& best = search.best();
-  for (SelectedGroup& entry : result.selected) {
-    entry.indistinguishable = search.rivals(entry.group);
-    entry.p_value = chi_squared_tail(
-        search.best_without(entry.group).fit.squared_error() - best.fit.squared_error(),
-        static_cast<double>(problem.groups[entry.group].parameters.size()));
-  }
-
-  result.least_gain_percent = options.least_gain_percent;
-  result.open = search.open_beside(result.selected);
-
-  const BlockFit named = search.named_alone();
-  result.base = model_fit(record, search.base().fit);
-  result.extended = model_fit(record, named);
-  result.complete = model_fit(record, best.fit);
-  result.unnamed.regressors = best.shapes;
-  result.unnamed.coefficients.assign(best.fit.coefficients.begin(), best.fit.coefficients.end());
-  name_channels(problem, result.unnamed);
-  if (!best.shapes.empty()) {
-    result.unnamed.share_percent =
-        100 * std::max(0.0, 1 - best.fit.squared_error() / named.squared_error());
-  }
-  return result;
+  return SubsetSearch(problem, options, progress).run();
 }
 
 }  // namespace tethercalc

@@ -10,11 +10,9 @@
 #include <numeric>
 #include <utility>
 
-#include "identify/distributions.hpp"
 #include "identify/linear_algebra.hpp"
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
-#include "tethercalc/identify/correlated_errors.hpp"
 
 // Notation, after the paper's section III-B: θ tilt, v forward speed over ground, w wind, u = v −
 // w, A_f, A_t effective areas, j linear speed, ρ air density, m mass, k = ρ/(2m). y = expected −
@@ -23,10 +21,6 @@
 
 namespace tethercalc {
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr std::size_t fewest_samples =
     50;  // at 10 Hz one pass; fewer give no autocorrelation either
@@ -557,17 +551,14 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   fit.covariance_independent = flatten(inverse * (minimum.at.sse / count * correction));
 
   for (Index i = 0; i < size; ++i) {
-    FittedParameter parameter{names[static_cast<std::size_t>(i)], {}, Bound::none};
-    parameter.at_bound = minimum.bounds[static_cast<std::size_t>(i)];
-    if (parameter.at_bound != Bound::none) {
-      constexpr double none = nan;
-      parameter.estimate = {minimum.x(i), none, none, none, none, none};
-    } else {
-      std::vector<double> gradient(static_cast<std::size_t>(size), 0.0);
-      gradient[static_cast<std::size_t>(i)] = 1;
-      parameter.estimate = propagate(fit, minimum.x(i), gradient);
-    }
-    fit.parameters.push_back(std::move(parameter));
+    const auto p = static_cast<std::size_t>(i);
+    std::vector<double> gradient(names.size(), 0.0);
+    gradient[p] = 1;
+    const bool free = minimum.bounds[p] == Bound::none;
+    fit.parameters.push_back({names[p],
+                              free ? propagate(fit, minimum.x(i), gradient)
+                                   : Estimate{minimum.x(i), nan, nan, nan, nan, nan},
+                              minimum.bounds[p]});
   }
   return fit;
 }
@@ -619,6 +610,33 @@ double dry_air_density(double pressure, double temperature) {
   demand_positive("the pressure in Pa", pressure);
   demand_positive("the temperature in K", temperature);
   return pressure / (gas_constant * temperature);
+}
+
+Observations observe_part(const FlightLog& log, const DragIdentificationOptions& options) {
+  validate(log);
+  const bool chosen = options.from || options.to;
+  const SampleRange range = chosen ? select_range(log, options.from, options.to) : moving_part(log);
+  return observe(log, range, options.pitch_offset, options.conditions.gravity);
+}
+
+DragIdentification identify_drag(std::span<const FlightLog> logs,
+                                 const DragIdentificationOptions& options) {
+  DragIdentification out;
+  out.options = options;
+  std::vector<Observations> flights;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    try {
+      flights.push_back(observe_part(logs[i], options));
+    } catch (const UnsuitableFlight& error) {
+      if (logs.size() == 1) throw;
+      throw UnsuitableFlight(fmt::format("log {}: {}", i + 1, error.what()));
+    }
+    const Observations& flight = flights.back();
+    if (flight.size() == 0) throw UnsuitableFlight(fmt::format("log {} is all gaps", i + 1));
+    out.parts.push_back({flight.time.front(), flight.time.back(), flight.size()});
+  }
+  out.fit = fit_drag(flights, options.conditions);
+  return out;
 }
 
 }  // namespace tethercalc

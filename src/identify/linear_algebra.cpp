@@ -7,9 +7,6 @@
 
 namespace tethercalc {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
   return a.colPivHouseholderQr().solve(b);
 }

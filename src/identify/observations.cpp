@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "identify/series.hpp"
+#include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {

@@ -11,9 +11,9 @@
 #include <set>
 #include <utility>
 
-#include "diagnose/power_channels.hpp"
 #include "io/csv.hpp"
 #include "io/longest_increasing.hpp"
+#include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"

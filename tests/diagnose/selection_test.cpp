@@ -5,8 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "diagnose/subset_selection.hpp"
-
 using namespace tethercalc;
 
 namespace {

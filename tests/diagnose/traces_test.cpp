@@ -2,10 +2,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnose/channels.hpp"
+#include "diagnose/flight_prediction.hpp"
+#include "diagnose/log_model.hpp"
 #include "support/simulated_flight.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
+#include "tethercalc/diagnose/power_log.hpp"
 
 using namespace tethercalc;
 

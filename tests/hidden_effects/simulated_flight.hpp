@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "tethercalc/identify/flight_log.hpp"
+#include "tethercalc/identify/observations.hpp"
 
 namespace tethercalc::truth {
 

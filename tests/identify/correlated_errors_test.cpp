@@ -4,8 +4,8 @@
 #include <random>
 #include <vector>
 
+#include "identify/statistics.hpp"
 #include "support/random.hpp"
-#include "tethercalc/identify/correlated_errors.hpp"
 
 using namespace tethercalc;
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "tethercalc/identify/flight_log.hpp"
+#include "tethercalc/identify/observations.hpp"
 
 namespace tethercalc::test {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-#include "tethercalc/identify/flight_log.hpp"
+#include "tethercalc/identify/observations.hpp"
 
 namespace tethercalc::test {
 

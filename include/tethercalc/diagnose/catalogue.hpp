@@ -57,7 +57,7 @@ struct Effect {
                                      ///< in the log
   std::string to_separate{};         ///< what flight or channel tells it from its like
   std::string change{};              ///< the change of the prediction as a formula
-  std::string channel{};             ///< where it shows, an id as in `diagnose/channels.hpp`
+  std::string channel{};             ///< where it shows, an id as in `diagnose/log_model.hpp`
 
   /// Why a log may not show it beside the base model, where that has one reason; else empty.
   std::string aliased_because{};
@@ -81,6 +81,9 @@ struct Effect {
 
 /// All effects; the order is that of the documentation.
 [[nodiscard]] std::span<const Effect> effect_catalogue();
+
+/// Those that such logs can show.
+[[nodiscard]] std::span<const Effect> effect_catalogue(LogKind kind);
 
 /// The entry of `id`, or null.
 [[nodiscard]] const Effect* find_effect(std::string_view id);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "tethercalc/diagnose/diagnosis.hpp"
-#include "tethercalc/identify/flight_log.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/design.hpp"
 

@@ -175,4 +175,39 @@ struct EntangledPair {
 /// is lighter, by up to 1 % at 25 °C. Throws std::invalid_argument outside the range.
 [[nodiscard]] double dry_air_density(double pressure, double temperature);
 
+// --- From flight logs in one call: range, observations, fit ---
+
+/// What the logs do not say.
+struct DragIdentificationOptions {
+  DragFitConditions conditions;     ///< mass, air density, gravity
+  double pitch_offset = 0;          ///< rad, what the log's pitch reads in level flight
+  std::optional<LogPosition> from;  ///< first of the samples to use, in every log
+  std::optional<LogPosition> to;    ///< last of them; with neither, the moving part is used
+};
+
+/// The part of one log that went into the fit.
+struct FlightPart {
+  double from = 0;          ///< s of the log's own clock, first sample
+  double to = 0;            ///< s, last sample
+  std::size_t samples = 0;  ///< observations made of it
+};
+
+/// A fit together with what it was made of.
+struct DragIdentification {
+  DragIdentificationOptions options;  ///< as given
+  std::vector<FlightPart> parts;      ///< one a log
+  DragFit fit;                        ///< of all logs together
+};
+
+/// The observations that `identify_drag` makes of one log: the samples chosen by `options`, or the
+/// moving part. Throws UnsuitableFlight where the log is invalid or has no such part.
+[[nodiscard]] Observations observe_part(const FlightLog& log,
+                                        const DragIdentificationOptions& options);
+
+/// Fits the drag shared by `logs` and the wind of each, see `fit_drag`, to the samples chosen by
+/// `options`, see `select_range` and `moving_part`. Throws UnsuitableFlight where a log is invalid
+/// or cannot determine the parameters; of several logs, the message says which.
+[[nodiscard]] DragIdentification identify_drag(std::span<const FlightLog> logs,
+                                               const DragIdentificationOptions& options);
+
 }  // namespace tethercalc

@@ -1,15 +1,30 @@
-// What a flight log says about drag: motion and attitude in the stabilised frame, sample by sample.
+// A flight log, and what it says about drag: motion and attitude in the stabilised frame, sample by
+// sample.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "tethercalc/identify/flight_log.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
+
+/// Time series of an estimator's output, one element a sample in every vector; all of the same
+/// length, time strictly increasing.
+struct FlightLog {
+  std::vector<double> time;            ///< s
+  std::vector<double> roll;            ///< rad
+  std::vector<double> pitch;           ///< rad, positive nose-up
+  std::vector<double> yaw;             ///< rad, clockwise from north
+  std::vector<double> north_velocity;  ///< m/s
+  std::vector<double> east_velocity;   ///< m/s
+  std::vector<double> down_velocity;   ///< m/s
+  /// What flew where the log says that it was no multirotor: "ArduPlane V3.1.2, an aeroplane".
+  std::string other_vehicle;
+};
 
 /// A log, or the chosen part of it, that cannot tell what it is asked. The message is a sentence
 /// for the user: what is wrong, where, and what would help.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tethercalc/diagnose/power_log.hpp"
-#include "tethercalc/identify/flight_log.hpp"
+#include "tethercalc/identify/observations.hpp"
 
 namespace tethercalc {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tethercalc/identify/drag_identification.hpp"
+#include "tethercalc/identify/drag_fit.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {

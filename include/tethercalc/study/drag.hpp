@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tethercalc/identify/drag_identification.hpp"
+#include "tethercalc/identify/drag_fit.hpp"
 
 namespace tethercalc {
 

@@ -1,42 +1,72 @@
-#include "tethercalc/identify/correlated_errors.hpp"
-
-#include <Eigen/Core>
+#include "identify/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "identify/linear_algebra.hpp"
 
 namespace tethercalc {
 namespace {
 
+// Long double takes three times as long to compile, for digits nobody sees.
+using Plain = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
+template <class Distribution>
+double tail(const Distribution& distribution, double value) {
+  return boost::math::cdf(boost::math::complement(distribution, value));
+}
+
 /// The series less its mean.
-Eigen::VectorXd centred(std::span<const double> series) {
-  const auto x = Eigen::VectorXd::Map(series.data(), static_cast<Eigen::Index>(series.size()));
+VectorXd centred(std::span<const double> series) {
+  const auto x = VectorXd::Map(series.data(), static_cast<Index>(series.size()));
   return x.array() - x.mean();
 }
 
 /// Σ x_t·x_{t+lag}.
-double lagged_product(const Eigen::VectorXd& x, Eigen::Index lag) {
+double lagged_product(const VectorXd& x, Index lag) {
   return x.head(x.size() - lag).dot(x.tail(x.size() - lag));
 }
 
 }  // namespace
 
+double student_quantile(double degrees, double p) {
+  return boost::math::quantile(boost::math::students_t_distribution<double, Plain>(degrees), p);
+}
+
+double student_tail(double t, double degrees) {
+  if (!std::isfinite(t)) return t > 0 ? 0 : 1;
+  return tail(boost::math::students_t_distribution<double, Plain>(degrees), t);
+}
+
+double fisher_tail(double f, double numerator, double denominator) {
+  if (!std::isfinite(f)) return 0;
+  return tail(boost::math::fisher_f_distribution<double, Plain>(numerator, denominator),
+              std::max(f, 0.0));
+}
+
+double chi_squared_tail(double x, double degrees) {
+  return tail(boost::math::chi_squared_distribution<double, Plain>(degrees), std::max(x, 0.0));
+}
+
 double autocorrelation(std::span<const double> series, std::size_t lag) {
   if (series.size() <= lag) return 0;
-  const Eigen::VectorXd x = centred(series);
+  const VectorXd x = centred(series);
   const double variance = x.squaredNorm();
-  return variance > 0 ? lagged_product(x, static_cast<Eigen::Index>(lag)) / variance : 0;
+  return variance > 0 ? lagged_product(x, static_cast<Index>(lag)) / variance : 0;
 }
 
 double effective_sample_size(std::span<const double> series) {
   const auto size = static_cast<double>(series.size());
   if (series.size() < 2) return size;
-  const Eigen::VectorXd x = centred(series);
+  const VectorXd x = centred(series);
   const double variance = x.squaredNorm();
   if (!(variance > 0)) return size;
   double correlation_time = -1;  // −1 + 2·Σ of the pairs, the first of which holds ρ_0 = 1
-  for (Eigen::Index lag = 0; lag + 1 < x.size(); lag += 2) {
+  for (Index lag = 0; lag + 1 < x.size(); lag += 2) {
     const double pair = (lagged_product(x, lag) + lagged_product(x, lag + 1)) / variance;
     if (pair <= 0) break;
     correlation_time += 2 * pair;
@@ -52,9 +82,9 @@ std::size_t cosine_terms(double samples, double effective_samples) {
 
 std::vector<double> long_run_covariance(std::span<const double> rows, std::size_t columns,
                                         std::size_t terms) {
-  const auto width = static_cast<Eigen::Index>(columns);
-  const auto height = static_cast<Eigen::Index>(rows.size() / columns);
-  const auto count = static_cast<Eigen::Index>(terms);
+  const auto width = static_cast<Index>(columns);
+  const auto height = static_cast<Index>(rows.size() / columns);
+  const auto count = static_cast<Index>(terms);
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> z(
       rows.data(), height, width);
 
@@ -67,22 +97,22 @@ std::vector<double> long_run_covariance(std::span<const double> rows, std::size_
   const Eigen::ArrayXd twice_cosine = 2 * steps.cos();
 
   // In blocks of samples, so that the sums are matrix products.
-  constexpr Eigen::Index block = 64;
+  constexpr Index block = 64;
   Eigen::ArrayXXd cosines(count, block);
   cosines.col(block - 2) = (1.5 * steps).cos();  // those before the first sample: cos is even
   cosines.col(block - 1) = (0.5 * steps).cos();
-  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(count, width);
-  for (Eigen::Index t = 0; t < height; t += block) {
-    const Eigen::Index length = std::min(block, height - t);
-    for (Eigen::Index i = 0; i < length; ++i) {
-      const Eigen::Index one_before = (i + block - 1) % block;
-      const Eigen::Index two_before = (i + block - 2) % block;
+  MatrixXd coefficients = MatrixXd::Zero(count, width);
+  for (Index t = 0; t < height; t += block) {
+    const Index length = std::min(block, height - t);
+    for (Index i = 0; i < length; ++i) {
+      const Index one_before = (i + block - 1) % block;
+      const Index two_before = (i + block - 2) % block;
       cosines.col(i) = twice_cosine * cosines.col(one_before) - cosines.col(two_before);
     }
     coefficients.noalias() += cosines.leftCols(length).matrix() * z.middleRows(t, length);
   }
-  const Eigen::MatrixXd covariance = coefficients.transpose() * coefficients *
-                                     (2 / static_cast<double>(height) / static_cast<double>(terms));
+  const MatrixXd covariance = coefficients.transpose() * coefficients *
+                              (2 / static_cast<double>(height) / static_cast<double>(terms));
   return {covariance.data(), covariance.data() + covariance.size()};
 }
 

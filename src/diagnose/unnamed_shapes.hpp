@@ -1,12 +1,19 @@
-// Shapes that a power log may follow without any effect of the catalogue.
+// Shapes that a log may follow without any effect of the catalogue.
 #pragma once
 
 #include <vector>
 
 #include "diagnose/power_residuals.hpp"
 #include "diagnose/selection.hpp"
+#include "tethercalc/identify/observations.hpp"
 
 namespace tethercalc {
+
+/// Functions of each channel of the flight (roll, pitch, yaw, speeds, height, time, with steps in
+/// time), alone and times the airspeed and its powers, since a force of the air grows with it. The
+/// forward acceleration is no channel. `wind` in m/s: airspeed is forward speed − wind.
+[[nodiscard]] std::vector<UnnamedRegressor> flight_shapes(const Observations& observations,
+                                                          double wind);
 
 /// Unnamed regressors over the rows of `residuals`, each in one stage and of one channel: steps,
 /// drift and waves in time; bends in height, airspeed, current and ambient temperature. In the
