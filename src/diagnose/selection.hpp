@@ -180,17 +180,17 @@ struct Selection {
 /// squared errors can be compared by likelihood.
 ///
 /// Every candidate is fitted; of all pairs, and of the best few models with one more, those that
-/// promise most where the model is linear: a greedy first step can be wrong where two effects cancel
-/// or mimic a third together. Of all models the one with the least description length wins: held-out
-/// squared error, plus for each effect 2·ln(candidates/α), plus for each unnamed shape 2·ln(shapes/α),
-/// the price of having picked one out of so many (Rissanen 1978; with α the chance of a false alarm,
-/// since χ² exceeds 2·ln(1/p) with probability below p). Shapes without a name cost more than names,
-/// so a name wins where both explain equally well, and a shape wins where it takes two wrong names to
-/// mimic it.
+/// promise most where the model is linear: a greedy first step can be wrong where two effects
+/// cancel or mimic a third together. Of all models the one with the least description length wins:
+/// held-out squared error, plus for each effect 2·ln(candidates/α), plus for each unnamed shape
+/// 2·ln(shapes/α), the price of having picked one out of so many (Rissanen 1978; with α the chance
+/// of a false alarm, since χ² exceeds 2·ln(1/p) with probability below p). Shapes without a name
+/// cost more than names, so a name wins where both explain equally well, and a shape wins where it
+/// takes two wrong names to mimic it.
 ///
 /// `SelectionOptions::false_alarm_probability` is α, for named and for unnamed ones each. Names
-/// that gain less than `least_gain_percent` of the record's held-out error, in their order or beside
-/// all others, are taken back. Throws as `select_effects` does.
+/// that gain less than `least_gain_percent` of the record's held-out error, in their order or
+/// beside all others, are taken back. Throws as `select_effects` does.
 [[nodiscard]] Selection select_subset(const SelectionProblem& problem,
                                       const SelectionOptions& options,
                                       const SelectionProgress& progress);

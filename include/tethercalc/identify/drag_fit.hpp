@@ -121,13 +121,14 @@ struct DragFit {
 /// Fits A_f, A_t, j, shared by all `flights`, and one wind a flight, by nonlinear least squares on
 /// forward acceleration: a = expected_acceleration − F_D/m.
 ///
-/// The start is deterministic. For a given wind and j the model is linear in the areas, so on a
-/// grid of winds and j the best areas are solved for exactly; from the best grid point a damped
-/// Gauss–Newton iteration within the bounds goes to the minimum.
+/// The start is deterministic: for each flight the best of short descents, on a few of its samples,
+/// from winds all over their range. From there a damped Gauss–Newton iteration within the bounds
+/// goes to the minimum.
 ///
 /// Errors: the independent-sample covariance is s²(JᵀJ)⁻¹; the honest one is the sandwich
-/// (JᵀJ)⁻¹·N·Ω·(JᵀJ)⁻¹ with the long-run covariance Ω of the scores J_t·r_t, see
-/// `long_run_covariance`. Flights are taken as independent of each other and degrees of freedom
+/// (JᵀJ)⁻¹·N·Ω·(JᵀJ)⁻¹ with the long-run covariance Ω of the scores J_t·r_t by equally weighted
+/// cosines (Lazarus, Lewis, Stock and Watson, Journal of Business & Economic Statistics 36, 2018,
+/// 541–559). Flights are taken as independent of each other and degrees of freedom
 /// combine after Satterthwaite. To it is added what differentiating at the log's rate costs, see
 /// `differentiation_correction`. Not included: a wrong mass, density or pitch offset, effects the
 /// model lacks, and the small bias of gusts that both push the drone and are pushed against
