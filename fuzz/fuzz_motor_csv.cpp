@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   Problems problems;
   const auto motor = motor_from_bench_csv(text, "bench.csv", problems);
-  require(motor.has_value() == problems.none());
+  require(motor.has_value() == (problems.count() == 0));
   if (!motor) return 0;
   const auto vertices = motor->curve.vertices();
   require(vertices.size() >= 3);
