@@ -2,15 +2,15 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "hidden_effects/simulated_flight.hpp"
 #include "support/random.hpp"
+#include "support/verdicts.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;
+using test::lists;
 using truth::HiddenFlight;
 
 namespace {
@@ -31,12 +31,6 @@ Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log) {
 
 double area(const Diagnosis& d) { return d.extended.parameters.front().value; }
 
-template <class List>
-bool lists(const List& list, const std::string& effect) {
-  return std::any_of(list.begin(), list.end(),
-                     [&effect](const auto& entry) { return entry.effect == effect; });
-}
-
 }  // namespace
 
 TEST_CASE("every effect of a flight gets one verdict, and none that is ruled out is there") {
@@ -50,27 +44,15 @@ TEST_CASE("every effect of a flight gets one verdict, and none that is ruled out
     hidden.wind_drift = 0.15;
     hidden.pitch_trim = 0.1;
     const Diagnosis d = diagnosed(hidden, truth::fly(hidden));
-    std::map<std::string, int> verdicts;
-    for (const Finding& f : d.findings) {
-      ++verdicts[f.effect];
-      for (const auto& other : f.indistinguishable_from) verdicts[other] = 1;
-    }
-    for (const auto& s : d.suspected) ++verdicts[s.effect];
-    for (const auto& n : d.not_testable) ++verdicts[n.effect];
-    for (const auto& n : d.not_identifiable) ++verdicts[n.effect];
-    std::set<std::string> ruled_out;
+    auto verdicts = test::verdict_counts(d);
     for (const RuledOut& r : d.ruled_out) {
-      ruled_out.insert(r.effect);
       const bool drift = r.effect == "wind_drift";
       if (!drift && r.effect != "pitch_trim") continue;
       ++asked;
       wrong += r.bound < (drift ? hidden.wind_drift : hidden.pitch_trim);
     }
-    for (const auto& id : ruled_out) ++verdicts[id];
-    for (const Effect& effect : effect_catalogue()) {
-      if (effect.log != LogKind::flight || effect.id == "linear_drag" || effect.id == "wind") {
-        continue;  // in the base
-      }
+    for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+      if (effect.id == "linear_drag" || effect.id == "wind") continue;  // in the base
       INFO(effect.id);
       CHECK(verdicts[effect.id] == 1);
     }

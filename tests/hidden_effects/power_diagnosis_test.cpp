@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <set>
 #include <span>
 
 #include "hidden_effects/power_scenarios.hpp"
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
+#include "support/verdicts.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
@@ -19,6 +18,7 @@
 
 using namespace tethercalc;
 using namespace power_truth;
+using test::lists;
 
 namespace {
 
@@ -39,12 +39,6 @@ bool names(const Finding& finding, const std::string& effect) {
 bool any_names(const Diagnosis& diagnosis, const std::string& effect) {
   return std::any_of(diagnosis.findings.begin(), diagnosis.findings.end(),
                      [&](const Finding& f) { return names(f, effect); });
-}
-
-template <typename List>
-bool lists(const List& list, const std::string& effect) {
-  return std::any_of(list.begin(), list.end(),
-                     [&](const auto& entry) { return entry.effect == effect; });
 }
 
 std::string summary(const Diagnosis& diagnosis) {
@@ -192,10 +186,6 @@ TEST_CASE("ageing motors, thin air and a winch that pulls are named and their si
 }
 
 TEST_CASE("every effect gets one verdict, and none that is ruled out is there") {
-  std::vector<std::string> catalogue;
-  for (const Effect& e : effect_catalogue()) {
-    if (e.log == LogKind::power) catalogue.push_back(e.id);
-  }
   int wrong = 0;
   int asked = 0;
   std::string failures;
@@ -206,20 +196,10 @@ TEST_CASE("every effect gets one verdict, and none that is ruled out is there") 
     effect.hide(scenario.hidden, 0);  // about the limit of detection: found or not
     const Diagnosis d = diagnosis_of(scenario);
     INFO(effect.id << ": " << summary(d));
-    std::map<std::string, int> verdicts;
-    for (const auto& f : d.findings) {
-      ++verdicts[f.effect];
-      for (const auto& other : f.indistinguishable_from) verdicts[other] = 1;
-    }
-    for (const auto& s : d.suspected) ++verdicts[s.effect];
-    for (const auto& n : d.not_testable) ++verdicts[n.effect];
-    for (const auto& n : d.not_identifiable) ++verdicts[n.effect];
-    std::set<std::string> ruled_out;
-    for (const auto& r : d.ruled_out) ruled_out.insert(r.effect);
-    for (const auto& id : ruled_out) ++verdicts[id];
-    for (const auto& id : catalogue) {
-      INFO(id);
-      CHECK(verdicts[id] == 1);
+    auto verdicts = test::verdict_counts(d);
+    for (const Effect& told : effect_catalogue(LogKind::power)) {
+      INFO(told.id);
+      CHECK(verdicts[told.id] == 1);
     }
     const EffectParameter& p = find_effect(effect.id)->parameters.front();
     const double neutral = p.in_design != nullptr ? p.in_design(spec()) : p.neutral;
