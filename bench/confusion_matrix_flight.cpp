@@ -1,6 +1,6 @@
 // Flies simulated drones with every effect of a flight hidden in turn and prints what the diagnosis
 // says: a confusion matrix in Markdown, with the coverage of the intervals and the false alarms.
-// Usage: confusion_matrix_flight [flights a row, 20] [condition, real]
+// Usage: confusion_matrix_flight [flights a row, 20] [condition, real] [one row]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,8 +39,14 @@ std::vector<Row> rows() {
           {"fore_aft_asymmetry", &HiddenFlight::fore_aft_asymmetry, 0.08, 0.3, true, ""},
           {"propwash", &HiddenFlight::propwash, 0.12, 0.8, false, ""},
           {"vertical_coupling", &HiddenFlight::vertical_coupling, 0.04, 0.2, true, ""},
+          {"tether_pull", &HiddenFlight::tether_pull, 0.3, 1.5, true, ""},
+          {"wind_step", &HiddenFlight::wind_step, 1.5, 4, true, ""},
+          {"wind_wave", &HiddenFlight::wind_wave, 1, 3, true, ""},
+          {"mass_drop", &HiddenFlight::mass_drop, 12, 40, false, ""},
+          {"yaw_misalign", &HiddenFlight::yaw_misalign, 5, 20, true, ""},
+          {"velocity_lag", &HiddenFlight::velocity_lag, 0.05, 0.3, false, ""},
+          {"velocity_scale", &HiddenFlight::velocity_scale, 1.05, 1.3, false, ""},
           {"drag with roll", &HiddenFlight::roll_drag, 20, 80, false, "roll_deg"},
-          {"step of the drag", &HiddenFlight::step_drag, 0.15, 0.5, true, "time_s"},
           {"step of a force", &HiddenFlight::step_force, 0.3, 1, true, "time_s"},
           {"drag with height", &HiddenFlight::height_drag, 0.02, 0.06, true, "height_m"}};
 }
@@ -178,7 +184,7 @@ int main(int argc, char** argv) {
   const auto condition = std::find_if(
       known.begin(), known.end(), [&wanted](const FlightCondition& c) { return wanted == c.name; });
   if (flights < 1 || condition == known.end()) {
-    fmt::print(stderr, "usage: confusion_matrix_flight [FLIGHTS] [CONDITION], one of");
+    fmt::print(stderr, "usage: confusion_matrix_flight [FLIGHTS] [CONDITION] [ROW], one of");
     for (const FlightCondition& c : known) fmt::print(stderr, " {}", c.name);
     fmt::print(stderr, "\n");
     return 2;
@@ -198,6 +204,10 @@ int main(int argc, char** argv) {
   fmt::print("{}\n", rule);
   std::uint64_t seed = 100000;
   for (const Row& row : rows()) {
+    if (argc > 3 && row.hidden != argv[3]) {
+      seed += static_cast<std::uint64_t>(flights);
+      continue;
+    }
     Tally tally;
     for (int k = 0; k < flights; ++k) {
       const HiddenFlight hidden = drawn_flight(row, ++seed, *condition);

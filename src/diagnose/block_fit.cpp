@@ -56,7 +56,10 @@ class FreedModel {
       : record_(&record), values_(std::move(start)) {
     for (const std::size_t group : freed.groups) {
       const std::size_t count = record.problem().groups[group].parameters.size();
-      for (std::size_t k = 0; k < count; ++k) free_.push_back(record.first_parameter(group) + k);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t index = record.first_parameter(group) + k;
+        if (record.parameters()[index].is_free()) free_.push_back(index);
+      }
     }
     columns_.resize(record.rows(), static_cast<Index>(freed.unnamed.size()));
     for (std::size_t k = 0; k < freed.unnamed.size(); ++k) {

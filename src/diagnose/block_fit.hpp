@@ -25,6 +25,8 @@ class Record {
     return block_begin_[b + 1] - block_begin_[b];
   }
   [[nodiscard]] const std::vector<ModelParameter>& parameters() const { return parameters_; }
+  /// Fits that free the parameter begin with this value, within its bounds.
+  void start_at(std::size_t parameter, double value) { parameters_[parameter].start = value; }
   /// First parameter of a group.
   [[nodiscard]] std::size_t first_parameter(std::size_t group) const { return first_[group]; }
   [[nodiscard]] const SelectionProblem& problem() const { return problem_; }
@@ -86,7 +88,7 @@ struct BlockFit {
 /// the parameters' own first values.
 [[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near);
 
-/// Slopes of the prediction by the parameters of `groups` over their scales, at `values`.
+/// Slopes of the prediction by the free parameters of `groups` over their scales, at `values`.
 [[nodiscard]] MatrixXd group_slopes(const Record& record, const Groups& groups,
                                     const std::vector<double>& values);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/power_chain.hpp"
@@ -36,6 +37,72 @@ void shift_tilt(FlightPrediction& p, double delay) {
     }
     p.tilt[i] = value;
   }
+}
+
+/// The forward part, in sample i, of what points along the mean heading and to its right.
+double ahead(const FlightRecord& record, std::size_t i, double along, double right) {
+  return along * record.along_heading[i] + right * record.right_of_heading[i];
+}
+
+double wave(const FlightRecord& record, std::size_t i, double cosine, double sine, double period) {
+  const double phase = 2 * std::numbers::pi * (record.time[i] - record.middle_time) / period;
+  return cosine * std::cos(phase) + sine * std::sin(phase);
+}
+
+double law_drag(const FlightPrediction& p, double along, double across, double tan_tilt) {
+  return airframe_drag_along(p.law, p.record.air_density, along, across, tan_tilt);
+}
+
+/// The log's heading is `angle` to the right of the airframe's.
+void misalign(FlightPrediction& p, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  for (std::size_t i = 0; i < p.airspeed.size(); ++i) {
+    const double ahead = p.airspeed[i];
+    const double aside = p.record.right_speed[i];
+    const double tan_tilt = p.tan_tilt[i];
+    // Along the drone's own axes. What effects did to the drag stays as it was.
+    const double own_ahead = ahead * c - aside * s;
+    const double own_aside = ahead * s + aside * c;
+    const double forward_drag = p.drag[i] + law_drag(p, own_ahead, own_aside, tan_tilt) -
+                                law_drag(p, ahead, aside, tan_tilt);
+    const double sideward_drag = law_drag(p, own_aside, own_ahead, 0);
+    const double forward = p.lift[i] * tan_tilt - forward_drag / p.record.mass;
+    const double sideward = p.lift[i] * p.record.sideward_thrust[i] - sideward_drag / p.record.mass;
+    const double aligned = p.lift[i] * tan_tilt - p.drag[i] / p.record.mass;
+    p.acceleration[i] += forward * c + sideward * s - aligned;
+  }
+}
+
+/// A first-order lag of a course that is straight between samples.
+std::vector<double> lagging(const std::vector<double>& time, double constant,
+                            std::vector<double> reading) {
+  double lagging = reading.empty() ? 0 : reading.front();
+  double before = lagging;
+  for (std::size_t i = 1; i < reading.size(); ++i) {
+    const double step = time[i] - time[i - 1];
+    const double slope = (reading[i] - before) / step;
+    const double behind = before - slope * constant;  // where a ramp through both would be followed
+    before = reading[i];
+    lagging = reading[i] - slope * constant + (lagging - behind) * std::exp(-step / constant);
+    reading[i] = lagging;
+  }
+  return reading;
+}
+
+/// The logged velocity follows the true one with a lag of first order.
+void lag(FlightPrediction& p, double constant) {
+  const std::vector<double>& time = p.record.time;
+  // The true speed is ahead by what the logged one gains in a time constant.
+  const std::vector<double> logged = lagging(time, constant, p.acceleration);
+  for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
+    const double aside = p.record.right_speed[i];
+    const double tan_tilt = p.tan_tilt[i];
+    p.acceleration[i] -= (law_drag(p, p.airspeed[i] + constant * logged[i], aside, tan_tilt) -
+                          law_drag(p, p.airspeed[i], aside, tan_tilt)) /
+                         p.record.mass;
+  }
+  p.acceleration = lagging(time, constant, std::move(p.acceleration));
 }
 
 std::vector<Effect> flight_effects() {
@@ -202,9 +269,189 @@ std::vector<Effect> flight_effects() {
        .change = "F_D → F_D + c·u·v_D",
        .channel = "sinking",
        .flight_phase = FlightPhase::force,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.drag.size(); ++i) {
+               p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
+             }
+           }},
+
+      {.id = "tether_pull",
+       .title = "A steady pull to one side",
+       .mechanism = "The tether, or whatever else holds the drone, pulls it to one side over "
+                    "ground with the same force all the time.",
+       .parameters =
+           {{.name = "pull_ahead_N", .unit = "N", .lower = -200, .upper = 200, .scale = 0.1},
+            {.name = "pull_right_N",
+             .unit = "N",
+             .lower = -200,
+             .upper = 200,
+             .scale = 0.1,
+             .only_if_turning = true}},
+       .sizes = 2,
+       .to_separate = "lean more and less at the same speed, and fly the passes at the opposite "
+                      "heading: the pull keeps its size and its side, what belongs to the drone "
+                      "turns with it",
+       .change = "F_D → F_D − (F_a cos(ψ − ψ̄) + F_r sin(ψ − ψ̄)), ψ̄ the mean heading",
+       .channel = "yaw",
+       .flight_phase = FlightPhase::force,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.drag.size(); ++i) {
+               p.drag[i] -= ahead(p.record, i, x[0], x[1]);
+             }
+           }},
+
+      {.id = "wind_step",
+       .title = "Wind that changes at once",
+       .mechanism =
+           "From one moment on another wind blows: a front passes, or the drone leaves the "
+           "lee of something.",
+       .parameters =
+           {{.name = "wind_step_ahead_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
+            {.name = "wind_step_right_m_s",
+             .unit = "m/s",
+             .lower = -40,
+             .upper = 40,
+             .scale = 0.5,
+             .only_if_turning = true},
+            {.name = "wind_step_time_s", .unit = "s", .look_through = LookThrough::moments}},
+       .sizes = 2,
+       .to_separate = "fly the same passes fast and slow before and after: a wind acts in "
+                      "proportion to the speed, a force does not",
+       .change = "w → w + Δw_a cos(ψ − ψ̄) + Δw_r sin(ψ − ψ̄) from the time on, ψ̄ the mean heading",
+       .channel = "time",
+       .least_gain_factor = 5,
+       .flight_phase = FlightPhase::air,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+               if (p.record.time[i] >= x[2]) p.headwind[i] += ahead(p.record, i, x[0], x[1]);
+             }
+           }},
+
+      {.id = "wind_wave",
+       .title = "Wind that comes and goes",
+       .mechanism = "The wind rises and falls slowly, many seconds up and many down, as below "
+                    "thermals or behind hills.",
+       .parameters =
+           {{.name = "wind_wave_cos_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
+            {.name = "wind_wave_sin_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
+            {.name = "wind_wave_right_cos_m_s",
+             .unit = "m/s",
+             .lower = -40,
+             .upper = 40,
+             .scale = 0.5,
+             .only_if_turning = true},
+            {.name = "wind_wave_right_sin_m_s",
+             .unit = "m/s",
+             .lower = -40,
+             .upper = 40,
+             .scale = 0.5,
+             .only_if_turning = true},
+            {.name = "wind_wave_period_s",
+             .unit = "s",
+             .neutral = 40,
+             .lower = 40,
+             .upper = 1e6,
+             .look_through = LookThrough::periods}},
+       .sizes = 4,
+       .to_separate = "fly the same passes for several of its periods, and measure the wind",
+       .change = "w → w + a cos(2πt/T) + b sin(2πt/T), t from the middle of the flight",
+       .channel = "time",
+       .least_gain_factor = 5,
+       .flight_phase = FlightPhase::air,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+               p.headwind[i] += ahead(p.record, i, wave(p.record, i, x[0], x[1], x[4]),
+                                      wave(p.record, i, x[2], x[3], x[4]));
+             }
+           }},
+
+      {.id = "mass_drop",
+       .title = "The drone becomes lighter at once",
+       .mechanism = "From one moment on the drone is lighter by a part of its mass (a payload "
+                    "dropped), so that the same drag slows it more. A drag that grows in "
+                    "proportion (gear let down) looks the same.",
+       .parameters = {{.name = "mass_drop_percent",
+                       .unit = "%",
+                       .unit_SI = 0.01,
+                       .lower = 0,
+                       .upper = 90,
+                       .scale = 5},
+                      {.name = "mass_drop_time_s",
+                       .unit = "s",
+                       .look_through = LookThrough::moments}},
+       .to_separate = "compare the thrust in hover before and after, in a log of the power",
+       .change = "m → m·(1 − x) from the time on",
+       .channel = "time",
+       .least_gain_factor = 5,
+       .flight_phase = FlightPhase::force,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.drag.size(); ++i) {
+               if (p.record.time[i] >= x[1]) p.drag[i] /= 1 - x[0];
+             }
+           }},
+
+      {.id = "yaw_misalign",
+       .title = "Heading off from the airframe",
+       .mechanism = "The compass is turned against the airframe, so that speed and acceleration "
+                    "are split into forward and sideward along the wrong axes.",
+       .parameters = {{.name = "yaw_misalign_deg",
+                       .unit = "deg",
+                       .unit_SI = unit::degree,
+                       .lower = -60,
+                       .upper = 60,
+                       .scale = 2}},
+       .to_separate = "fly straight ahead, then straight to the side: a heading that is off shows "
+                      "each of them in the other axis",
+       .change = "forward and right axes turned by δ against the log's",
+       .channel = "yaw",
+       .flight_phase = FlightPhase::reading,
+       .on_flight = [](FlightPrediction& p, Values x) { misalign(p, x[0]); }},
+
+      {.id = "velocity_lag",
+       .title = "Velocity logged late",
+       .mechanism =
+           "The estimator smooths the velocity, so that the logged acceleration lags behind "
+           "the thrust.",
+       .parameters =
+           {{.name = "velocity_lag_s", .unit = "s", .lower = 0, .upper = 2, .scale = 0.05}},
+       .to_separate = "fly quick reversals of pitch at low speed; a smoothed velocity rounds them, "
+                      "an attitude that is early only shifts them",
+       .change = "v̇ follows with a lag of first order, τ",
+       .channel = "tilt_rate",
+       .flight_phase = FlightPhase::reading,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             if (x[0] > 0) lag(p, x[0]);
+           }},
+
+      {.id = "velocity_scale",
+       .title = "Velocity logged too large or too small",
+       .mechanism = "Every logged velocity is the true one times a factor, so that accelerations "
+                    "and drag do not fit the thrust together.",
+       .parameters = {{.name = "velocity_scale",
+                       .unit = "1",
+                       .neutral = 1,
+                       .lower = 0.2,
+                       .upper = 5,
+                       .scale = 0.02}},
+       .to_separate = "compare a measured distance with the log's",
+       .change = "u → u/s, a → s·a",
+       .channel = "forward_speed",
+       .least_gain_factor = 5,
+       .flight_phase = FlightPhase::reading,
        .on_flight = [](FlightPrediction& p, Values x) {
-         for (std::size_t i = 0; i < p.drag.size(); ++i) {
-           p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
+         for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
+           const double ahead = p.airspeed[i];
+           const double aside = p.record.right_speed[i];
+           const double tan_tilt = p.tan_tilt[i];
+           const double too_much = law_drag(p, ahead, aside, tan_tilt) -
+                                   law_drag(p, ahead / x[0], aside / x[0], tan_tilt);
+           p.acceleration[i] = x[0] * (p.acceleration[i] + too_much / p.record.mass);
          }
        }}};
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identify/statistics.hpp"
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -25,8 +26,11 @@ std::size_t owner_of(const Record& record, std::size_t parameter) {
 MatrixXd size_slopes(const Record& record, const std::vector<double>& values, std::size_t group) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   std::vector<Index> sizes;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    if (!own[k].shape_only) sizes.push_back(static_cast<Index>(k));
+  Index column = 0;
+  for (const ModelParameter& p : own) {
+    if (!p.is_free()) continue;
+    if (!p.shape_only) sizes.push_back(column);
+    ++column;
   }
   return slopes_at_start(record, values, group)(Eigen::all, sizes);
 }
@@ -58,7 +62,7 @@ std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit
   std::vector<SizeEstimate> estimates;
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   for (std::size_t k = 0; k < own.size(); ++k) {
-    if (own[k].shape_only) continue;
+    if (own[k].shape_only || !own[k].is_free()) continue;
     const Index column = fit.jacobian.cols() + static_cast<Index>(estimates.size());
     SizeEstimate& size = estimates.emplace_back();
     size.parameter = record.first_parameter(group) + k;
@@ -74,6 +78,53 @@ std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit
   }
   return estimates;
 }
+
+/// By how much the group would lower the squared error of the fit with its places at `values`, if
+/// the prediction were linear in its sizes.
+class PlaceGains {
+ public:
+  PlaceGains(const Record& record, const BlockFit& fit, std::size_t group)
+      : record_(record),
+        fit_(fit),
+        group_(group),
+        weight_(fit.weight.cwiseSqrt()),
+        free_(weight_.asDiagonal() * fit.jacobian),
+        inverse_(symmetric_pseudo_inverse(free_.transpose() * free_)) {}
+
+  [[nodiscard]] double at(std::size_t parameter, double place) const {
+    std::vector<double> values = fit_.values;
+    for (std::size_t k = 0; k < record_.problem().groups[group_].parameters.size(); ++k) {
+      const std::size_t index = record_.first_parameter(group_) + k;
+      values[index] = record_.parameters()[index].start;
+    }
+    values[parameter] = place;
+    MatrixXd slopes = group_slopes(record_, {group_}, values);
+    slopes = weight_.asDiagonal() * slopes;
+    if (free_.cols() > 0) slopes -= free_ * (inverse_ * (free_.transpose() * slopes));
+    const VectorXd along = slopes.transpose() * weight_.cwiseProduct(fit_.residual);
+    const VectorXd step = symmetric_pseudo_inverse(slopes.transpose() * slopes) * along;
+    return leaves_bounds(step) ? 0 : along.dot(step);
+  }
+
+ private:
+  /// Whether a size would go below a bound that it starts from, as for a mass that is dropped.
+  [[nodiscard]] bool leaves_bounds(const VectorXd& step) const {
+    Index column = 0;
+    for (const ModelParameter& p : record_.problem().groups[group_].parameters) {
+      if (!p.is_free()) continue;
+      if (!p.shape_only && p.lower == p.neutral && step[column] < 0) return true;
+      ++column;
+    }
+    return false;
+  }
+
+  const Record& record_;
+  const BlockFit& fit_;
+  std::size_t group_;
+  VectorXd weight_;
+  MatrixXd free_;
+  MatrixXd inverse_;  ///< of its normal matrix
+};
 
 /// A regressor of which less than this part of the sum of squares is its own, the rest being a
 /// combination of what the fit contains, would only add noise.
@@ -130,7 +181,8 @@ void add(BlockSums& total, const BlockSums& part, double sign) {
 MatrixXd slopes_at_start(const Record& record, std::vector<double> values, std::size_t group) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   for (std::size_t k = 0; k < own.size(); ++k) {
-    values[record.first_parameter(group) + k] = own[k].start;
+    const std::size_t index = record.first_parameter(group) + k;
+    values[index] = record.parameters()[index].start;
   }
   return group_slopes(record, {group}, values);
 }
@@ -193,6 +245,91 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   return aliased;
 }
 
+void choose_places(Record& record, const BlockFit& fit, std::size_t group) {
+  const PlaceGains gains(record, fit, group);
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const std::vector<double>& places = own[k].places;
+    if (places.empty()) continue;
+    const std::size_t parameter = record.first_parameter(group) + k;
+    double best = places.front();
+    double most = -infinity;
+    const auto consider = [&](double place) {
+      if (place < own[k].lower || place > own[k].upper) return;
+      const double gain = gains.at(parameter, place);
+      if (gain <= most) return;
+      best = place;
+      most = gain;
+    };
+    for (const double place : places) consider(place);
+    const double distance = (places.back() - places.front()) / static_cast<double>(places.size());
+    for (double step = distance / 2; !own[k].fitted && step > distance / 100; step /= 2) {
+      const double middle = best;
+      consider(middle - step);
+      consider(middle + step);
+    }
+    record.start_at(parameter, best);
+  }
+}
+
+void place_fitted(Record& record) {
+  Freed others;
+  Groups placed;
+  for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
+    if (!record.problem().groups[g].fitted) continue;
+    (chances(record.problem().groups[g]) > 1 ? placed : others.groups).push_back(g);
+  }
+  if (placed.empty()) return;
+  const BlockFit fit = fit_blocks(record, others, nullptr);
+  for (const std::size_t g : placed) choose_places(record, fit, g);
+}
+
+double chances(const ParameterGroup& group) {
+  double count = 1;
+  for (const ModelParameter& p : group.parameters) {
+    count *= static_cast<double>(std::max<std::size_t>(1, p.places.size()));
+  }
+  return count;
+}
+
+void add_place_error(const Record& record, const BlockFit& without, const BlockFit& fit,
+                     std::size_t group, ModelFit& all) {
+  const std::size_t first = record.first_parameter(group);
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  const auto held =
+      std::find_if(own.begin(), own.end(), [](const ModelParameter& p) { return !p.fitted; });
+  const auto size = std::find(fit.active.begin(), fit.active.end(), first);
+  if (held == own.end() || size == fit.active.end()) return;
+  const Index column = size - fit.active.begin();
+  std::vector<Index> others;
+  for (Index k = 0; k < fit.jacobian.cols(); ++k) {
+    if (k != column) others.push_back(k);
+  }
+  VectorXd slope = fit.jacobian.col(column);
+  if (!others.empty()) {
+    const MatrixXd beside = fit.jacobian(Eigen::all, others);
+    slope -= beside * least_squares(beside, slope);
+  }
+  const double cost = jackknife_covariance(fit, {column})(0, 0) * slope.squaredNorm();
+
+  const std::size_t parameter = first + static_cast<std::size_t>(held - own.begin());
+  const double place = fit.values[parameter];
+  const PlaceGains gains(record, without, group);
+  const double most = gains.at(parameter, place);
+  const double distance =
+      (held->places.back() - held->places.front()) / static_cast<double>(held->places.size());
+  const auto reach = [&](double direction, double furthest) {
+    double reached = 0;
+    for (double step = distance / 100; reached + step < furthest; step *= 1.25) {
+      reached += step;
+      if (gains.at(parameter, place + direction * reached) < most - cost) return reached;
+    }
+    return furthest;
+  };
+  all.standard_error[parameter] =
+      (reach(-1, place - held->lower) + reach(1, held->upper - place)) / 2;
+}
+
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
                                         const Selection& found,
                                         const std::function<BlockFit(std::size_t)>& with) {
@@ -217,7 +354,8 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     for (const SizeEstimate& size : candidate.sizes) {
       const double offset = size.value - record.parameters()[size.parameter].neutral;
       const double p = 2 * student_tail(std::abs(offset) / size.standard_error, degrees) *
-                       static_cast<double>(candidate.sizes.size() * candidates.size());
+                       static_cast<double>(candidate.sizes.size() * candidates.size()) *
+                       chances(record.problem().groups[g]);
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
     }
     const BlockFit freed = with(g);

@@ -39,6 +39,23 @@ struct Gain {
 [[nodiscard]] MatrixXd slopes_at_start(const Record& record, std::vector<double> values,
                                        std::size_t group);
 
+/// Places the parameters of `group` that have places where the group promises most beside what is
+/// free in `fit`: where it would lower the squared error most if the prediction were linear in its
+/// sizes. Between two places the better half is followed down to a hundredth of their distance.
+void choose_places(Record& record, const BlockFit& fit, std::size_t group);
+
+/// The same for the groups that are always fitted, beside those of them without places.
+void place_fitted(Record& record);
+
+/// So many places were to choose from; 1 for most groups.
+[[nodiscard]] double chances(const ParameterGroup& group);
+
+/// Writes into `all` the standard error of a parameter of the group that stays at its place, which
+/// `fit` does not know: moving it by that much costs, beside the fit without the group, what moving
+/// the group's size by one standard error does.
+void add_place_error(const Record& record, const BlockFit& without, const BlockFit& fit,
+                     std::size_t group, ModelFit& all);
+
 /// What `fit` says of each candidate that is neither selected in `found`, nor aliased, nor a rival
 /// of one that is selected. `with` gives the fit with one of them freed.
 [[nodiscard]] std::vector<Selection::Open> judge_open(

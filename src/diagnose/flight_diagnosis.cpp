@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "diagnose/flight_log_faults.hpp"
@@ -63,14 +64,64 @@ std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
   return usable;
 }
 
+/// Drag and attitude act within some tenths of a second. Faster samples hold no more of them, but
+/// the noise of a difference grows with the rate.
+constexpr double fast_enough = 10;  // 1/s
+/// Up to twice as many are left as they are.
+constexpr double too_fast = 20;  // 1/s
+
+/// So many neighbours of `range` are averaged: 1 where the log is slow enough.
+std::size_t averaged_samples(const FlightLog& log, const SampleRange& range) {
+  if (range.size() < 3) return 1;
+  const auto begin = log.time.begin();
+  const double rate = 1 / median_step({begin + static_cast<std::ptrdiff_t>(range.first),
+                                       begin + static_cast<std::ptrdiff_t>(range.last)});
+  return rate > too_fast ? static_cast<std::size_t>(rate / fast_enough) : 1;
+}
+
+/// The range in means over `count` samples each. One of them without trust takes the others with
+/// it; the rest after the last full mean is left out.
+FlightLog averaged(const FlightLog& log, const SampleRange& range, std::size_t count,
+                   std::vector<bool>& faulty) {
+  FlightLog means;
+  means.other_vehicle = log.other_vehicle;
+  std::vector<bool> any_faulty;
+  for (std::size_t first = range.first; first + count <= range.last; first += count) {
+    const auto mean = [first, count](auto&& value) {
+      double sum = 0;
+      for (std::size_t i = first; i < first + count; ++i) sum += value(i);
+      return sum / static_cast<double>(count);
+    };
+    for (auto series :
+         {&FlightLog::time, &FlightLog::roll, &FlightLog::pitch, &FlightLog::north_velocity,
+          &FlightLog::east_velocity, &FlightLog::down_velocity}) {
+      (means.*series).push_back(mean([&](std::size_t i) { return (log.*series)[i]; }));
+    }
+    means.yaw.push_back(log.yaw[first] + mean([&](std::size_t i) {
+                          return std::remainder(log.yaw[i] - log.yaw[first], 2 * std::numbers::pi);
+                        }));
+    const auto of_mean = faulty.begin() + static_cast<std::ptrdiff_t>(first);
+    any_faulty.push_back(std::find(of_mean, of_mean + static_cast<std::ptrdiff_t>(count), true) !=
+                         of_mean + static_cast<std::ptrdiff_t>(count));
+  }
+  faulty = std::move(any_faulty);
+  return means;
+}
+
 FlightData read_flight(const Design& design, FlightLog log, const FlightDiagnosisOptions& options) {
   if (log.roll.empty()) log.roll.assign(log.time.size(), 0.0);
   if (log.down_velocity.empty()) log.down_velocity.assign(log.time.size(), 0.0);
   validate(log);
-  const SampleRange range = options.range ? *options.range : moving_part(log);
+  SampleRange range = options.range ? *options.range : moving_part(log);
 
   FlightData data;
   data.faults = repair_flight_log(log, range);
+  if (const std::size_t count = averaged_samples(log, range); count > 1) {
+    log = averaged(log, range, count, data.faults.sample);
+    range = {0, log.time.size()};
+    data.faults.notes.push_back(fmt::format(
+        "means of {} samples each are judged: a faster log knows no more of the drag", count));
+  }
   data.observations = observe(log, range, options.pitch_offset, design.flight.gravity);
   data.record = flight_record(data.observations, design.drone.mass, design.flight.air_density,
                               design.flight.gravity);
@@ -123,6 +174,14 @@ FlightBase flight_base(std::span<const double> values) {
           .turn_gain = values[3]};
 }
 
+/// Whether headings a good part of a turn apart are flown, each for some time.
+bool turns(const FlightData& data) {
+  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
+  std::vector<double> yaw = data.record.yaw;
+  std::sort(yaw.begin(), yaw.end());
+  return yaw[yaw.size() * 19 / 20] - yaw[yaw.size() / 20] > apart;
+}
+
 /// Mean over the two intervals around each sample of a quantity that is straight between samples,
 /// with the weights that the three-point derivative gives to the intervals.
 void average_around(const std::vector<double>& time, const std::vector<double>& a,
@@ -140,10 +199,12 @@ void average_around(const std::vector<double>& time, const std::vector<double>& 
 class FlightModel : public LogModel {
  public:
   FlightModel(const Design& design, const FlightData& data, const std::vector<std::string>& base)
-      : data_(data), base_(base_parameters(data)) {
+      : LogModel(data.record.time), data_(data), base_(base_parameters(data)) {
     for (const Effect& effect : base_) add(effect, design, true);
     for (const Effect& effect : effect_catalogue(LogKind::flight)) {
-      if (testable(effect, data.faults)) add(effect, design, contains(base, effect.id));
+      if (!testable(effect, data.faults)) continue;
+      add(effect, design, contains(base, effect.id));
+      if (!turns(data)) hold_across(effect);
     }
     problem.measured = data.observations.forward_acceleration;
     problem.noise.assign(problem.measured.size(), 1.0);
@@ -179,6 +240,14 @@ class FlightModel : public LogModel {
   }
 
  private:
+  /// In the group added last.
+  void hold_across(const Effect& effect) {
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      ModelParameter& p = problem.groups.back().parameters[k];
+      if (effect.parameters[k].only_if_turning) p.lower = p.upper = p.neutral;
+    }
+  }
+
   const FlightData& data_;
   std::vector<Effect> base_;
 };

@@ -31,6 +31,20 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.down_acceleration = observations.down_acceleration;
   record.tan_tilt.reserve(observations.size());
   for (const double tilt : observations.tilt) record.tan_tilt.push_back(std::tan(tilt));
+  double north = 0;
+  double east = 0;
+  record.sideward_thrust.reserve(observations.size());
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    record.sideward_thrust.push_back(std::tan(observations.roll[i]) /
+                                     std::cos(observations.tilt[i]));
+    north += std::cos(observations.yaw[i]);
+    east += std::sin(observations.yaw[i]);
+  }
+  const double mean_heading = std::atan2(east, north);
+  for (const double yaw : observations.yaw) {
+    record.along_heading.push_back(std::cos(yaw - mean_heading));
+    record.right_of_heading.push_back(std::sin(yaw - mean_heading));
+  }
   record.turn_acceleration.assign(observations.size(), 0.0);
   for (std::size_t i = 1; i + 1 < observations.size(); ++i) {
     const double yaw_rate = (observations.yaw[i + 1] - observations.yaw[i - 1]) /
@@ -51,8 +65,9 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
   FlightRecord part = record;
   for (auto series :
        {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
-        &FlightRecord::forward_speed, &FlightRecord::right_speed, &FlightRecord::down_speed,
-        &FlightRecord::down_acceleration, &FlightRecord::turn_acceleration}) {
+        &FlightRecord::along_heading, &FlightRecord::right_of_heading, &FlightRecord::forward_speed,
+        &FlightRecord::right_speed, &FlightRecord::down_speed, &FlightRecord::down_acceleration,
+        &FlightRecord::sideward_thrust, &FlightRecord::turn_acceleration}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -65,8 +80,10 @@ FlightPrediction::FlightPrediction(const FlightRecord& flight)
     : record(flight),
       tilt(flight.size()),
       headwind(flight.size()),
+      tan_tilt(flight.size()),
       airspeed(flight.size()),
       drag(flight.size()),
+      lift(flight.size()),
       acceleration(flight.size()) {}
 
 void predict_acceleration(FlightPrediction& p, const FlightBase& base,
@@ -79,25 +96,23 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
 
-  // tan θ is kept where the acceleration will stand.
-  std::vector<double>& tan_tilt = p.acceleration;
-  tan_tilt = record.tan_tilt;
+  p.tan_tilt = record.tan_tilt;
   if (p.tilt != record.tilt) {
-    for (std::size_t i = 0; i < size; ++i) tan_tilt[i] = std::tan(p.tilt[i]);
+    for (std::size_t i = 0; i < size; ++i) p.tan_tilt[i] = std::tan(p.tilt[i]);
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
     p.drag[i] = airframe_drag_along(p.law, record.air_density, p.airspeed[i], record.right_speed[i],
-                                    tan_tilt[i]);
+                                    p.tan_tilt[i]);
+    p.lift[i] = record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
   }
   act(p, effects, FlightPhase::force);
 
   for (std::size_t i = 0; i < size; ++i) {
-    const double lift =
-        record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
-    p.acceleration[i] =
-        lift * tan_tilt[i] - p.drag[i] / record.mass + base.turn_gain * record.turn_acceleration[i];
+    p.acceleration[i] = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass +
+                        base.turn_gain * record.turn_acceleration[i];
   }
+  act(p, effects, FlightPhase::reading);
 }
 
 std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase& base,

@@ -15,21 +15,26 @@ namespace tethercalc {
 /// acceleration is not here, so no effect can be built from what it should explain. One element a
 /// sample, in the stabilised frame of `Observations`, SI units.
 struct FlightRecord {
-  std::vector<double> time;               ///< s
-  std::vector<double> tilt;               ///< θ, positive leaning forward
-  std::vector<double> tan_tilt;           ///< tan θ
-  std::vector<double> yaw;                ///< rad
+  std::vector<double> time;      ///< s
+  std::vector<double> tilt;      ///< θ, positive leaning forward
+  std::vector<double> tan_tilt;  ///< tan θ
+  std::vector<double> yaw;       ///< rad
+  /// Cosine and sine of the yaw less the mean heading of the flight, of which this may be a part:
+  /// how far forward is along that heading, and how far to its right.
+  std::vector<double> along_heading;
+  std::vector<double> right_of_heading;
   std::vector<double> forward_speed;      ///< m/s over ground
   std::vector<double> right_speed;        ///< m/s over ground
   std::vector<double> down_speed;         ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
+  std::vector<double> sideward_thrust;  ///< tan φ/cos θ: of what the thrust carries, to the right
   /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
   /// speed, force or no force.
   std::vector<double> turn_acceleration;
   double mass = 0;         ///< kg
   double air_density = 0;  ///< kg/m³
   double gravity = 0;      ///< m/s²
-  double middle_time = 0;  ///< s, halfway through the whole flight, of which this may be a part
+  double middle_time = 0;  ///< s, halfway through the whole flight
   double duration = 0;     ///< s, of the whole flight
 
   /// Number of samples.
@@ -54,15 +59,17 @@ struct FlightBase {
   double turn_gain = 0;
 };
 
-/// A prediction in the making. The catalogue's effects work on it in three phases: attitude, air
-/// and force; each vector holds one element a sample.
+/// A prediction in the making. The catalogue's effects work on it in the phases of `FlightPhase`;
+/// each vector holds one element a sample.
 struct FlightPrediction {
   const FlightRecord& record;    ///< what is predicted from
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
   AirframeDrag law;              ///< of the drag
+  std::vector<double> tan_tilt;  ///< of `tilt`; known in the force phase
   std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
   std::vector<double> drag;      ///< N against the motion; known in the force phase
+  std::vector<double> lift;      ///< m/s², what the thrust carries; known in the force phase
   std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
 
   /// Sized for `flight`, which must outlive it.

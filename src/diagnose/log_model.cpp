@@ -28,6 +28,34 @@ ModelParameter in_SI(const EffectParameter& p, const Design& design) {
   return m;
 }
 
+/// Places of a moment are this part of the log's duration apart: a step that is at most half as far
+/// from one still shows nearly whole.
+constexpr int moments = 40;
+
+void look_through(const EffectParameter& effect, double begin, double end, ModelParameter& p) {
+  const double duration = end - begin;
+  if (effect.look_through == LookThrough::nothing || !(duration > 0)) return;
+  if (effect.look_through == LookThrough::moments) {
+    p.lower = begin + 0.05 * duration;
+    p.upper = end - 0.05 * duration;
+    p.fitted = false;
+    for (int k = 0; k < moments; ++k) {
+      p.places.push_back(p.lower + (p.upper - p.lower) * (k + 0.5) / moments);
+    }
+  } else {
+    // Neighbours lose half a wave against each other over the log: the fit finds the rest.
+    p.lower = effect.lower * effect.unit_SI;
+    p.upper = std::max(p.lower, 1.5 * duration);
+    for (double halves = 1.5; 2 * duration / halves >= p.lower; ++halves) {
+      p.places.push_back(std::min(p.upper, 2 * duration / halves));
+    }
+    p.scale = 0.1 * p.lower;
+  }
+  if (p.places.empty()) p.places.push_back(p.upper);
+  p.neutral = p.places.front();
+  p.start = p.neutral;
+}
+
 /// Chance of an open effect's size below which it is suspected.
 constexpr double suspicious = 0.05;
 /// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
@@ -264,13 +292,21 @@ std::vector<double> braking(const FlightRecord& record) {
 
 }  // namespace
 
+LogModel::LogModel(std::span<const double> time) {
+  if (time.empty()) return;
+  begin_ = time.front();
+  end_ = time.back();
+}
+
 void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
   first_.push_back(effects_.empty() ? 0 : first_.back() + effects_.back()->parameters.size());
   ParameterGroup group;
   group.id = effect.id.empty() ? effect.title : effect.id;
   group.fitted = fitted;
+  group.least_gain_factor = effect.least_gain_factor;
   for (const EffectParameter& p : effect.parameters) {
     group.parameters.push_back(in_SI(p, design));
+    look_through(p, begin_, end_, group.parameters.back());
     group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
     if (!p.product_with.empty()) group.parameters.back().product_with = index_of(p.product_with);
   }

@@ -18,7 +18,8 @@ struct PowerLog;      // diagnose/power_log.hpp
 /// described as such too: an `Effect` without an id, that is always fitted.
 class LogModel {
  public:
-  LogModel() = default;
+  /// `time` of the log's samples in s, rising; may be empty.
+  explicit LogModel(std::span<const double> time);
   LogModel(const LogModel&) = delete;
   LogModel& operator=(const LogModel&) = delete;
   virtual ~LogModel() = default;
@@ -52,6 +53,8 @@ class LogModel {
                                                     std::span<const double> values) const = 0;
 
  private:
+  double begin_ = 0;  ///< s, of the log
+  double end_ = 0;
   std::vector<const Effect*> effects_;
   std::vector<std::size_t> first_;
 };

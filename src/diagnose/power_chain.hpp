@@ -35,6 +35,8 @@ struct PowerModel {
   PowerInstruments instruments{};
   double slack = 0;               ///< length of the cable in the air over the height, less 1
   double motor_power_growth = 0;  ///< from the first to the last sample, steadily, over the first
+  double dropped_mass = 0;        ///< kg that the drone is lighter by from `drop_time` on
+  double drop_time = 0;           ///< s of the log's clock
 };
 
 /// What heat balances of one log's samples came to. A search asks for the same ones hundreds of

@@ -128,7 +128,10 @@ class PowerLogModel : public LogModel {
   PowerLogModel(const PowerModel& base, const PowerResiduals& residuals,
                 const std::vector<const Effect*>& effects,
                 const std::vector<std::string>& base_effects)
-      : base_(base), residuals_(residuals), cache_(residuals.stages().size()) {
+      : LogModel(residuals.log().time),
+        base_(base),
+        residuals_(residuals),
+        cache_(residuals.stages().size()) {
     for (const Effect* effect : effects) {
       add(*effect, base.design, contains(base_effects, effect->id));
     }

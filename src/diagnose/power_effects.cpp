@@ -291,6 +291,25 @@ std::vector<Effect> power_effects() {
        .channel = "height",
        .on_power = [](PowerModel& m, Values x) { m.design.drone.mass += x[0]; }},
 
+      {.id = "payload_drop",
+       .title = "The drone becomes lighter at once",
+       .mechanism = "From one moment on the motors lift less: a payload was dropped, or whatever "
+                    "else hung below.",
+       .stage = Stage::airframe,
+       .parameters = {{"payload_drop_kg", "kg", 1, 0, 0, 20, 0.05},
+                      {.name = "payload_drop_time_s",
+                       .unit = "s",
+                       .look_through = LookThrough::moments}},
+       .to_separate = "Weigh the drone before and after; motors that change at once, such as one "
+                      "that fails, draw another power at every thrust",
+       .change = "m_d − Δm from the time on",
+       .channel = "time",
+       .on_power =
+           [](PowerModel& m, Values x) {
+             m.dropped_mass = x[0];
+             m.drop_time = x[1];
+           }},
+
       {.id = "winch_tension",
        .title = "The winch pulls harder, or less, than assumed",
        .mechanism = "A pull on the tether loads the drone like weight, the same at every height.",

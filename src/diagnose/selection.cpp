@@ -70,9 +70,11 @@ class Search {
     Selection result = nothing_selected(record_, options_);
     student_factor_ = result.student_factor;
     tell("fitting the base model");
+    place_fitted(record_);
     const BlockFit base = fit(selected_, nullptr);
     current_ = base;
     result.base = model_fit(base);
+    place_candidates();
     for (const std::size_t g : candidates()) {
       if (auto aliased = aliased_in(record_, base, g)) {
         aliased_.insert(g);
@@ -83,6 +85,7 @@ class Search {
     // Every round either ends or puts an effect on the list of those never tried again.
     do {
       step_forward();
+      exchange();
     } while (drop_outdone());
     find_unnamed();
     if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
@@ -105,6 +108,8 @@ class Search {
   [[nodiscard]] const ParameterGroup& group(std::size_t g) const {
     return record_.problem().groups[g];
   }
+
+  [[nodiscard]] bool is_placed(std::size_t g) const { return chances(group(g)) > 1; }
 
   /// Whether one of `selected` describes in more detail what the group does.
   [[nodiscard]] bool is_replaced(std::size_t g, const Groups& selected) const {
@@ -199,11 +204,12 @@ class Search {
     trial.group = g;
     trial.p_value = p_value(g, without, with);
     const Gain gained = gain_between(without, with);
-    const double least_gain =
-        options_.least_gain_percent * (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed);
-    trial.worth_a_name =
-        gained.percent >= least_gain && gained.percent > 2 * gained.se &&
-        trial.p_value * static_cast<double>(tested) <= options_.false_alarm_probability;
+    const double least_gain = options_.least_gain_percent *
+                              (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed) *
+                              group(g).least_gain_factor;
+    trial.worth_a_name = gained.percent >= least_gain && gained.percent > 2 * gained.se &&
+                         trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
+                             options_.false_alarm_probability;
     trial.fit = std::move(with);
     return trial;
   }
@@ -251,8 +257,16 @@ class Search {
   [[nodiscard]] Groups selected_with(std::size_t g) const { return with_group(selected_, g); }
   [[nodiscard]] Groups selected_without(std::size_t g) const { return without_group(selected_, g); }
 
+  /// Where each candidate promises most beside what has been found.
+  void place_candidates() {
+    for (const std::size_t g : candidates()) {
+      if (is_placed(g)) choose_places(record_, current_, g);
+    }
+  }
+
   void step_forward() {
     while (selected_.size() < options_.most_findings) {
+      place_candidates();
       std::optional<Trial> step = best_step();
       if (!step) return;
       selected_.push_back(step->group);
@@ -260,6 +274,39 @@ class Search {
       tell("found " + group(step->group).id);
       if (unnamed_.empty()) drop_superfluous();
     }
+  }
+
+  /// `selected`, with those that have places where they promise most beside the others.
+  [[nodiscard]] BlockFit placed_fit(const Groups& selected) {
+    for (const std::size_t g : selected) {
+      if (is_placed(g)) choose_places(record_, fit(without_group(selected, g), nullptr), g);
+    }
+    return fit(selected, nullptr);
+  }
+
+  /// Puts other candidates in the place of names as long as that lowers the held-out error: a wave
+  /// may have been the best single name for what is a step beside another.
+  void exchange() {
+    if (std::none_of(selected_.begin(), selected_.end(), [&](auto g) { return is_placed(g); })) {
+      return;
+    }
+    for (bool exchanged = true; exchanged;) {
+      exchanged = false;
+      for (const std::size_t out : Groups(selected_)) {
+        for (const std::size_t in : candidates()) {
+          if (exchanged) break;
+          const Groups trial = with_group(selected_without(out), in);
+          tell("trying " + group(in).id + " instead of " + group(out).id);
+          BlockFit instead = placed_fit(trial);
+          const BlockDifference better = difference(current_.block_error, instead.block_error);
+          if (better.sum <= 2 * better.se) continue;
+          selected_ = trial;
+          current_ = std::move(instead);
+          exchanged = true;
+        }
+      }
+    }
+    drop_superfluous();
   }
 
   /// Takes back what the other names make superfluous, the weakest first.
@@ -297,8 +344,11 @@ class Search {
       if (!best) continue;
       const BlockDifference better = difference(current_.block_error, best->block_error);
       const double earned = without.squared_error() - current_.squared_error();
-      if (better.sum <= student_factor_ * better.se || better.sum <= outdone_gain * earned)
-        continue;
+      // A moment that was looked for fits whatever happened then: the better shape of it counts.
+      const bool outdone = is_placed(g) ? better.sum > 0
+                                        : better.sum > student_factor_ * better.se &&
+                                              better.sum > outdone_gain * earned;
+      if (!outdone) continue;
 
       Groups shapes = unnamed_;
       shapes.push_back(best->regressor);
@@ -364,6 +414,11 @@ class Search {
         share >= structure_that_disturbs && precision(current_) > precision(before);
     const BlockFit& complete = disturbed ? current_ : before;
     result.complete = model_fit(complete);
+    for (const std::size_t g : selected_) {
+      if (!is_placed(g)) continue;
+      const BlockFit without = fit(selected_without(g), complete.freed.unnamed, &complete);
+      add_place_error(record_, without, complete, g, result.complete);
+    }
     result.open = judge_open(record_, complete, result, [&](std::size_t g) {
       return fit(selected_with(g), complete.freed.unnamed, &complete);
     });

@@ -23,10 +23,19 @@ struct ModelParameter {
   double start = 0;  ///< first value tried once freed; any value within the bounds
   bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
                             ///< constant): takes no part in the test against chance
+  /// Values within the bounds. Where there are any, the search starts from the one that promises
+  /// most, and counts as many chances against its group.
+  std::vector<double> places{};
+  /// False where the prediction is no smooth function of it, as of the moment of a step: it stays
+  /// at its place.
+  bool fitted = true;
   /// Index, over the parameters of all groups, of one whose product with this one enters the
   /// prediction linearly (an area, of which this one is a ratio). The product is tested against
   /// chance and not the ratio, which has no usable spread where the other is near zero.
   std::optional<std::size_t> product_with{};
+
+  /// Whether a fit may move it.
+  [[nodiscard]] bool is_free() const { return fitted && lower < upper; }
 };
 
 /// Parameters that are freed together.
@@ -36,6 +45,7 @@ struct ParameterGroup {
   /// at its neutral values until the record demands otherwise.
   bool fitted = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
+  double least_gain_factor = 1;              ///< as in `Effect`
   /// Index of a group that goes back to neutral when this one is freed, since this one describes
   /// the same thing in more detail; none by default.
   std::optional<std::size_t> replaces{};

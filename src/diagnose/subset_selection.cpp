@@ -51,8 +51,11 @@ ModelFit model_fit(const Record& record, const BlockFit& fit) {
   for (const std::size_t g : fit.freed.groups) {
     std::size_t index = record.first_parameter(g);
     for (const ModelParameter& p : record.problem().groups[g].parameters) {
-      all.standard_error[index++] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
-      ++column;
+      if (p.is_free()) {
+        all.standard_error[index] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
+        ++column;
+      }
+      ++index;
     }
   }
   add_fit(record, fit, {}, all);
@@ -115,8 +118,12 @@ class SubsetSearch {
   }
 
   Selection run() {
+    place_fitted(record_);
     base_ = model({}, {}, nullptr);
     best_ = base_;
+    for (const std::size_t g : candidates_) {
+      if (chances(problem_.groups[g]) > 1) choose_places(record_, base_.fit, g);
+    }
     find_aliased(base_, false);
     for (const Selection::Aliased& a : aliased_) std::erase(candidates_, a.group);
     search_names();
@@ -135,8 +142,10 @@ class SubsetSearch {
     std::sort(freed.groups.begin(), freed.groups.end());
     freed.unnamed = shapes;
     Model result{named, shapes, fit_blocks(record_, freed, near), 0};
-    result.length = result.fit.squared_error() + name_price_ * static_cast<double>(named.size()) +
-                    shape_price_ * static_cast<double>(shapes.size());
+    result.length = result.fit.squared_error() + shape_price_ * static_cast<double>(shapes.size());
+    for (const std::size_t g : named) {
+      result.length += name_price_ + 2 * std::log(chances(problem_.groups[g]));
+    }
     if (!named.empty() && !shapes.empty()) {
       freed.unnamed.clear();
       const double named_alone = fit_blocks(record_, freed, near).squared_error();
@@ -279,10 +288,10 @@ class SubsetSearch {
         found.emplace_back(rival.length, c);
       }
     }
-    Groups alike{g};
-    for (const std::size_t c : in_order_of_nearness(std::move(found))) alike.push_back(c);
-    Groups result;  // each with its twins, which every record shows alike
-    for (const std::size_t c : alike) {
+    Groups told{g};
+    for (const std::size_t c : in_order_of_nearness(std::move(found))) told.push_back(c);
+    Groups result;  // each with its twins, which every record shows told
+    for (const std::size_t c : told) {
       if (c != g) result.push_back(c);
       for (std::size_t twin = 0; twin < problem_.groups.size(); ++twin) {
         const ParameterGroup& other = problem_.groups[twin];
@@ -347,6 +356,11 @@ class SubsetSearch {
     result.base = model_fit(record_, base_.fit);
     result.extended = model_fit(record_, named);
     result.complete = model_fit(record_, best_.fit);
+    for (const std::size_t g : best_.named) {
+      if (chances(problem_.groups[g]) > 1) {
+        add_place_error(record_, best_without(g).fit, best_.fit, g, result.complete);
+      }
+    }
     result.unnamed = unnamed_in(record_, best_.fit, named);
     return result;
   }

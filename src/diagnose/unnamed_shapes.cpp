@@ -39,9 +39,10 @@ void add_powers(std::vector<Shape>& shapes, const std::string& channel, const st
   shapes.push_back({channel, "the square of the " + name, x.square()});
 }
 
-/// Every thirty-second of the flight: a step elsewhere is at most a sixty-fourth away. It is zero
-/// before it happens: half of it on either side would need a constant effect to cancel the first.
-constexpr int step_places = 32;
+/// Steps are so near to each other that one between two of them explains no less than an effect
+/// with a name whose moment is fitted. They are zero before they happen: half of one on either side
+/// would need a constant effect to cancel the first.
+constexpr int step_places = 128;
 
 void add_time(std::vector<Shape>& shapes, const Series& time) {
   const double begin = time[0];

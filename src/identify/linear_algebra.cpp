@@ -21,6 +21,7 @@ LeastEigenvalue least_eigenvalue(const MatrixXd& symmetric) {
 }
 
 MatrixXd symmetric_pseudo_inverse(const MatrixXd& matrix) {
+  if (matrix.size() == 0) return matrix;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
   const VectorXd& values = eigen.eigenvalues();
   const double least = values.cwiseAbs().maxCoeff() * static_cast<double>(matrix.rows()) *

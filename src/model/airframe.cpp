@@ -4,22 +4,10 @@
 
 namespace tethercalc {
 
-double effective_area(const AirframeDrag& drag, double tan_pitch) {
-  return (drag.front_area + drag.top_area * std::abs(tan_pitch)) /
-         std::sqrt(1 + tan_pitch * tan_pitch);
-}
-
 double airframe_drag_force(const AirframeDrag& drag, double air_density, double airspeed,
                            double tan_pitch) {
   return std::copysign(area_force_factor(drag, air_density, airspeed), airspeed) *
          effective_area(drag, tan_pitch);
-}
-
-double airframe_drag_along(const AirframeDrag& drag, double air_density, double along,
-                           double across, double tan_pitch) {
-  const double asymmetry = along < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
-  return 0.5 * air_density * (std::hypot(along, across) + drag.linear_speed) * along *
-         (1 + asymmetry) * effective_area(drag, tan_pitch);
 }
 
 namespace {

@@ -100,6 +100,76 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
   CHECK(covered >= named - 7);
 }
 
+TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is found first") {
+  const std::vector<Case> wider{{"tether_pull", &HiddenFlight::tether_pull, {-0.6, 1.2}},
+                                {"wind_step", &HiddenFlight::wind_step, {-2.5, 3.5}},
+                                {"wind_wave", &HiddenFlight::wind_wave, {1.5, -2.5}},
+                                {"mass_drop", &HiddenFlight::mass_drop, {25, 40}},
+                                {"yaw_misalign", &HiddenFlight::yaw_misalign, {-12, 18}},
+                                {"velocity_lag", &HiddenFlight::velocity_lag, {0.1, 0.25}},
+                                {"velocity_scale", &HiddenFlight::velocity_scale, {1.2, 0.8}}};
+  int flights = 0;
+  int first = 0;
+  int named = 0;
+  int covered = 0;
+  std::string failures;
+  for (const Case& c : wider) {
+    for (const double strength : c.strengths) {
+      for (int repeat = 0; repeat < 2; ++repeat) {
+        HiddenFlight hidden = drawn_flight(1500 + static_cast<std::uint64_t>(flights));
+        hidden.duration = 540;
+        hidden.*(c.field) = strength;
+        const Diagnosis d = diagnosed(hidden);
+        ++flights;
+        const bool right = names_first(d, c.effect);
+        first += right ? 1 : 0;
+        if (!right) failures += c.effect + (" " + std::to_string(strength)) + "\n";
+        if (d.findings.empty() || d.findings[0].effect != c.effect) continue;
+        ++named;
+        const ParameterEstimate& p = d.findings[0].parameters[0];
+        covered += p.ci95_lower <= strength && strength <= p.ci95_upper ? 1 : 0;
+      }
+    }
+  }
+  // Asked for: 95 % of each. Of 28 flights, 25 right and 23 covered leave at least two standard
+  // deviations.
+  INFO(failures);
+  CHECK(flights == 28);
+  CHECK(first >= 25);
+  CHECK(covered >= named - 4);
+}
+
+TEST_CASE("the moment of a step in the wind is told") {
+  int told = 0;
+  constexpr int flights = 5;
+  for (std::uint64_t seed = 1; seed <= flights; ++seed) {
+    HiddenFlight hidden = drawn_flight(1600 + seed);
+    hidden.wind_step = 3;
+    const Diagnosis d = diagnosed(hidden);
+    REQUIRE_FALSE(d.findings.empty());
+    if (d.findings[0].effect != "wind_step") continue;
+    const ParameterEstimate& moment = d.findings[0].parameters.back();
+    const double truth = 10 + 0.6 * hidden.duration;
+    told += moment.ci95_lower <= truth && truth <= moment.ci95_upper ? 1 : 0;
+  }
+  CHECK(told >= flights - 2);
+}
+
+TEST_CASE("a log that samples ten times as fast says the same") {
+  int right = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    HiddenFlight hidden = drawn_flight(1700 + seed);
+    hidden.steps_per_sample = 1;
+    const Diagnosis nothing = diagnosed(hidden);
+    CHECK(nothing.findings.empty());
+    CHECK_FALSE(nothing.unexplained.detected);
+    CHECK(nothing.samples < static_cast<std::size_t>(11 * hidden.duration));
+    hidden.propwash = 0.4;
+    right += names_first(diagnosed(hidden), "propwash") ? 1 : 0;
+  }
+  CHECK(right >= 2);
+}
+
 TEST_CASE("nothing hidden, nothing found") {
   int alarms = 0;
   int structure = 0;
@@ -182,7 +252,7 @@ TEST_CASE("linear drag and wind are found where the base has neither") {
 TEST_CASE("what no catalogue knows is detected on its channel and not named") {
   const std::vector<std::pair<const char*, std::pair<double HiddenFlight::*, double>>> unknown{
       {"roll_deg", {&HiddenFlight::roll_drag, 60}},
-      {"time_s", {&HiddenFlight::step_drag, 0.4}},
+      {"time_s", {&HiddenFlight::step_force, -0.5}},
       {"time_s", {&HiddenFlight::step_force, 0.7}},
       {"height_m", {&HiddenFlight::height_drag, 0.04}}};
   int flights = 0;

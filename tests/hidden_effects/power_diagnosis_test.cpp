@@ -181,7 +181,7 @@ TEST_CASE("a wrong height, airspeed or length of the cable is named and its size
   check_detection(mechanisms + 4, mechanisms + 7);
 }
 
-TEST_CASE("ageing motors, thin air and a winch that pulls are named and their size is covered") {
+TEST_CASE("ageing motors, thin air, a drop and a winch are named and their size is covered") {
   check_detection(mechanisms + 7, hidden_effects().size());
 }
 
@@ -438,6 +438,28 @@ TEST_CASE("the extended design holds what outlives the flight") {
   CHECK(warm_C < 45);
   CHECK(efficiency_at(hot.supply.converter, 300) ==
         Approx(300 / (300 + 15 + 1.55e-4 * 9e4)).epsilon(0.003));
+}
+
+TEST_CASE("the moment at which a payload is dropped is told") {
+  int told = 0;
+  constexpr int logs = 5;
+  for (int i = 0; i < logs; ++i) {
+    Scenario scenario;
+    scenario.seed = seed(410'000 + static_cast<std::uint64_t>(i));
+    scenario.hidden.payload_drop = 0.2;
+    scenario.hidden.step_at = 0.3 + 0.1 * i;
+    const PowerLog log = as_power_log(simulate(scenario));
+    const Diagnosis d = diagnosis_of(log);
+    INFO(summary(d));
+    REQUIRE(d.findings.size() == 1);
+    CHECK(d.findings.front().effect == "payload_drop");
+    const ParameterEstimate& moment = d.findings.front().parameters.at(1);
+    const double truth =
+        log.time.front() + scenario.hidden.step_at * (log.time.back() - log.time.front());
+    CHECK(std::abs(moment.value - truth) < 20);
+    told += moment.ci95_lower <= truth && truth <= moment.ci95_upper ? 1 : 0;
+  }
+  CHECK(told >= logs - 1);
 }
 
 TEST_CASE("the error budget of a power log sums to the whole") {

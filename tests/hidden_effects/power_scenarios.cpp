@@ -107,6 +107,8 @@ const std::vector<HiddenEffect>& hidden_effects() {
       {"air_density",
        [](HiddenEffects& h, double s) { h.air_density_factor = 1 - between(0.04, 0.25, s); },
        [](const HiddenEffects& h) { return h.air_density_factor; }},
+      {"payload_drop", [](HiddenEffects& h, double s) { h.payload_drop = between(0.04, 0.4, s); },
+       [](const HiddenEffects& h) { return h.payload_drop; }},
       {"winch_tension", [](HiddenEffects& h, double s) { h.winch_pull = between(0.2, 4, s); },
        [](const HiddenEffects& h) { return h.winch_pull; }},
   };

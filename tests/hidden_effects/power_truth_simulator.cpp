@@ -50,11 +50,13 @@ double kg_per_metre(const Rig& rig) {
 }
 
 /// W at the bus for steady flight, without the random deviation.
-double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, double speed) {
+double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, double speed,
+                   double dropped) {
   const double cable = height * (1 + hidden.slack);
   const double density = rig.air_density * hidden.air_density_factor;
   const double weight =
-      (rig.mass + hidden.extra_mass + kg_per_metre(rig) * cable) * gravity + hidden.winch_pull;
+      (rig.mass + hidden.extra_mass - dropped + kg_per_metre(rig) * cable) * gravity +
+      hidden.winch_pull;
   const double tether_drag = 0.5 * density * hidden.tether_drag_factor * 0.75 * 4 * cable *
                              outer_radius(rig) * speed * speed;
   double angle = 0;
@@ -143,7 +145,8 @@ Log simulate(const Scenario& scenario) {
     deviation =
         memory * deviation + scenario.deviation * std::sqrt(1 - memory * memory) * normal(engine);
 
-    double power = motor_power(rig, hidden, h, v) * (1 + deviation);
+    const double dropped = share >= hidden.step_at ? hidden.payload_drop : 0;
+    double power = motor_power(rig, hidden, h, v, dropped) * (1 + deviation);
     if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
     power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
     power *= 1 + hidden.motor_power_growth * share;

@@ -32,6 +32,7 @@ struct HiddenEffects {
   double winch_pull = 0;          ///< N
   double motor_power_growth = 0;  ///< relative, steadily over the log
   double air_density_factor = 1;  ///< truth over the spec's
+  double payload_drop = 0;        ///< kg, from `step_at` on
 
   // What instruments make of the truth.
   double supply_current_gain = 1;    ///< reading over truth
@@ -42,9 +43,10 @@ struct HiddenEffects {
   double height_bias = 0;            ///< m
   double airspeed_gain = 1;          ///< reading over truth
 
+  double step_at = 0.6;  ///< part of the log after which what happens at once has happened
+
   // Not in anybody's catalogue.
-  double step_in_motor_power = 0;  ///< relative, from `step_at` of the log on
-  double step_at = 0.6;
+  double step_in_motor_power = 0;     ///< relative, from `step_at` of the log on
   double motor_power_per_height = 0;  ///< relative at 30 m, growing with the square of the height
   double step_in_resistance = 0;      ///< Ω, from `step_at` on
   double motor_power_swing = 0;       ///< relative amplitude of a slow wave in time, period 600 s

@@ -78,7 +78,7 @@ double drag(const HiddenFlight& h, double u, double tilt, double down, double ro
   force *= u > 0 ? 1 + h.fore_aft_asymmetry : 1 - h.fore_aft_asymmetry;
   if (u * tilt < 0) force -= h.propwash * u * std::abs(tilt);
   force += h.vertical_coupling * u * down;
-  force *= std::max(0.2, 1 + h.height_drag * height) + (late ? h.step_drag : 0);
+  force *= std::max(0.2, 1 + h.height_drag * height);
   force += h.roll_drag * u * (1 - std::cos(roll));
   return force - (late ? h.step_force : 0);
 }
@@ -101,6 +101,10 @@ FlightLog fly(const HiddenFlight& h) {
   double down = 0;
   double height = 10;
   double yaw = uniform(random, 0, 2 * std::numbers::pi);
+  const double first_heading = yaw;
+  double drifting = 0;  // m/s to the right, where the roll moves the drone
+  double lagging_forward = 0;
+  double lagging_right = 0;
   double next_turn = 40;
   double wanted_yaw = yaw;
   const auto steps = static_cast<std::size_t>(h.duration / step);
@@ -115,22 +119,35 @@ FlightLog fly(const HiddenFlight& h) {
     const double turn = std::clamp(wanted_yaw - yaw, -0.5 * step, 0.5 * step);
     yaw += turn;
     const double tilt = pilot.tilt(time, random);
-    const double roll = rolling.next(random);
-    const double right = sideways.next(random);
+    double roll = rolling.next(random);
+    double right = sideways.next(random);
+    if (h.yaw_misalign != 0) {
+      roll -= 0.04 * drifting;  // the pilot's hand
+      drifting += (gravity * std::tan(roll) / std::cos(tilt) -
+                   drag(h, drifting, 0, 0, 0, height - 10, false) / h.mass) *
+                  step;
+      right = drifting;
+    }
     const double old_down = down;
     const double climbing = -h.climb * std::numbers::pi / climb_period *
                             std::sin(2 * std::numbers::pi * time / climb_period);
     down += (sinking.next(random) + climbing - down) * step / 0.6;  // smooth: inertia
     const double down_acceleration = (down - old_down) / step;
     height -= down * step;
+    const double ahead = std::cos(yaw - first_heading);
+    const double wave =
+        std::cos(2 * std::numbers::pi * (time - h.duration / 2) / h.wind_wave_period);
     const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
-                         h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw);
+                         h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw) +
+                         (time > 0.6 * h.duration ? h.wind_step : 0) * ahead +
+                         h.wind_wave * wave * ahead;
+    const double mass = h.mass * (late ? 1 - h.mass_drop / 100 : 1);
     // A frame that turns carries the speed to the right into the forward one.
     const double push = (gravity - down_acceleration) * std::tan(tilt) +
                         gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) +
-                        turn / step * right;
+                        turn / step * right + h.tether_pull * ahead / mass;
     const auto acceleration = [&](double v) {
-      return push - drag(h, v - along, tilt, down, roll, height - 10, late) / h.mass;
+      return push - drag(h, v - along, tilt, down, roll, height - 10, late) / mass;
     };
     const double halfway = speed + acceleration(speed) * step / 2;
 
@@ -144,6 +161,9 @@ FlightLog fly(const HiddenFlight& h) {
     const double late_pitch = pitch_on_its_way.size() < 2
                                   ? pitch_on_its_way.front()
                                   : part * pitch_on_its_way[0] + (1 - part) * pitch_on_its_way[1];
+    const double follow = h.velocity_lag > 0 ? 1 - std::exp(-step / h.velocity_lag) : 1;
+    lagging_forward += follow * (speed - lagging_forward);
+    lagging_right += follow * (right - lagging_right);
     if (k % static_cast<std::size_t>(h.steps_per_sample) == 0) {
       const auto hundredth = [](double angle) {
         return std::round(angle / degree * 100) / 100 * degree;
@@ -154,13 +174,15 @@ FlightLog fly(const HiddenFlight& h) {
           hundredth(late_pitch + h.pitch_trim * degree +
                     h.pitch_drift * degree * std::sin(2 * std::numbers::pi * time / 200) +
                     h.angle_noise * degree * normal(random)));
-      log.yaw.push_back(hundredth(yaw));
-      const double forward = speed + h.speed_noise * normal(random);
+      log.yaw.push_back(hundredth(yaw + h.yaw_misalign * degree));
+      const double forward = lagging_forward + h.speed_noise * normal(random);
       const auto rounded = [&h](double v) {
+        v *= h.velocity_scale;
         return h.speed_digit > 0 ? std::round(v / h.speed_digit) * h.speed_digit : v;
       };
-      log.north_velocity.push_back(rounded(forward * std::cos(yaw) - right * std::sin(yaw)));
-      log.east_velocity.push_back(rounded(forward * std::sin(yaw) + right * std::cos(yaw)));
+      log.north_velocity.push_back(
+          rounded(forward * std::cos(yaw) - lagging_right * std::sin(yaw)));
+      log.east_velocity.push_back(rounded(forward * std::sin(yaw) + lagging_right * std::cos(yaw)));
       log.down_velocity.push_back(rounded(down + h.speed_noise * normal(random)));
     }
     speed += acceleration(halfway) * step;

@@ -53,10 +53,19 @@ struct HiddenFlight {
   double fore_aft_asymmetry = 0;
   double propwash = 0;           ///< N·s/(m·rad)
   double vertical_coupling = 0;  ///< N·s²/m²
+  // Along the first heading, and fixed over ground.
+  double tether_pull = 0;         ///< N
+  double wind_step = 0;           ///< m/s, from 60 % of the flight on
+  double wind_wave = 0;           ///< m/s, greatest in the middle of the flight
+  double wind_wave_period = 160;  ///< s
+  double mass_drop = 0;           ///< % of the mass, at 45 % of the flight
+  /// deg, logged minus true heading. Other than zero, the drone is moved to the side by its roll.
+  double yaw_misalign = 0;
+  double velocity_lag = 0;    ///< s, of first order
+  double velocity_scale = 1;  ///< logged over true
 
   // Effects that no catalogue has.
   double roll_drag = 0;    ///< N·s/m: drag of u·(1 − cos φ)
-  double step_drag = 0;    ///< drag is larger by this part from 45 % of the flight on
   double step_force = 0;   ///< N forward from 45 % of the flight on
   double height_drag = 0;  ///< 1/m: drag grows by this part with each metre
 };

@@ -20,6 +20,14 @@ enum class FlightPhase {
   attitude,  ///< the tilt that the thrust had
   air,       ///< the headwind and the drag law
   force,     ///< the drag, once airspeed and drag law are known
+  reading,   ///< the acceleration as the log's instruments tell it
+};
+
+/// Values of a parameter that depend on the log and are looked through before anything is fitted.
+enum class LookThrough {
+  nothing,
+  moments,  ///< of the log's clock, from 5 to 95 % of its duration; s
+  periods,  ///< from one and a half durations of the log down to the parameter's lower bound; s
 };
 
 /// The log that can show an effect.
@@ -42,6 +50,10 @@ struct EffectParameter {
   /// Parameter of the base model whose product with this one enters the prediction linearly; that
   /// is tested against chance. Empty: this one enters by itself.
   std::string product_with{};
+  LookThrough look_through = LookThrough::nothing;  ///< moments have the bounds of the log only
+  /// Stays neutral in a flight whose heading hardly turns: across the heading a force or a wind
+  /// does nothing that the forward acceleration shows.
+  bool only_if_turning = false;
 };
 
 /// One entry.
@@ -61,6 +73,10 @@ struct Effect {
 
   /// Why a log may not show it beside the base model, where that has one reason; else empty.
   std::string aliased_because{};
+
+  /// A flight must gain so many times the usual minimum by it: where some of it is always there, as
+  /// of an air that is never quite steady, or where many other things look a little like it.
+  double least_gain_factor = 1;
 
   std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 

@@ -15,10 +15,10 @@ namespace tethercalc {
 /// Time series of an estimator's output, one element a sample in every vector; all of the same
 /// length, time strictly increasing.
 struct FlightLog {
-  std::vector<double> time;            ///< s
-  std::vector<double> roll;            ///< rad
-  std::vector<double> pitch;           ///< rad, positive nose-up
-  std::vector<double> yaw;             ///< rad, clockwise from north
+  std::vector<double> time;   ///< s
+  std::vector<double> roll;   ///< rad
+  std::vector<double> pitch;  ///< rad, positive nose-up
+  std::vector<double> yaw;    ///< rad, clockwise from north; runs on over whole turns, no jumps
   std::vector<double> north_velocity;  ///< m/s
   std::vector<double> east_velocity;   ///< m/s
   std::vector<double> down_velocity;   ///< m/s

@@ -17,7 +17,10 @@ struct AirframeDrag {
 
 /// Effective area in m² for a tilt given by its tangent (of either sign):
 /// A_f·cos|θ| + A_t·sin|θ|, without trigonometry.
-[[nodiscard]] double effective_area(const AirframeDrag& drag, double tan_pitch);
+[[nodiscard]] inline double effective_area(const AirframeDrag& drag, double tan_pitch) {
+  return (drag.front_area + drag.top_area * std::abs(tan_pitch)) /
+         std::sqrt(1 + tan_pitch * tan_pitch);
+}
 
 /// Drag in N per m² of effective area at `airspeed` (m/s, either sign), `air_density` in kg/m³:
 /// ½·ρ·(v² + j·|v|)·(1 + a·sign v). Never negative.
@@ -36,8 +39,13 @@ struct AirframeDrag {
 /// The part along the forward axis of the drag on a drone that also moves sideways: the force lies
 /// along the airspeed vector, (`along`, `across`) in m/s, and is as large as its magnitude makes
 /// it: ½·ρ·(A_f cos|θ| + A_t sin|θ|)·(√(along² + across²) + j)·along·(1 + a·sign along).
-[[nodiscard]] double airframe_drag_along(const AirframeDrag& drag, double air_density, double along,
-                                         double across, double tan_pitch);
+[[nodiscard]] inline double airframe_drag_along(const AirframeDrag& drag, double air_density,
+                                                double along, double across, double tan_pitch) {
+  const double asymmetry = along < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
+  const double speed = std::sqrt(along * along + across * across);
+  return 0.5 * air_density * (speed + drag.linear_speed) * along * (1 + asymmetry) *
+         effective_area(drag, tan_pitch);
+}
 
 /// `airframe_drag_force` with its derivatives.
 struct AirframeDragSlopes {
