@@ -364,6 +364,9 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     candidate.gain_se_percent = gained.se;
     candidate.freed = neutral_fit(record);
     add_fit(record, freed, {}, candidate.freed);
+    if (chances(record.problem().groups[g]) > 1) {
+      add_place_error(record, fit, freed, g, candidate.freed);
+    }
   }
   return open;
 }

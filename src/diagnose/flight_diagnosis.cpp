@@ -363,6 +363,8 @@ void report(const FlightData& data, const FlightModel& model, const Selection& s
   tell(model, selection, d);
   d.samples = selection.rows;
   d.effective_samples = effective_samples(data, selection.complete);
+  d.unexplained.undetectable_percent = undetectable_percent(
+      d.effective_samples, model.problem.unnamed.size(), options.selection.false_alarm_probability);
   d.compared.push_back(compared(data, model, selection));
   size_up(selection, d.unexplained);
   d.spec_changes = spec_changes(model, selection.complete);

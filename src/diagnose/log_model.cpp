@@ -227,17 +227,22 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
     // An interval beyond a bound allows hardly anything, but no less than the error leaves open.
     const double bound = std::max(
         {m.neutral - lower, upper - m.neutral, selection.student_factor * size.standard_error});
-    if (low > m.lower || high < m.upper) {
+    const double widest = std::max(m.neutral - m.lower, m.upper - m.neutral);
+    if ((low > m.lower || high < m.upper) && bound < widest) {
       bounds.push_back({effect.id, p.name, bound / p.unit_SI, p.unit});
     }
   }
-  const bool hardly_chance = open.p_value <= suspicious && open.gain_percent > open.gain_se_percent;
+  // Of what is always there a little, or looked for at many moments, chance shows some.
+  const double least = effect.least_gain_factor > 1 ? selection.least_gain_percent : 0;
+  const bool hardly_chance = open.p_value <= suspicious && open.gain_percent >= least &&
+                             open.gain_percent > open.gain_se_percent;
   const bool helps_much = open.gain_percent >= much * selection.least_gain_percent &&
                           open.gain_percent > 2 * open.gain_se_percent;
   if (hardly_chance || helps_much) {
-    diagnosis.suspected.push_back({effect.id, open.gain_percent, open.gain_se_percent,
-                                   estimates(log, selection, open.freed, open.group),
-                                   what_is_missing(effect, open, selection.least_gain_percent)});
+    diagnosis.suspected.push_back(
+        {effect.id, open.gain_percent, open.gain_se_percent,
+         estimates(log, selection, open.freed, open.group),
+         what_is_missing(effect, open, selection.least_gain_percent * effect.least_gain_factor)});
   } else if (bounds.empty()) {
     diagnosis.not_testable.push_back({effect.id, "a log that shows it: " + effect.to_separate});
   } else {
@@ -366,6 +371,13 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
   diagnosis.unexplained.channels = unnamed.channels;
   diagnosis.unexplained.share_percent = unnamed.share_percent;
   diagnosis.unexplained.regressor = log.problem.unnamed[unnamed.regressors.front()].shape;
+}
+
+double undetectable_percent(double samples, std::size_t shapes, double false_alarm_probability) {
+  const double chance =
+      false_alarm_probability / 2 / static_cast<double>(std::max<std::size_t>(shapes, 1));
+  const double t = student_quantile(std::max(samples - 2, 1.0), chance);
+  return 100 * t * t / (t * t + samples);
 }
 
 // --- Channels ---

@@ -66,6 +66,12 @@ void check_base_effects(LogKind kind, std::span<const std::string> ids);
 /// with their traces, aliases, the error budget, and of the unexplained all but its size.
 void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis);
 
+/// 100·t²/(t² + n): the least part of the squared error that one of `shapes` tried must make up so
+/// that the test of its correlation with n independent samples, at `false_alarm_probability` over
+/// all of them (Bonferroni), finds it. n > 2.
+[[nodiscard]] double undetectable_percent(double samples, std::size_t shapes,
+                                          double false_alarm_probability);
+
 /// The channel of a flight that `id`, as in `Effect::channel`, names, one value a sample:
 /// "forward_speed", "tilt", "tilt_rate", "yaw", "time", "braking" (forward speed times tilt while
 /// they oppose, else NaN) or "sinking" (forward speed times down speed). Throws

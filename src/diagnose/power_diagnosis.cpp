@@ -402,6 +402,8 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   // Rows are whitened: each counts.
   diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
                                            static_cast<double>(residuals.stages().size()));
+  diagnosis.unexplained.undetectable_percent = undetectable_percent(
+      diagnosis.effective_samples, view.problem.unnamed.size(), false_alarm_probability);
   size_up(view, selection, diagnosis.unexplained);
   compare_stages(residuals, view, selection, diagnosis);
   result.extended = view.model(selection.extended.values).design;

@@ -207,7 +207,8 @@ class Search {
     const double least_gain = options_.least_gain_percent *
                               (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed) *
                               group(g).least_gain_factor;
-    trial.worth_a_name = gained.percent >= least_gain && gained.percent > 2 * gained.se &&
+    trial.worth_a_name = gained.percent >= least_gain &&
+                         gained.percent > student_factor_ * gained.se &&
                          trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
                              options_.false_alarm_probability;
     trial.fit = std::move(with);
@@ -385,9 +386,10 @@ class Search {
           best_unnamed(record_, current_, unnamed_, options_.false_alarm_probability);
       if (!best) return;
       const BlockDifference drop = difference(current_.block_error, best->block_error);
+      const double least_gain = options_.least_unexplained_percent *
+                                record_.problem().unnamed[best->regressor].least_gain_factor;
       if (drop.sum <= student_factor_ * drop.se ||
-          gain_percent(current_.squared_error(), best->block_error.sum()) <
-              options_.least_unexplained_percent) {
+          gain_percent(current_.squared_error(), best->block_error.sum()) < least_gain) {
         return;
       }
       unnamed_.push_back(best->regressor);
@@ -432,8 +434,11 @@ class Search {
       if (!is_open(c) || group(c).replaces == g) continue;
       const BlockFit rival = fit(with_group(selected_without(g), c), &current_);
       const BlockDifference excess = difference(rival.block_error, current_.block_error);
+      // A step at the very beginning is all but steady: it puts what is steady in doubt only where
+      // it does clearly better.
+      const double allowed = is_placed(c) && !is_placed(g) ? -student_factor_ : student_factor_;
       if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
-          excess.sum <= student_factor_ * excess.se) {
+          excess.sum <= allowed * excess.se) {
         found.emplace_back(rival.squared_error(), c);
       }
     }

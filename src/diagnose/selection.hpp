@@ -62,6 +62,7 @@ struct UnnamedRegressor {
   std::vector<double> column{};  ///< one element a row; its scale does not matter
   double size = 1;               ///< what a coefficient of 1 stands for, in `unit`
   std::string unit{};            ///< empty where the column has a unit of its own
+  double least_gain_factor = 1;  ///< must gain so many times the usual minimum, as in `Effect`
 };
 
 /// A record and the model that should explain it. Readings of several instruments are stacked: one

@@ -17,6 +17,7 @@ struct Shape {
   std::string channel;  ///< as in `UnnamedRegressor`
   std::string words;    ///< likewise
   Series values;        ///< one a sample
+  double least_gain_factor = 1;
 };
 
 bool varies(const Series& x) { return (x != x[0]).any(); }
@@ -43,6 +44,8 @@ void add_powers(std::vector<Shape>& shapes, const std::string& channel, const st
 /// with a name whose moment is fitted. They are zero before they happen: half of one on either side
 /// would need a constant effect to cancel the first.
 constexpr int step_places = 128;
+/// As for effects whose moment is looked for: some moment always shows a little.
+constexpr double gain_of_steps = 5;
 
 void add_time(std::vector<Shape>& shapes, const Series& time) {
   const double begin = time[0];
@@ -53,8 +56,8 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
       {"time_s", "the square of the time from the middle of the flight", elapsed.square()});
   for (int k = 1; k < step_places; ++k) {
     const double at = begin + duration * k / step_places;
-    shapes.push_back(
-        {"time_s", fmt::format("a step at about {:.0f} s", at), (time >= at).cast<double>()});
+    shapes.push_back({"time_s", fmt::format("a step at about {:.0f} s", at),
+                      (time >= at).cast<double>(), gain_of_steps});
   }
 }
 
@@ -145,12 +148,14 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, double wind) 
       {", times the airspeed and its magnitude", u * u.abs()}};
   std::vector<UnnamedRegressor> regressors;
   const auto add = [&regressors](const std::string& channel, const std::string& words,
-                                 const Series& column) {
-    regressors.push_back({channel, words, {column.begin(), column.end()}});
+                                 const Series& column) -> UnnamedRegressor& {
+    return regressors.emplace_back(UnnamedRegressor{
+        .channel = channel, .shape = words, .column = {column.begin(), column.end()}});
   };
   for (const Shape& shape : shapes) {
     for (const auto& [words, carrier] : carriers) {
-      add(shape.channel, shape.words + words, shape.values * carrier);
+      add(shape.channel, shape.words + words, shape.values * carrier).least_gain_factor =
+          shape.least_gain_factor;
     }
   }
   add("airspeed_m_s", "the magnitude of the airspeed", u.abs());

@@ -201,7 +201,14 @@ class Story {
   void unexplained() {
     heading("What is left");
     if (!d_.unexplained.detected) {
-      paragraph("No structure against any channel or time: what is left looks like noise.");
+      constexpr double little = 10;  // %: hidden in it, an rms would be 5 % larger than the noise's
+      const double hidden = d_.unexplained.undetectable_percent;
+      paragraph(hidden <= little
+                    ? "No structure against any channel or time: what is left looks like noise."
+                    : fmt::format("No structure against any channel or time was found. What makes "
+                                  "up less than {:.0f} % of the squared error left would not have "
+                                  "shown in a log this short, so it is not said to be noise.",
+                                  hidden));
       return;
     }
     const Unexplained& u = d_.unexplained;
@@ -286,6 +293,7 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   out["unexplained"] = {{"detected", d.unexplained.detected},
                         {"channels", d.unexplained.channels},
                         {"share_percent", number_or_null(d.unexplained.share_percent)},
+                        {"undetectable_percent", d.unexplained.undetectable_percent},
                         {"size", number_or_null(d.unexplained.size)},
                         {"size_unit", d.unexplained.size_unit},
                         {"shape", d.unexplained.shape},

@@ -461,6 +461,21 @@ TEST_CASE("the linear drag of a short real flight is suspected, not denied") {
   CHECK(d["suspected"][0]["gain_percent"] > 20);
 }
 
+TEST_CASE("one long cruise names neither a wind nor a trim, and its rest is not called noise") {
+  const auto log = reference_file("data/real/delorean_00000017.bin");
+  if (!log) return;
+  const std::vector<std::string> asked{"diagnose",          spec_file,  "--set",
+                                       "drone.mass_g=3000", "--flight", log->string()};
+  const Ran told = run_tethercalc(asked);
+  CHECK_THAT(told.out, Catch::Contains("is not said to be noise"));
+  CHECK_THAT(told.out, !Catch::Contains("looks like noise"));
+  std::vector<std::string> as_json = asked;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const auto d = ordered_json::parse(run_tethercalc(as_json).out);
+  CHECK(d["findings"].empty());
+  CHECK(d["unexplained"]["undetectable_percent"] > 50);
+}
+
 TEST_CASE("what is no flight of a multirotor is refused by its reason") {
   for (const auto& [name, reason] :
        {std::pair{"erle_pxf_plane_5-12-2014_05_12_2014_E.BIN", "ArduPlane V3.1.2beta1"},

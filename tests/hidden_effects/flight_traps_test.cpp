@@ -124,6 +124,18 @@ TEST_CASE("a log too short names nothing and says what it needs") {
   CHECK(d.notes.back().find("too short") != std::string::npos);
 }
 
+TEST_CASE("the longer a flight, the less structure could hide in it") {
+  double before = 100;
+  for (const double duration : {100.0, 300.0, 900.0}) {
+    HiddenFlight hidden;
+    hidden.duration = duration;
+    const double hideable = diagnosed(hidden, truth::fly(hidden)).unexplained.undetectable_percent;
+    CHECK(hideable < 0.7 * before);
+    CHECK(hideable > 0);
+    before = hideable;
+  }
+}
+
 TEST_CASE("a clock offset between attitude and velocity is named as one") {
   HiddenFlight hidden;
   hidden.seed = 26;

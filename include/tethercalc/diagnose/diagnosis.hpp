@@ -93,6 +93,9 @@ struct Unexplained {
   bool detected = false;              ///< whether it beats chance and is worth a word
   std::vector<std::string> channels;  ///< the one it follows most closely first
   double share_percent = 0;           ///< part of the remaining held-out squared error it makes up
+  /// Structure of a smaller part of that error would not have shown in a log with so few
+  /// independent samples. 100 where none were looked for.
+  double undetectable_percent = 100;
   double size = 0;        ///< of a flight the root mean square of what follows it; of a power log
                           ///< the height of the step, or the amplitude, of the strongest
   std::string size_unit;  ///< "m/s²"; of a power log "ohm", "W" or "%", by stage
