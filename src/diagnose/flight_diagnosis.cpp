@@ -201,10 +201,11 @@ class FlightModel : public LogModel {
   FlightModel(const Design& design, const FlightData& data, const std::vector<std::string>& base)
       : LogModel(data.record.time), data_(data), base_(base_parameters(data)) {
     for (const Effect& effect : base_) add(effect, design, true);
+    const bool turning = turns(data);
     for (const Effect& effect : effect_catalogue(LogKind::flight)) {
       if (!testable(effect, data.faults)) continue;
       add(effect, design, contains(base, effect.id));
-      if (!turns(data)) hold_across(effect);
+      if (!turning) hold_across(effect);
     }
     problem.measured = data.observations.forward_acceleration;
     problem.noise.assign(problem.measured.size(), 1.0);

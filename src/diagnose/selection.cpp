@@ -89,6 +89,7 @@ class Search {
     } while (drop_outdone());
     find_unnamed();
     if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+    place_candidates();
     sum_up(base, result);
     return result;
   }
@@ -307,7 +308,18 @@ class Search {
         }
       }
     }
+    keep_places();
     drop_superfluous();
+  }
+
+  /// Fits to come start at the places that the names have, wherever the last trial had them.
+  void keep_places() {
+    for (const std::size_t g : selected_) {
+      for (std::size_t k = 0; k < group(g).parameters.size(); ++k) {
+        const std::size_t index = record_.first_parameter(g) + k;
+        if (!group(g).parameters[k].places.empty()) record_.start_at(index, current_.values[index]);
+      }
+    }
   }
 
   /// Takes back what the other names make superfluous, the weakest first.
