@@ -87,13 +87,27 @@ class FreedModel {
     if (columns_.cols() > 0) out.noalias() -= columns_ * coefficients_;
   }
 
-  /// The model after the step, bounds kept.
+  /// The model after the step, bounds kept. What enters the prediction linearly moves straight: of
+  /// a ratio to another parameter that is their product. Along a valley of equal products the ratio
+  /// itself would creep.
   [[nodiscard]] FreedModel moved(const VectorXd& step) const {
     FreedModel result = *this;
-    for (std::size_t k = 0; k < free_.size(); ++k) {
+    const auto move = [&](std::size_t k, double value) {
       const ModelParameter& p = record_->parameters()[free_[k]];
-      double& value = result.values_[free_[k]];
-      value = std::clamp(value + p.scale * step[static_cast<Index>(k)], p.lower, p.upper);
+      result.values_[free_[k]] = std::clamp(value, p.lower, p.upper);
+    };
+    const auto change = [&](std::size_t k) {
+      return record_->parameters()[free_[k]].scale * step[static_cast<Index>(k)];
+    };
+    for (std::size_t k = 0; k < free_.size(); ++k) move(k, values_[free_[k]] + change(k));
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const auto with = record_->parameters()[free_[k]].product_with;
+      if (!with || !(result.values_[*with] > 0)) continue;
+      const double before = values_[*with];
+      const double ratio = values_[free_[k]];
+      const double product =
+          before * (ratio + change(k)) + ratio * (result.values_[*with] - before);
+      move(k, product / result.values_[*with]);
     }
     result.coefficients_ += step.tail(columns_.cols());
     return result;

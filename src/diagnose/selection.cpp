@@ -89,6 +89,7 @@ class Search {
     } while (drop_outdone());
     find_unnamed();
     if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+    put_in_order(base);
     place_candidates();
     sum_up(base, result);
     return result;
@@ -286,8 +287,8 @@ class Search {
     return fit(selected, nullptr);
   }
 
-  /// Puts other candidates in the place of names as long as that lowers the held-out error: a wave
-  /// may have been the best single name for what is a step beside another.
+  /// Puts other candidates in the place of names with a place as long as that lowers the held-out
+  /// error: a wave may have been the best single name for what is a step beside another.
   void exchange() {
     if (std::none_of(selected_.begin(), selected_.end(), [&](auto g) { return is_placed(g); })) {
       return;
@@ -295,6 +296,7 @@ class Search {
     for (bool exchanged = true; exchanged;) {
       exchanged = false;
       for (const std::size_t out : Groups(selected_)) {
+        if (!is_placed(out)) continue;
         for (const std::size_t in : candidates()) {
           if (exchanged) break;
           const Groups trial = with_group(selected_without(out), in);
@@ -324,7 +326,7 @@ class Search {
 
   /// Takes back what the other names make superfluous, the weakest first.
   void drop_superfluous() {
-    while (selected_.size() > 1) {
+    while (!selected_.empty()) {
       std::optional<std::size_t> weakest;
       double weakest_error = infinity;
       BlockFit rest_fit;
@@ -378,6 +380,35 @@ class Search {
     return false;
   }
 
+  /// The names by what each adds to those before it. None stays that adds nothing there.
+  void put_in_order(const BlockFit& base) {
+    Groups order;
+    BlockFit before = base;
+    while (order.size() < selected_.size()) {
+      std::optional<std::size_t> next;
+      BlockFit best;
+      for (const std::size_t g : selected_) {
+        if (contains(order, g)) continue;
+        Groups more = order;
+        more.push_back(g);
+        BlockFit after = fit(more, {}, &current_);
+        if (next && after.squared_error() >= best.squared_error()) continue;
+        next = g;
+        best = std::move(after);
+      }
+      if (best.squared_error() >= before.squared_error()) {
+        selected_ = selected_without(*next);
+        rejected_.insert(*next);
+        current_ = fit(selected_, &current_);
+        drop_superfluous();
+        return put_in_order(base);
+      }
+      order.push_back(*next);
+      before = std::move(best);
+    }
+    selected_ = std::move(order);
+  }
+
   /// Looks beside all effects that are certain, those too small for a name included: what a known
   /// effect explains is no unknown one.
   void find_unnamed() {
@@ -415,7 +446,7 @@ class Search {
     for (const std::size_t g : selected_) {
       // Gains are those of the named part alone, one finding after the other.
       so_far.push_back(g);
-      BlockFit after = fit(so_far, {}, &before);
+      BlockFit after = fit(so_far, {}, &current_);
       SelectedGroup& entry = result.selected.emplace_back(freed_between(before, after, g));
       const BlockFit without = fit(selected_without(g), &current_);
       entry.p_value = p_value(g, without, current_);

@@ -183,6 +183,30 @@ TEST_CASE("nothing hidden, nothing found") {
   CHECK(structure <= flights / 20);
 }
 
+TEST_CASE("no finding adds nothing and no extended model is worse, whatever the flight") {
+  test::Random random(test::run_seed());
+  int named = 0;
+  for (int i = 0; i < test::draws(60); ++i) {
+    HiddenFlight hidden = drawn_flight(3000 + static_cast<std::uint64_t>(i));
+    hidden.duration = random.uniform(75, 240);
+    hidden.gust_std = random.uniform(0.1, 0.6);
+    hidden.gust_time = random.uniform(0.5, 8);
+    hidden.lateral_std = random.uniform(0.3, 4);
+    hidden.pattern = i % 2 == 0 ? truth::Pattern::circles : truth::Pattern::long_forward;
+    hidden.wind_north = random.uniform(-3, 3);
+    hidden.propwash = random.uniform(0, 0.5);
+    const Diagnosis d = diagnosed(hidden, {});
+    INFO("flight " << i);
+    CHECK(d.extended.holdout_rmse <= d.base.holdout_rmse);
+    for (const Finding& f : d.findings) {
+      INFO(f.effect);
+      CHECK(f.gain_percent > 0);
+      ++named;
+    }
+  }
+  CHECK(named > 0);
+}
+
 TEST_CASE("two effects at once are both found") {
   int pairs = 0;
   int both = 0;
