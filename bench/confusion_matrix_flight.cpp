@@ -67,6 +67,7 @@ std::vector<FlightCondition> conditions() {
              h.speed_noise = 0.008;
              h.angle_noise = 0.23;
            }},
+          {"2Hz", [](HiddenFlight& h) { h.steps_per_sample = 50; }},
           {"5Hz", [](HiddenFlight& h) { h.steps_per_sample = 20; }},
           {"25Hz", [](HiddenFlight& h) { h.steps_per_sample = 4, h.duration = 300; }},
           {"50Hz", [](HiddenFlight& h) { h.steps_per_sample = 2, h.duration = 200; }},

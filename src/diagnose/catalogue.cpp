@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/power_chain.hpp"
@@ -105,6 +106,16 @@ void lag(FlightPrediction& p, double constant) {
   p.acceleration = lagging(time, constant, std::move(p.acceleration));
 }
 
+/// A size of a wind; `across` the mean heading, which only a flight that turns can show.
+EffectParameter wind_part(std::string name, bool across = false) {
+  return {.name = std::move(name),
+          .unit = "m/s",
+          .lower = -40,
+          .upper = 40,
+          .scale = 0.5,
+          .only_if_turning = across};
+}
+
 std::vector<Effect> flight_effects() {
   return {
       {.id = "attitude_delay",
@@ -165,7 +176,7 @@ std::vector<Effect> flight_effects() {
        .title = "Steady wind along the flight axis",
        .mechanism = "The air moves along the forward axis, so airspeed differs from the logged "
                     "speed over ground.",
-       .parameters = {{.name = "wind_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .parameters = {wind_part("wind_m_s")},
        .to_separate = "fly the same passes at the opposite heading: a wind changes its sign, what "
                       "belongs to the drone does not",
        .change = "u = v − w",
@@ -180,9 +191,7 @@ std::vector<Effect> flight_effects() {
        .title = "Wind fixed in the world while the drone turns",
        .mechanism = "The wind keeps its direction over ground, so its part along the forward axis "
                     "changes whenever the yaw does.",
-       .parameters =
-           {{.name = "wind_north_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
-            {.name = "wind_east_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .parameters = {wind_part("wind_north_m_s"), wind_part("wind_east_m_s")},
        .sizes = 2,
        .to_separate = "fly passes at four headings, a quarter turn apart",
        .change = "u = v − (w_N cos ψ + w_E sin ψ), ψ the yaw",
@@ -204,8 +213,7 @@ std::vector<Effect> flight_effects() {
        .title = "Wind that changes steadily during the flight",
        .mechanism = "The wind along the forward axis rises or falls from the beginning of the "
                     "flight to its end.",
-       .parameters =
-           {{.name = "wind_drift_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5}},
+       .parameters = {wind_part("wind_drift_m_s")},
        .to_separate = "repeat the first passes at the end of the flight",
        .change = "w → w + d·(t − t_middle)/duration: d is the change over the whole flight",
        .channel = "time",
@@ -307,15 +315,11 @@ std::vector<Effect> flight_effects() {
        .mechanism =
            "From one moment on another wind blows: a front passes, or the drone leaves the "
            "lee of something.",
-       .parameters =
-           {{.name = "wind_step_ahead_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
-            {.name = "wind_step_right_m_s",
-             .unit = "m/s",
-             .lower = -40,
-             .upper = 40,
-             .scale = 0.5,
-             .only_if_turning = true},
-            {.name = "wind_step_time_s", .unit = "s", .look_through = LookThrough::moments}},
+       .parameters = {wind_part("wind_step_ahead_m_s"),
+                      wind_part("wind_step_right_m_s", true),
+                      {.name = "wind_step_time_s",
+                       .unit = "s",
+                       .look_through = LookThrough::moments}},
        .sizes = 2,
        .to_separate = "fly the same passes fast and slow before and after: a wind acts in "
                       "proportion to the speed, a force does not",
@@ -334,27 +338,16 @@ std::vector<Effect> flight_effects() {
        .title = "Wind that comes and goes",
        .mechanism = "The wind rises and falls slowly, many seconds up and many down, as below "
                     "thermals or behind hills.",
-       .parameters =
-           {{.name = "wind_wave_cos_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
-            {.name = "wind_wave_sin_m_s", .unit = "m/s", .lower = -40, .upper = 40, .scale = 0.5},
-            {.name = "wind_wave_right_cos_m_s",
-             .unit = "m/s",
-             .lower = -40,
-             .upper = 40,
-             .scale = 0.5,
-             .only_if_turning = true},
-            {.name = "wind_wave_right_sin_m_s",
-             .unit = "m/s",
-             .lower = -40,
-             .upper = 40,
-             .scale = 0.5,
-             .only_if_turning = true},
-            {.name = "wind_wave_period_s",
-             .unit = "s",
-             .neutral = 40,
-             .lower = 40,
-             .upper = 1e6,
-             .look_through = LookThrough::periods}},
+       .parameters = {wind_part("wind_wave_cos_m_s"),
+                      wind_part("wind_wave_sin_m_s"),
+                      wind_part("wind_wave_right_cos_m_s", true),
+                      wind_part("wind_wave_right_sin_m_s", true),
+                      {.name = "wind_wave_period_s",
+                       .unit = "s",
+                       .neutral = 40,
+                       .lower = 40,
+                       .upper = 1e6,
+                       .look_through = LookThrough::periods}},
        .sizes = 4,
        .to_separate = "fly the same passes for several of its periods, and measure the wind",
        .change = "w → w + a cos(2πt/T) + b sin(2πt/T), t from the middle of the flight",

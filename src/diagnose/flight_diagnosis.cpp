@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include "diagnose/flight_log_faults.hpp"
@@ -14,6 +14,7 @@
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
@@ -87,22 +88,18 @@ FlightLog averaged(const FlightLog& log, const SampleRange& range, std::size_t c
   means.other_vehicle = log.other_vehicle;
   std::vector<bool> any_faulty;
   for (std::size_t first = range.first; first + count <= range.last; first += count) {
-    const auto mean = [first, count](auto&& value) {
-      double sum = 0;
-      for (std::size_t i = first; i < first + count; ++i) sum += value(i);
-      return sum / static_cast<double>(count);
-    };
+    const auto begin = static_cast<std::ptrdiff_t>(first);
+    const auto end = static_cast<std::ptrdiff_t>(first + count);
     for (auto series :
-         {&FlightLog::time, &FlightLog::roll, &FlightLog::pitch, &FlightLog::north_velocity,
-          &FlightLog::east_velocity, &FlightLog::down_velocity}) {
-      (means.*series).push_back(mean([&](std::size_t i) { return (log.*series)[i]; }));
+         {&FlightLog::time, &FlightLog::roll, &FlightLog::pitch, &FlightLog::yaw,
+          &FlightLog::north_velocity, &FlightLog::east_velocity, &FlightLog::down_velocity}) {
+      const auto values = (log.*series).begin();
+      (means.*series)
+          .push_back(std::accumulate(values + begin, values + end, 0.0) /
+                     static_cast<double>(count));
     }
-    means.yaw.push_back(log.yaw[first] + mean([&](std::size_t i) {
-                          return std::remainder(log.yaw[i] - log.yaw[first], 2 * std::numbers::pi);
-                        }));
-    const auto of_mean = faulty.begin() + static_cast<std::ptrdiff_t>(first);
-    any_faulty.push_back(std::find(of_mean, of_mean + static_cast<std::ptrdiff_t>(count), true) !=
-                         of_mean + static_cast<std::ptrdiff_t>(count));
+    const auto fault = std::find(faulty.begin() + begin, faulty.begin() + end, true);
+    any_faulty.push_back(fault != faulty.begin() + end);
   }
   faulty = std::move(any_faulty);
   return means;
@@ -356,12 +353,31 @@ ComparedSeries compared(const FlightData& data, const FlightModel& model,
   return series;
 }
 
+/// Which way "ahead" and "right" are in what was found or is suspected, where that is said.
+void tell_heading(const FlightData& data, Diagnosis& d) {
+  const auto is_directed = [](const auto& told) {
+    const auto& parameters = find_effect(told.effect)->parameters;
+    return std::any_of(parameters.begin(), parameters.end(),
+                       [](const EffectParameter& p) { return p.only_if_turning; });
+  };
+  if (std::none_of(d.findings.begin(), d.findings.end(), is_directed) &&
+      std::none_of(d.suspected.begin(), d.suspected.end(), is_directed)) {
+    return;
+  }
+  const double heading = data.record.mean_heading / unit::degree;
+  d.notes.push_back(
+      fmt::format("ahead is along the mean heading of the flight, {:.0f}° from north over east; "
+                  "right is to the right of it",
+                  heading < 0 ? heading + 360 : heading));
+}
+
 void report(const FlightData& data, const FlightModel& model, const Selection& selection,
             const FlightDiagnosisOptions& options, Diagnosis& d) {
   d.not_identifiable.push_back(
       {"extra_mass",
        "a wrong mass only rescales the drag areas, since both enter as force over mass"});
   tell(model, selection, d);
+  tell_heading(data, d);
   d.samples = selection.rows;
   d.effective_samples = effective_samples(data, selection.complete);
   d.unexplained.undetectable_percent = undetectable_percent(

@@ -40,10 +40,10 @@ FlightRecord flight_record(const Observations& observations, double mass, double
     north += std::cos(observations.yaw[i]);
     east += std::sin(observations.yaw[i]);
   }
-  const double mean_heading = std::atan2(east, north);
+  record.mean_heading = std::atan2(east, north);
   for (const double yaw : observations.yaw) {
-    record.along_heading.push_back(std::cos(yaw - mean_heading));
-    record.right_of_heading.push_back(std::sin(yaw - mean_heading));
+    record.along_heading.push_back(std::cos(yaw - record.mean_heading));
+    record.right_of_heading.push_back(std::sin(yaw - record.mean_heading));
   }
   record.turn_acceleration.assign(observations.size(), 0.0);
   for (std::size_t i = 1; i + 1 < observations.size(); ++i) {

@@ -31,11 +31,12 @@ struct FlightRecord {
   /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
   /// speed, force or no force.
   std::vector<double> turn_acceleration;
-  double mass = 0;         ///< kg
-  double air_density = 0;  ///< kg/m³
-  double gravity = 0;      ///< m/s²
-  double middle_time = 0;  ///< s, halfway through the whole flight
-  double duration = 0;     ///< s, of the whole flight
+  double mean_heading = 0;  ///< rad in (−π, π], of the whole flight
+  double mass = 0;          ///< kg
+  double air_density = 0;   ///< kg/m³
+  double gravity = 0;       ///< m/s²
+  double middle_time = 0;   ///< s, halfway through the whole flight
+  double duration = 0;      ///< s, of the whole flight
 
   /// Number of samples.
   [[nodiscard]] std::size_t size() const { return time.size(); }

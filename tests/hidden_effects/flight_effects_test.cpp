@@ -2,6 +2,7 @@
 // for chance; the whole confusion matrix is printed by the program confusion_matrix.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -153,6 +154,34 @@ TEST_CASE("the moment of a step in the wind is told") {
     told += moment.ci95_lower <= truth && truth <= moment.ci95_upper ? 1 : 0;
   }
   CHECK(told >= flights - 2);
+}
+
+TEST_CASE("a pull over ground keeps its size and its side while the drone turns") {
+  int right = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    HiddenFlight hidden = drawn_flight(1650 + seed);
+    hidden.yaw_turns = true;
+    hidden.tether_pull = 1.2;
+    const FlightLog log = truth::fly(hidden);
+    const Diagnosis d = diagnosed(hidden);
+    REQUIRE_FALSE(d.findings.empty());
+    if (d.findings[0].effect != "tether_pull") continue;
+    const auto& pull = d.findings[0].parameters;
+    double north = 0;
+    double east = 0;
+    for (const double yaw : log.yaw) {
+      north += std::cos(yaw);
+      east += std::sin(yaw);
+    }
+    // The pull is along the first heading.
+    const double turned = log.yaw.front() - std::atan2(east, north);
+    const double ahead = hidden.tether_pull * std::cos(turned);
+    const double aside = hidden.tether_pull * std::sin(turned);
+    right += std::hypot(pull[0].value - ahead, pull[1].value - aside) < 0.15 ? 1 : 0;
+    REQUIRE_FALSE(d.notes.empty());
+    CHECK(d.notes.back().find("mean heading") != std::string::npos);
+  }
+  CHECK(right >= 3);
 }
 
 TEST_CASE("a log that samples ten times as fast says the same") {
