@@ -109,6 +109,7 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
                                 {"yaw_misalign", &HiddenFlight::yaw_misalign, {-12, 18}},
                                 {"velocity_lag", &HiddenFlight::velocity_lag, {0.1, 0.25}},
                                 {"velocity_scale", &HiddenFlight::velocity_scale, {1.2, 0.8}}};
+  constexpr int repeats = std::max(1, test::draws(8) / 4);
   int flights = 0;
   int first = 0;
   int named = 0;
@@ -116,7 +117,7 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
   std::string failures;
   for (const Case& c : wider) {
     for (const double strength : c.strengths) {
-      for (int repeat = 0; repeat < 2; ++repeat) {
+      for (int repeat = 0; repeat < repeats; ++repeat) {
         HiddenFlight hidden = drawn_flight(1500 + static_cast<std::uint64_t>(flights));
         hidden.duration = 540;
         hidden.*(c.field) = strength;
@@ -132,11 +133,11 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
       }
     }
   }
-  // Asked for: 95 % of each. Of 28 flights, 25 right and 23 covered leave at least two standard
-  // deviations.
+  // Asked for: 95 % of each. Of 28 flights three wrong and four not covered leave at least two
+  // standard deviations.
   INFO(failures);
-  CHECK(flights == 28);
-  CHECK(first >= 25);
+  CHECK(flights == 14 * repeats);
+  CHECK(first >= flights - 3);
   CHECK(covered >= named - 4);
 }
 
