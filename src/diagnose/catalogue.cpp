@@ -45,11 +45,6 @@ double ahead(const FlightRecord& record, std::size_t i, double along, double rig
   return along * record.along_heading[i] + right * record.right_of_heading[i];
 }
 
-double wave(const FlightRecord& record, std::size_t i, double cosine, double sine, double period) {
-  const double phase = 2 * std::numbers::pi * (record.time[i] - record.middle_time) / period;
-  return cosine * std::cos(phase) + sine * std::sin(phase);
-}
-
 double law_drag(const FlightPrediction& p, double along, double across, double tan_tilt) {
   return airframe_drag_along(p.law, p.record.air_density, along, across, tan_tilt);
 }
@@ -357,8 +352,12 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-               p.headwind[i] += ahead(p.record, i, wave(p.record, i, x[0], x[1], x[4]),
-                                      wave(p.record, i, x[2], x[3], x[4]));
+               const double phase =
+                   2 * std::numbers::pi * (p.record.time[i] - p.record.middle_time) / x[4];
+               const double cosine = std::cos(phase);
+               const double sine = std::sin(phase);
+               p.headwind[i] +=
+                   ahead(p.record, i, x[0] * cosine + x[1] * sine, x[2] * cosine + x[3] * sine);
              }
            }},
 

@@ -112,16 +112,19 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   // six times the weight, which no drone has that also lifts a tether.
   constexpr double tan_limit = 6;
 
-  Design lighter = model.design;
-  constexpr double least_part = 0.1;  // of the drone that stays: less would fly no better
-  lighter.drone.mass = std::max(least_part * drone.mass, drone.mass - model.dropped_mass);
+  std::optional<Design> lighter;
+  if (model.dropped_mass != 0) {
+    constexpr double least_part = 0.1;  // of the drone that stays: less would fly no better
+    lighter = model.design;
+    lighter->drone.mass = std::max(least_part * drone.mass, drone.mass - model.dropped_mass);
+  }
 
   std::vector<double> power(log.time.size());
   const double duration = log.time.back() - log.time.front();
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
-    const bool dropped = model.dropped_mass != 0 && log.time[i] >= model.drop_time;
-    const SteadyFlight steady(dropped ? lighter : model.design, state_at(model, log, i));
+    const bool dropped = lighter && log.time[i] >= model.drop_time;
+    const SteadyFlight steady(dropped ? *lighter : model.design, state_at(model, log, i));
     const double weight = steady.weight(radius);
     tan_pitch = steady.tan_pitch(radius, weight, tan_limit, tan_pitch);
     if (!std::isfinite(tan_pitch)) {
