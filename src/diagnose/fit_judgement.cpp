@@ -22,6 +22,15 @@ std::size_t owner_of(const Record& record, std::size_t parameter) {
   return owner;
 }
 
+/// `values` with the first ones of the group.
+std::vector<double> started(const Record& record, std::vector<double> values, std::size_t group) {
+  for (std::size_t k = 0; k < record.problem().groups[group].parameters.size(); ++k) {
+    const std::size_t index = record.first_parameter(group) + k;
+    values[index] = record.parameters()[index].start;
+  }
+  return values;
+}
+
 /// The slopes at the first values by the sizes of the group alone.
 MatrixXd size_slopes(const Record& record, const std::vector<double>& values, std::size_t group) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
@@ -92,11 +101,7 @@ class PlaceGains {
         inverse_(symmetric_pseudo_inverse(free_.transpose() * free_)) {}
 
   [[nodiscard]] double at(std::size_t parameter, double place) const {
-    std::vector<double> values = fit_.values;
-    for (std::size_t k = 0; k < record_.problem().groups[group_].parameters.size(); ++k) {
-      const std::size_t index = record_.first_parameter(group_) + k;
-      values[index] = record_.parameters()[index].start;
-    }
+    std::vector<double> values = started(record_, fit_.values, group_);
     values[parameter] = place;
     MatrixXd slopes = group_slopes(record_, {group_}, values);
     slopes = weight_.asDiagonal() * slopes;
@@ -179,12 +184,7 @@ void add(BlockSums& total, const BlockSums& part, double sign) {
 }  // namespace
 
 MatrixXd slopes_at_start(const Record& record, std::vector<double> values, std::size_t group) {
-  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    const std::size_t index = record.first_parameter(group) + k;
-    values[index] = record.parameters()[index].start;
-  }
-  return group_slopes(record, {group}, values);
+  return group_slopes(record, {group}, started(record, std::move(values), group));
 }
 
 double gain_percent(double before, double after) {
@@ -277,12 +277,14 @@ void place_fitted(Record& record) {
   Groups placed;
   for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
     if (!record.problem().groups[g].fitted) continue;
-    (chances(record.problem().groups[g]) > 1 ? placed : others.groups).push_back(g);
+    (is_placed(record.problem().groups[g]) ? placed : others.groups).push_back(g);
   }
   if (placed.empty()) return;
   const BlockFit fit = fit_blocks(record, others, nullptr);
   for (const std::size_t g : placed) choose_places(record, fit, g);
 }
+
+bool is_placed(const ParameterGroup& group) { return chances(group) > 1; }
 
 double chances(const ParameterGroup& group) {
   double count = 1;
@@ -364,7 +366,7 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     candidate.gain_se_percent = gained.se;
     candidate.freed = neutral_fit(record);
     add_fit(record, freed, {}, candidate.freed);
-    if (chances(record.problem().groups[g]) > 1) {
+    if (is_placed(record.problem().groups[g])) {
       add_place_error(record, fit, freed, g, candidate.freed);
     }
   }

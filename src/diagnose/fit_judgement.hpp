@@ -50,6 +50,9 @@ void place_fitted(Record& record);
 /// So many places were to choose from; 1 for most groups.
 [[nodiscard]] double chances(const ParameterGroup& group);
 
+/// Whether there is a choice.
+[[nodiscard]] bool is_placed(const ParameterGroup& group);
+
 /// Writes into `all` the standard error of a parameter of the group that stays at its place, which
 /// `fit` does not know: moving it by that much costs, beside the fit without the group, what moving
 /// the group's size by one standard error does.

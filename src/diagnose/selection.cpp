@@ -111,8 +111,6 @@ class Search {
     return record_.problem().groups[g];
   }
 
-  [[nodiscard]] bool is_placed(std::size_t g) const { return chances(group(g)) > 1; }
-
   /// Whether one of `selected` describes in more detail what the group does.
   [[nodiscard]] bool is_replaced(std::size_t g, const Groups& selected) const {
     return std::any_of(selected.begin(), selected.end(),
@@ -263,7 +261,7 @@ class Search {
   /// Where each candidate promises most beside what has been found.
   void place_candidates() {
     for (const std::size_t g : candidates()) {
-      if (is_placed(g)) choose_places(record_, current_, g);
+      if (is_placed(group(g))) choose_places(record_, current_, g);
     }
   }
 
@@ -282,7 +280,7 @@ class Search {
   /// `selected`, with those that have places where they promise most beside the others.
   [[nodiscard]] BlockFit placed_fit(const Groups& selected) {
     for (const std::size_t g : selected) {
-      if (is_placed(g)) choose_places(record_, fit(without_group(selected, g), nullptr), g);
+      if (is_placed(group(g))) choose_places(record_, fit(without_group(selected, g), nullptr), g);
     }
     return fit(selected, nullptr);
   }
@@ -290,13 +288,14 @@ class Search {
   /// Puts other candidates in the place of names with a place as long as that lowers the held-out
   /// error: a wave may have been the best single name for what is a step beside another.
   void exchange() {
-    if (std::none_of(selected_.begin(), selected_.end(), [&](auto g) { return is_placed(g); })) {
+    if (std::none_of(selected_.begin(), selected_.end(),
+                     [&](auto g) { return is_placed(group(g)); })) {
       return;
     }
     for (bool exchanged = true; exchanged;) {
       exchanged = false;
       for (const std::size_t out : Groups(selected_)) {
-        if (!is_placed(out)) continue;
+        if (!is_placed(group(out))) continue;
         for (const std::size_t in : candidates()) {
           if (exchanged) break;
           const Groups trial = with_group(selected_without(out), in);
@@ -360,9 +359,9 @@ class Search {
       const BlockDifference better = difference(current_.block_error, best->block_error);
       const double earned = without.squared_error() - current_.squared_error();
       // A moment that was looked for fits whatever happened then: the better shape of it counts.
-      const bool outdone = is_placed(g) ? better.sum > 0
-                                        : better.sum > student_factor_ * better.se &&
-                                              better.sum > outdone_gain * earned;
+      const bool outdone = is_placed(group(g)) ? better.sum > 0
+                                               : better.sum > student_factor_ * better.se &&
+                                                     better.sum > outdone_gain * earned;
       if (!outdone) continue;
 
       Groups shapes = unnamed_;
@@ -460,7 +459,7 @@ class Search {
     const BlockFit& complete = disturbed ? current_ : before;
     result.complete = model_fit(complete);
     for (const std::size_t g : selected_) {
-      if (!is_placed(g)) continue;
+      if (!is_placed(group(g))) continue;
       const BlockFit without = fit(selected_without(g), complete.freed.unnamed, &complete);
       add_place_error(record_, without, complete, g, result.complete);
     }
@@ -479,7 +478,8 @@ class Search {
       const BlockDifference excess = difference(rival.block_error, current_.block_error);
       // A step at the very beginning is all but steady: it puts what is steady in doubt only where
       // it does clearly better.
-      const double allowed = is_placed(c) && !is_placed(g) ? -student_factor_ : student_factor_;
+      const double allowed =
+          is_placed(group(c)) && !is_placed(group(g)) ? -student_factor_ : student_factor_;
       if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
           excess.sum <= allowed * excess.se) {
         found.emplace_back(rival.squared_error(), c);

@@ -122,7 +122,7 @@ class SubsetSearch {
     base_ = model({}, {}, nullptr);
     best_ = base_;
     for (const std::size_t g : candidates_) {
-      if (chances(problem_.groups[g]) > 1) choose_places(record_, base_.fit, g);
+      if (is_placed(problem_.groups[g])) choose_places(record_, base_.fit, g);
     }
     find_aliased(base_, false);
     for (const Selection::Aliased& a : aliased_) std::erase(candidates_, a.group);
@@ -357,7 +357,7 @@ class SubsetSearch {
     result.extended = model_fit(record_, named);
     result.complete = model_fit(record_, best_.fit);
     for (const std::size_t g : best_.named) {
-      if (chances(problem_.groups[g]) > 1) {
+      if (is_placed(problem_.groups[g])) {
         add_place_error(record_, best_without(g).fit, best_.fit, g, result.complete);
       }
     }
