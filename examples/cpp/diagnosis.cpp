@@ -7,7 +7,7 @@ using namespace tethercalc;
 
 int main(int, char** argv) {
   DiagnosisQuestion question{read_design(argv[1]).design};
-  question.flight = {read_flight_log(argv[2]).log};
+  question.flight = {.flights = {{read_flight_log(argv[2]).log}}};
   const DiagnosisStudy study = study_diagnosis(question);
   for (const Finding& finding : study.flight->findings) {
     std::printf("found: %s, %.1f %% of the error\n", finding.title.c_str(), finding.gain_percent);

@@ -75,7 +75,7 @@ class Command {
   Command& flight(FlightOptions& flight) {
     option("--mass-g", flight.mass_g, "Mass of the drone as flown, in g");
     option("--from", flight.from, "First sample: seconds (120) or percent (25%)");
-    option("--to", flight.to, "Last sample; with neither, the moving part is used");
+    option("--to", flight.to, "Last sample; with neither, what is flown is used");
     option("--pitch-offset-deg", flight.pitch_offset_deg,
            "Pitch that the log shows in level flight, nose-up");
     option("--trim-log", flight.trim_log, "Hover flight whose mean pitch is that offset");
@@ -91,7 +91,7 @@ class Command {
   Command& logs(
       DiagnoseOptions& logs, const char* flight_help, const char* power_help,
       const char* base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]") {
-    return option("--flight", logs.flight_log, flight_help)
+    return repeatable("--flight", logs.flight_logs, flight_help)
         .option("--power", logs.power_log, power_help)
         .comma_list("--base", logs.base, base_help)
         .flight(logs.flight);
@@ -248,7 +248,9 @@ class CommandLine {
           return run_diagnose(diagnose_, output_);
         })
         .spec(diagnose_.spec)
-        .logs(diagnose_, "Flight log: DataFlash (.bin) or CSV", "Power log (CSV)")
+        .logs(diagnose_,
+              "Flight log: DataFlash (.bin) or CSV; repeatable, for flights of one drone",
+              "Power log (CSV)")
         .option_or_flag("--into", diagnose_.into_file,
                         "Write the extended spec to this file; without a name print it instead of "
                         "the diagnosis")

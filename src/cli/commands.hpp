@@ -135,7 +135,7 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
 
 struct DiagnoseOptions {
   SpecOptions spec;
-  std::string flight_log;
+  std::vector<std::string> flight_logs;  ///< flights of one drone
   std::string power_log;
   std::vector<std::string> base;  ///< ids of effects that are part of the base model
   FlightOptions flight;

@@ -58,6 +58,11 @@ Figure log(const PlotOptions& options) {
   }
 }
 
+/// That of the only one, or how many there are.
+std::string name_of_flights(const std::vector<std::string>& files) {
+  return files.size() == 1 ? base_name(files.front()) : std::to_string(files.size()) + " flights";
+}
+
 Figure drag(const PlotOptions& options) {
   const std::vector<std::string> views{"speed", "surface"};
   const bool surface = options.view == "surface";
@@ -66,9 +71,7 @@ Figure drag(const PlotOptions& options) {
                      fmt::format("\"{}\" is no view of drag; allowed are speed and surface{}",
                                  options.view, did_you_mean(options.view, views)));
   }
-  const std::string name = options.files.size() == 1
-                               ? base_name(options.files.front())
-                               : std::to_string(options.files.size()) + " flights";
+  const std::string name = name_of_flights(options.files);
   const DragStudy fitted =
       studied_drag(heading(options, name), options.files, options.made_of.flight);
   return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
@@ -76,14 +79,14 @@ Figure drag(const PlotOptions& options) {
 
 Figure diagnosis(const PlotOptions& options) {
   const DiagnoseOptions& how = options.made_of;
-  if (how.flight_log.empty() == how.power_log.empty()) {
+  if (how.flight_logs.empty() == how.power_log.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }
-  const std::string& log = how.power_log.empty() ? how.flight_log : how.power_log;
+  const std::string log =
+      how.power_log.empty() ? name_of_flights(how.flight_logs) : base_name(how.power_log);
   const ToldDiagnosis told = diagnose_logs(how, titled_spec(options));
   try {
-    return diagnosis_figure(heading(options, base_name(log)),
-                            told.flight ? *told.flight : *told.power);
+    return diagnosis_figure(heading(options, log), told.flight ? *told.flight : *told.power);
   } catch (const std::invalid_argument& error) {
     throw InputError(log, error.what());
   }
@@ -169,7 +172,7 @@ DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
   FlightOptions flight = options.flight;
   if (!flight.mass_g) flight.mass_g = design.drone.mass / unit::gram;
   if (!air_density(flight)) flight.air_density_kg_m3 = design.flight.air_density;
-  return studied_drag(base_name(options.flight_log), {options.flight_log}, flight);
+  return studied_drag(name_of_flights(options.flight_logs), options.flight_logs, flight);
 }
 
 std::string shell_word(std::string_view word) {
@@ -218,10 +221,11 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   content.file = file;
   content.command = command;
   content.gnuplot = run_gnuplot;
-  if (!options.flight_log.empty()) content.drag = learn_drag(options, file.design);
-  if (!options.flight_log.empty() || !options.power_log.empty()) {
+  if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
+  if (!options.flight_logs.empty() || !options.power_log.empty()) {
     const ToldDiagnosis told = diagnose_logs(options, file);
-    if (told.flight) content.diagnoses.push_back({base_name(options.flight_log), *told.flight});
+    if (told.flight)
+      content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
   }
   content.motors = compare_motors(file.design, library_motors());

@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -81,7 +82,7 @@ void check_base(const DiagnoseOptions& options) {
   std::vector<std::string> known;
   for (const Effect& effect : effect_catalogue()) {
     const bool given =
-        effect.log == LogKind::flight ? !options.flight_log.empty() : !options.power_log.empty();
+        effect.log == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
     if (given) known.push_back(effect.id);
   }
   for (const std::string& id : options.base) {
@@ -98,7 +99,7 @@ void check_base(const DiagnoseOptions& options) {
   }
 }
 
-LoggedFlight read_flight(const DiagnoseOptions& options, std::vector<std::string>& notes) {
+LoggedFlight read_flights(const DiagnoseOptions& options, std::vector<std::string>& notes) {
   LoggedFlight flight;
   flight.mass = flown_mass(options.flight);
   flight.air_density = air_density(options.flight);
@@ -106,14 +107,24 @@ LoggedFlight read_flight(const DiagnoseOptions& options, std::vector<std::string
   flight.options.pitch_offset = pitch_offset(options.flight);
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
-  FlightLogReading reading = read_flight_log(
-      options.flight_log, {.core = options.flight.core, .level_where_missing = true});
-  notes = std::move(reading.notes);
-  flight.log = std::move(reading.log);
-  try {
-    if (from || to) flight.options.range = select_range(flight.log, from, to);
-  } catch (const std::invalid_argument& error) {
-    throw InputError(options.flight_log, error.what());
+  for (const std::string& name : options.flight_logs) {
+    FlightLogReading reading =
+        read_flight_log(name, {.core = options.flight.core, .level_where_missing = true});
+    const bool several = options.flight_logs.size() > 1;
+    if (several) {
+      notes.push_back(fmt::format("flight {} is {}", flight.flights.size() + 1, name));
+    }
+    for (const std::string& note : reading.notes) {
+      notes.push_back(several ? fmt::format("flight {}: {}", flight.flights.size() + 1, note)
+                              : note);
+    }
+    MeasuredFlight& measured =
+        flight.flights.emplace_back(MeasuredFlight{std::move(reading.log), {}});
+    try {
+      if (from || to) measured.range = select_range(measured.log, from, to);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(name, error.what());
+    }
   }
   return flight;
 }
@@ -125,7 +136,9 @@ DiagnosisStudy studied(const DiagnoseOptions& options, const DiagnosisQuestion& 
     return study;
   } catch (const UnsuitableLog& error) {
     clear_progress();
-    throw InputError(error.kind() == LogKind::flight ? options.flight_log : options.power_log,
+    throw InputError(error.kind() == LogKind::flight
+                         ? fmt::format("{}", fmt::join(options.flight_logs, ", "))
+                         : options.power_log,
                      error.what());
   }
 }
@@ -155,7 +168,9 @@ void tell(const ToldDiagnosis& told, const Output& output) {
 /// Refuses to write the extended spec over what it is made from.
 void check_into(const DiagnoseOptions& options) {
   if (options.into_file.empty()) return;
-  for (const std::string& read : {options.spec.file, options.flight_log, options.power_log}) {
+  std::vector<std::string> inputs = options.flight_logs;
+  inputs.insert(inputs.end(), {options.spec.file, options.power_log});
+  for (const std::string& read : inputs) {
     std::error_code ignored;
     if (std::filesystem::equivalent(options.into_file, read, ignored)) {
       throw InputError(
@@ -301,13 +316,13 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
 }
 
 ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
-  if (options.flight_log.empty() && options.power_log.empty()) {
+  if (options.flight_logs.empty() && options.power_log.empty()) {
     throw InputError("diagnose", "needs a measured log: --flight LOG, --power LOG or both");
   }
   check_base(options);
   DiagnosisQuestion question{file.design};
   std::vector<std::string> notes;
-  if (!options.flight_log.empty()) question.flight = read_flight(options, notes);
+  if (!options.flight_logs.empty()) question.flight = read_flights(options, notes);
   if (!options.power_log.empty()) {
     question.power = {read_power_log(options.power_log), base_effects(options, LogKind::power)};
   }

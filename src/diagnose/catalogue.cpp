@@ -143,6 +143,7 @@ std::vector<Effect> flight_effects() {
                       "wind averages out",
        .change = "θ → θ + trim (pitch positive nose-up, θ positive leaning forward)",
        .channel = "tilt",
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::attitude,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -176,6 +177,7 @@ std::vector<Effect> flight_effects() {
                       "belongs to the drone does not",
        .change = "u = v − w",
        .channel = "forward_speed",
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -194,6 +196,7 @@ std::vector<Effect> flight_effects() {
        .aliased_because =
            "the yaw hardly turns in this flight, where a wind over ground is a steady headwind",
        .replaces = "wind",
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -212,6 +215,7 @@ std::vector<Effect> flight_effects() {
        .to_separate = "repeat the first passes at the end of the flight",
        .change = "w → w + d·(t − t_middle)/duration: d is the change over the whole flight",
        .channel = "time",
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -297,6 +301,7 @@ std::vector<Effect> flight_effects() {
                       "turns with it",
        .change = "F_D → F_D − (F_a cos(ψ − ψ̄) + F_r sin(ψ − ψ̄)), ψ̄ the mean heading",
        .channel = "yaw",
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::force,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -321,6 +326,7 @@ std::vector<Effect> flight_effects() {
        .change = "w → w + Δw_a cos(ψ − ψ̄) + Δw_r sin(ψ − ψ̄) from the time on, ψ̄ the mean heading",
        .channel = "time",
        .least_gain_factor = 5,
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -348,6 +354,7 @@ std::vector<Effect> flight_effects() {
        .change = "w → w + a cos(2πt/T) + b sin(2πt/T), t from the middle of the flight",
        .channel = "time",
        .least_gain_factor = 5,
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -379,6 +386,7 @@ std::vector<Effect> flight_effects() {
        .change = "m → m·(1 − x) from the time on",
        .channel = "time",
        .least_gain_factor = 5,
+       .own_in_each_flight = true,
        .flight_phase = FlightPhase::force,
        .on_flight =
            [](FlightPrediction& p, Values x) {

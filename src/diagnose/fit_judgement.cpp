@@ -44,6 +44,29 @@ MatrixXd size_slopes(const Record& record, const std::vector<double>& values, st
   return slopes_at_start(record, values, group)(Eigen::all, sizes);
 }
 
+/// What least squares knows of a column beside others: the part of its square that is its own.
+double own_information(const MatrixXd& gram, const VectorXd& cross, double square) {
+  return square - cross.dot(symmetric_pseudo_inverse(gram) * cross);
+}
+
+/// The largest part of that which one block has.
+double largest_share(const Record& record, const MatrixXd& others, const VectorXd& column) {
+  const MatrixXd gram = others.transpose() * others;
+  const VectorXd cross = others.transpose() * column;
+  const double square = column.squaredNorm();
+  const double all = own_information(gram, cross, square);
+  if (!(all > 0)) return 0;
+  double least_left = all;
+  for (std::size_t b = 0; b < record.blocks(); ++b) {
+    const MatrixXd rows = others.middleRows(record.block_begin(b), record.block_size(b));
+    const VectorXd part = column.segment(record.block_begin(b), record.block_size(b));
+    least_left = std::min(
+        least_left, own_information(gram - rows.transpose() * rows, cross - rows.transpose() * part,
+                                    square - part.squaredNorm()));
+  }
+  return 1 - least_left / all;
+}
+
 /// The sizes of the group by one step of weighted least squares beside what is free in the fit.
 std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit,
                                        std::size_t group) {
@@ -77,6 +100,12 @@ std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit
     size.parameter = record.first_parameter(group) + k;
     size.value = own[k].neutral + own[k].scale * whole[column];
     size.standard_error = own[k].scale * std::sqrt(covariance(column, column));
+    std::vector<Index> others;
+    for (Index c = 0; c < slopes.cols(); ++c) {
+      if (c != column) others.push_back(c);
+    }
+    size.largest_block_share =
+        largest_share(record, slopes(Eigen::all, others), slopes.col(column));
     const auto base = std::find(fit.active.begin(), fit.active.end(), own[k].product_with);
     if (base == fit.active.end()) continue;
     const Index base_column = base - fit.active.begin();
@@ -187,6 +216,11 @@ MatrixXd slopes_at_start(const Record& record, std::vector<double> values, std::
   return group_slopes(record, {group}, started(record, std::move(values), group));
 }
 
+double degrees_of_freedom(const Record& record, std::size_t group) {
+  const std::size_t own = record.problem().groups[group].blocks;
+  return static_cast<double>((own > 0 ? own : record.blocks()) - 1);
+}
+
 double gain_percent(double before, double after) {
   return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
 }
@@ -294,6 +328,28 @@ double chances(const ParameterGroup& group) {
   return count;
 }
 
+double largest_block_share(const Record& record, const BlockFit& fit, std::size_t group) {
+  const VectorXd weight = fit.weight.cwiseSqrt();
+  const std::size_t first = record.first_parameter(group);
+  const std::size_t last = first + record.problem().groups[group].parameters.size();
+  VectorXd column = VectorXd::Zero(fit.jacobian.rows());
+  std::vector<Index> others;
+  for (Index k = 0; k < fit.jacobian.cols(); ++k) {
+    const std::size_t parameter = static_cast<std::size_t>(k) < fit.active.size()
+                                      ? fit.active[static_cast<std::size_t>(k)]
+                                      : last;
+    if (parameter < first || parameter >= last) {
+      others.push_back(k);
+      continue;
+    }
+    const ModelParameter& p = record.parameters()[parameter];
+    if (p.shape_only) continue;
+    column +=
+        (fit.values[parameter] - p.neutral) / p.scale * weight.cwiseProduct(fit.jacobian.col(k));
+  }
+  return largest_share(record, weight.asDiagonal() * fit.jacobian(Eigen::all, others), column);
+}
+
 void add_place_error(const Record& record, const BlockFit& without, const BlockFit& fit,
                      std::size_t group, ModelFit& all) {
   const std::size_t first = record.first_parameter(group);
@@ -335,7 +391,6 @@ void add_place_error(const Record& record, const BlockFit& without, const BlockF
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
                                         const Selection& found,
                                         const std::function<BlockFit(std::size_t)>& with) {
-  const auto degrees = static_cast<double>(record.blocks() - 1);
   Groups candidates;
   for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
     const auto is_told = [g](const SelectedGroup& s) {
@@ -355,15 +410,17 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     candidate.sizes = sizes_beside(record, fit, g);
     for (const SizeEstimate& size : candidate.sizes) {
       const double offset = size.value - record.parameters()[size.parameter].neutral;
-      const double p = 2 * student_tail(std::abs(offset) / size.standard_error, degrees) *
-                       static_cast<double>(candidate.sizes.size() * candidates.size()) *
-                       chances(record.problem().groups[g]);
+      const double p =
+          2 * student_tail(std::abs(offset) / size.standard_error, degrees_of_freedom(record, g)) *
+          static_cast<double>(candidate.sizes.size() * candidates.size()) *
+          chances(record.problem().groups[g]);
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
     }
     const BlockFit freed = with(g);
     const Gain gained = gain_between(fit, freed);
     candidate.gain_percent = gained.percent;
     candidate.gain_se_percent = gained.se;
+    candidate.largest_block_share = largest_block_share(record, freed, g);
     candidate.freed = neutral_fit(record);
     add_fit(record, freed, {}, candidate.freed);
     if (is_placed(record.problem().groups[g])) {
@@ -435,7 +492,9 @@ Selection nothing_selected(const Record& record, const SelectionOptions& options
   Selection nothing;
   nothing.rows = static_cast<std::size_t>(record.rows());
   nothing.blocks = record.blocks();
-  nothing.student_factor = student_quantile(static_cast<double>(record.blocks() - 1), 0.975);
+  for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
+    nothing.student_factor.push_back(student_quantile(degrees_of_freedom(record, g), 0.975));
+  }
   nothing.least_gain_percent = options.least_gain_percent;
   return nothing;
 }

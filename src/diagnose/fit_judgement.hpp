@@ -10,6 +10,9 @@
 
 namespace tethercalc {
 
+/// Student's degrees of freedom of what is said of the group: one less than it has blocks.
+[[nodiscard]] double degrees_of_freedom(const Record& record, std::size_t group);
+
 /// A rival must remove at least this part of what the selected effect does.
 inline constexpr double rival_gain = 0.5;
 
@@ -52,6 +55,17 @@ void place_fitted(Record& record);
 
 /// Whether there is a choice.
 [[nodiscard]] bool is_placed(const ParameterGroup& group);
+
+/// A block that holds more of what a record knows cannot be stood for by the others: without it
+/// the error would be more than three times as large, and the spread between blocks says nothing of
+/// what only one of them shows.
+inline constexpr double most_of_one_block = 0.9;
+
+/// Of what the record knows of the group's change of the prediction, as fitted, beside all else
+/// that is free in `fit`, the part that the block has which knows most. 0 where the group is at its
+/// neutral values.
+[[nodiscard]] double largest_block_share(const Record& record, const BlockFit& fit,
+                                         std::size_t group);
 
 /// Writes into `all` the standard error of a parameter of the group that stays at its place, which
 /// `fit` does not know: moving it by that much costs, beside the fit without the group, what moving

@@ -51,7 +51,10 @@ double mark_stuck(const std::vector<double>& series, const std::vector<double>& 
   double total = 0;
   for (std::size_t i = range.first; i < range.last;) {
     std::size_t last = i;
-    while (last + 1 < range.last && series[last + 1] == series[i]) ++last;
+    while (last + 1 < range.last && series[last + 1] == series[i] &&
+           time[last + 1] - time[last] < stuck_after) {
+      ++last;
+    }
     const double duration = time[last] - time[i];
     if (duration >= stuck_after) {
       std::fill(bad.begin() + static_cast<std::ptrdiff_t>(i),
@@ -90,15 +93,11 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
   return faults;
 }
 
-void check_flight_units(const FlightRecord& flight, const std::vector<double>& forward_acceleration,
-                        double step) {
-  const auto stuck = [&flight](double tilt) { return tilt == flight.tilt.front(); };
-  if (std::all_of(flight.tilt.begin(), flight.tilt.end(), stuck)) {
-    throw UnsuitableFlight(
-        "the pitch never moves, as if its sensor were stuck: nothing can be predicted from it");
-  }
+std::optional<Leaning> leaning_over_a_second(const FlightRecord& flight,
+                                             const std::vector<double>& forward_acceleration,
+                                             double step) {
   const auto lag = static_cast<std::size_t>(std::max(1.0, std::round(1 / step)));
-  if (flight.size() < 10 * lag) return;  // too short to judge, which is told elsewhere
+  if (flight.size() < 10 * lag) return std::nullopt;
   const auto by_force = [&](std::size_t i) {
     return forward_acceleration[i] - flight.turn_acceleration[i];
   };
@@ -110,15 +109,27 @@ void check_flight_units(const FlightRecord& flight, const std::vector<double>& f
     leaning += expected * expected;
     measured += seen * seen;
   }
-  if (!(leaning > 0 && measured > 0)) return;
+  if (!(leaning > 0 && measured > 0)) return std::nullopt;
+  return Leaning{both / std::sqrt(leaning * measured), both / leaning,
+                 std::sqrt(leaning / measured)};
+}
+
+void check_flight_units(const FlightRecord& flight, const std::vector<double>& forward_acceleration,
+                        double step) {
+  const auto stuck = [&flight](double tilt) { return tilt == flight.tilt.front(); };
+  if (std::all_of(flight.tilt.begin(), flight.tilt.end(), stuck)) {
+    throw UnsuitableFlight(
+        "the pitch never moves, as if its sensor were stuck: nothing can be predicted from it");
+  }
+  const std::optional<Leaning> found = leaning_over_a_second(flight, forward_acceleration, step);
+  if (!found) return;  // too short to judge, which is told elsewhere
+  const auto [correlation, slope, size] = *found;
   constexpr double level = 0.1;
-  if (std::sqrt(leaning / measured) < level) {
+  if (size < level) {
     throw UnsuitableFlight(
         "the pitch is far too level for the logged accelerations; are the angles in radians?");
   }
   constexpr double clear = 0.5;  // real flights have correlations of 0.8 to 0.95
-  const double correlation = both / std::sqrt(leaning * measured);
-  const double slope = both / leaning;
   if (correlation < -clear) {
     throw UnsuitableFlight(
         "the drone speeds up when its pitch rises: pitch must be positive nose-up");

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "diagnose/fit_judgement.hpp"
 #include "diagnose/flight_prediction.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
@@ -64,9 +65,8 @@ constexpr double much = 5;
 
 using Interval = std::pair<double, double>;
 
-Interval symmetric_interval(const ModelFit& fit, std::size_t parameter,
-                            const Selection& selection) {
-  const double half = selection.student_factor * fit.standard_error[parameter];
+Interval symmetric_interval(const ModelFit& fit, std::size_t parameter, double student_factor) {
+  const double half = student_factor * fit.standard_error[parameter];
   return {fit.values[parameter] - half, fit.values[parameter] + half};
 }
 
@@ -97,7 +97,7 @@ Interval fieller(const Ratio& r, double student_factor) {
 
 /// Of a ratio p = b/a that was fitted beside the parameter a, by its product b with that.
 Interval ratio_interval(const ModelFit& fit, std::size_t parameter, std::size_t of,
-                        const Selection& selection) {
+                        double student_factor) {
   const double p = fit.values[parameter];
   const double a = fit.values[of];
   const double var_p = fit.standard_error[parameter] * fit.standard_error[parameter];
@@ -105,14 +105,14 @@ Interval ratio_interval(const ModelFit& fit, std::size_t parameter, std::size_t 
   const double cov_pa = fit.product_covariance[parameter];
   return fieller(
       {a * p, a, a * a * var_p + 2 * a * p * cov_pa + p * p * var_a, var_a, a * cov_pa + p * var_a},
-      selection.student_factor);
+      student_factor);
 }
 
 /// Of a size that is not freed.
-Interval size_interval(const SizeEstimate& size, const Selection& selection) {
+Interval size_interval(const SizeEstimate& size, double student_factor) {
   return fieller({size.value, size.base, size.standard_error * size.standard_error,
                   size.base_error * size.base_error, size.covariance},
-                 selection.student_factor);
+                 student_factor);
 }
 
 /// The parameters of the groups that are fitted, and of those that left their neutral values.
@@ -126,11 +126,12 @@ std::vector<ParameterEstimate> estimates(const LogModel& log, const Selection& s
     if (!(bounds.lower < bounds.upper)) continue;
     const std::size_t index = log.first_parameter(group) + k;
     const double value = fit.values[index];
+    const double student = selection.student_factor[group];
     const auto [lower, upper] = bounds.product_with
-                                    ? ratio_interval(fit, index, *bounds.product_with, selection)
-                                    : symmetric_interval(fit, index, selection);
+                                    ? ratio_interval(fit, index, *bounds.product_with, student)
+                                    : symmetric_interval(fit, index, student);
     result.push_back({p.name, value / p.unit_SI, p.unit, std::max(lower, bounds.lower) / p.unit_SI,
-                      std::min(upper, bounds.upper) / p.unit_SI});
+                      std::min(upper, bounds.upper) / p.unit_SI, log.flight_of(group)});
   }
   return result;
 }
@@ -155,6 +156,7 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
   const Effect& effect = log.effect(found.group);
   Finding finding;
   finding.effect = effect.id;
+  finding.flight = log.flight_of(found.group);
   finding.title = effect.title;
   finding.mechanism = effect.mechanism;
   finding.stage = to_string(effect.stage);
@@ -166,9 +168,9 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
   std::vector<std::string> separators;
   for (const std::size_t g : found.indistinguishable) {
     const Effect& rival = log.effect(g);
-    finding.indistinguishable_from.push_back(rival.id);
+    finding.indistinguishable_from.push_back(log.name(g));
     if (rival.to_separate == effect.to_separate) continue;
-    separators.push_back(fmt::format("{}: {}", rival.id, rival.to_separate));
+    separators.push_back(fmt::format("{}: {}", log.name(g), rival.to_separate));
   }
   // Where effects of a kind are told apart in one way, that is said once.
   if (separators.size() < found.indistinguishable.size()) {
@@ -180,8 +182,8 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
 
 FindingTrace trace_of(const LogModel& log, const Selection& selection, std::size_t group) {
   FindingTrace trace;
-  trace.series = log.series(log.effect(group));
-  trace.channel = log.channel(log.effect(group));
+  trace.series = log.series(group);
+  trace.channel = log.channel(group);
   std::vector<double> values = selection.complete.values;
   trace.with = log.left_by(trace.series, values);
   for (std::size_t k = 0; k < log.effect(group).parameters.size(); ++k) {
@@ -197,17 +199,18 @@ NotIdentifiable not_identifiable(const LogModel& log, const Selection::Aliased& 
   if (!effect.aliased_because.empty()) {
     because = effect.aliased_because;
   } else if (!aliased.with.empty()) {
-    because =
-        fmt::format("in this log it acts like {}", log.problem.groups[aliased.with.front()].id);
+    because = fmt::format("in this log it acts like {}", log.name(aliased.with.front()));
   }
-  return {effect.id, std::move(because)};
+  return {effect.id, std::move(because), log.flight_of(aliased.group)};
 }
 
 std::string what_is_missing(const Effect& effect, const Selection::Open& open, double least_gain) {
-  const bool too_small = open.gain_percent < least_gain;
-  const std::string sure =
-      too_small ? fmt::format("a gain of {:g} % or more, below which nothing is named", least_gain)
-                : "a longer log, until chance cannot explain it";
+  std::string sure = "a longer log, until chance cannot explain it";
+  if (open.gain_percent < least_gain) {
+    sure = fmt::format("a gain of {:g} % or more, below which nothing is named", least_gain);
+  } else if (open.largest_block_share > most_of_one_block) {
+    sure = "more than one stretch of the log that shows it";
+  }
   return effect.to_separate.empty() ? sure : fmt::format("{}; {}", sure, effect.to_separate);
 }
 
@@ -221,15 +224,17 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
     const EffectParameter& p = effect.parameters[size.parameter - first];
     const ModelParameter& m = log.problem.groups[open.group].parameters[size.parameter - first];
     if (!(m.lower < m.upper) || !(size.standard_error > 0)) continue;
-    const auto [low, high] = size_interval(size, selection);
+    if (size.largest_block_share > most_of_one_block) continue;  // has no spread to judge by
+    const double student = selection.student_factor[open.group];
+    const auto [low, high] = size_interval(size, student);
     const double lower = std::clamp(low, m.lower, m.upper);
     const double upper = std::clamp(high, m.lower, m.upper);
     // An interval beyond a bound allows hardly anything, but no less than the error leaves open.
-    const double bound = std::max(
-        {m.neutral - lower, upper - m.neutral, selection.student_factor * size.standard_error});
+    const double bound =
+        std::max({m.neutral - lower, upper - m.neutral, student * size.standard_error});
     const double widest = std::max(m.neutral - m.lower, m.upper - m.neutral);
     if ((low > m.lower || high < m.upper) && bound < widest) {
-      bounds.push_back({effect.id, p.name, bound / p.unit_SI, p.unit});
+      bounds.push_back({effect.id, p.name, bound / p.unit_SI, p.unit, log.flight_of(open.group)});
     }
   }
   // Of what is always there a little, or looked for at many moments, chance shows some.
@@ -242,9 +247,11 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
     diagnosis.suspected.push_back(
         {effect.id, open.gain_percent, open.gain_se_percent,
          estimates(log, selection, open.freed, open.group),
-         what_is_missing(effect, open, selection.least_gain_percent * effect.least_gain_factor)});
+         what_is_missing(effect, open, selection.least_gain_percent * effect.least_gain_factor),
+         log.flight_of(open.group)});
   } else if (bounds.empty()) {
-    diagnosis.not_testable.push_back({effect.id, "a log that shows it: " + effect.to_separate});
+    diagnosis.not_testable.push_back(
+        {effect.id, "a log that shows it: " + effect.to_separate, log.flight_of(open.group)});
   } else {
     for (RuledOut& bound : bounds) diagnosis.ruled_out.push_back(std::move(bound));
   }
@@ -297,29 +304,29 @@ std::vector<double> braking(const FlightRecord& record) {
 
 }  // namespace
 
-LogModel::LogModel(std::span<const double> time) {
-  if (time.empty()) return;
-  begin_ = time.front();
-  end_ = time.back();
-}
-
-void LogModel::add(const Effect& effect, const Design& design, bool fitted) {
+void LogModel::add(const Effect& effect, const Design& design, bool fitted,
+                   std::optional<std::size_t> log) {
   first_.push_back(effects_.empty() ? 0 : first_.back() + effects_.back()->parameters.size());
   ParameterGroup group;
   group.id = effect.id.empty() ? effect.title : effect.id;
+  if (log) group.id += fmt::format(" (flight {})", *log + 1);
   group.fitted = fitted;
   group.least_gain_factor = effect.least_gain_factor;
+  if (log) group.blocks = logs_[*log].blocks;
   for (const EffectParameter& p : effect.parameters) {
     group.parameters.push_back(in_SI(p, design));
-    look_through(p, begin_, end_, group.parameters.back());
+    const Span& span = logs_[log.value_or(0)];
+    look_through(p, span.begin, span.end, group.parameters.back());
     group.parameters.back().shape_only = group.parameters.size() > effect.sizes;
     if (!p.product_with.empty()) group.parameters.back().product_with = index_of(p.product_with);
   }
   for (std::size_t g = 0; g < effects_.size(); ++g) {
+    if (in_log_[g] != log) continue;
     if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) group.replaces = g;
     if (!effect.twin_of.empty() && effects_[g]->id == effect.twin_of) group.twin_of = g;
   }
   effects_.push_back(&effect);
+  in_log_.push_back(log);
   problem.groups.push_back(std::move(group));
 }
 
@@ -338,6 +345,10 @@ bool LogModel::is_neutral(std::size_t group, std::span<const double> values) con
           .first(std::min(effects_[group]->sizes, effects_[group]->parameters.size()));
   return std::equal(sizes.begin(), sizes.end(), problem.groups[group].parameters.begin(),
                     [](double value, const ModelParameter& p) { return value == p.neutral; });
+}
+
+LogModel::Span span_of(std::span<const double> time, std::size_t blocks) {
+  return time.empty() ? LogModel::Span{} : LogModel::Span{time.front(), time.back(), blocks};
 }
 
 void check_base_effects(LogKind kind, std::span<const std::string> ids) {

@@ -2,8 +2,10 @@
 // rows, predictions, and what of them a person is shown.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "diagnose/selection.hpp"
@@ -14,18 +16,40 @@ namespace tethercalc {
 struct FlightRecord;  // diagnose/flight_prediction.hpp
 struct PowerLog;      // diagnose/power_log.hpp
 
-/// One log of some kind. Groups that are no effects of the catalogue, such as drag areas, are
-/// described as such too: an `Effect` without an id, that is always fitted.
+/// Logs of some kind, most often one. Groups that are no effects of the catalogue, such as drag
+/// areas, are described as such too: an `Effect` without an id, that is always fitted.
 class LogModel {
  public:
-  /// `time` of the log's samples in s, rising; may be empty.
-  explicit LogModel(std::span<const double> time);
+  /// When a log begins and ends, s of its clock.
+  struct Span {
+    double begin = 0;
+    double end = 0;
+    std::size_t blocks = 0;  ///< of several logs: so many are its own
+  };
+  /// One log at least.
+  explicit LogModel(std::vector<Span> logs) : logs_(std::move(logs)) {}
   LogModel(const LogModel&) = delete;
   LogModel& operator=(const LogModel&) = delete;
   virtual ~LogModel() = default;
 
-  /// Adds a group for `effect`, which must outlive this; fitted from the start, or a candidate.
-  void add(const Effect& effect, const Design& design, bool fitted);
+  /// Adds a group for `effect`, which must outlive this; fitted from the start, or a candidate. It
+  /// acts in one of the logs, or in all of them alike.
+  void add(const Effect& effect, const Design& design, bool fitted,
+           std::optional<std::size_t> log = std::nullopt);
+
+  [[nodiscard]] std::size_t logs() const { return logs_.size(); }
+  /// The only log that the group acts in; nothing where it acts in all.
+  [[nodiscard]] std::optional<std::size_t> log_of(std::size_t group) const {
+    return in_log_[group];
+  }
+  /// The same for a person: 1, 2, …, or 0 for all.
+  [[nodiscard]] std::size_t flight_of(std::size_t group) const {
+    return in_log_[group] ? *in_log_[group] + 1 : 0;
+  }
+  /// Id or title, with the log that it acts in if that is one of several.
+  [[nodiscard]] const std::string& name(std::size_t group) const {
+    return problem.groups[group].id;
+  }
 
   [[nodiscard]] const Effect& effect(std::size_t group) const { return *effects_[group]; }
   [[nodiscard]] std::span<const Effect* const> effects() const { return effects_; }
@@ -44,20 +68,23 @@ class LogModel {
 
   // --- What is shown of a finding ---
 
-  /// Where the effect acts first, into `Diagnosis::compared`.
-  [[nodiscard]] virtual std::size_t series(const Effect& effect) const = 0;
+  /// Where the effect of the group acts first, into `Diagnosis::compared`.
+  [[nodiscard]] virtual std::size_t series(std::size_t group) const = 0;
   /// The channel that it acts through.
-  [[nodiscard]] virtual Channel channel(const Effect& effect) const = 0;
+  [[nodiscard]] virtual Channel channel(std::size_t group) const = 0;
   /// Measured less predicted with these values, NaN in samples that are left out.
   [[nodiscard]] virtual std::vector<double> left_by(std::size_t series,
                                                     std::span<const double> values) const = 0;
 
  private:
-  double begin_ = 0;  ///< s, of the log
-  double end_ = 0;
+  std::vector<Span> logs_;
+  std::vector<std::optional<std::size_t>> in_log_;
   std::vector<const Effect*> effects_;
   std::vector<std::size_t> first_;
 };
+
+/// Of a log with samples at `time`, rising; empty where there are none.
+[[nodiscard]] LogModel::Span span_of(std::span<const double> time, std::size_t blocks = 0);
 
 /// Throws std::invalid_argument unless each of `ids` is an effect of such logs.
 void check_base_effects(LogKind kind, std::span<const std::string> ids);

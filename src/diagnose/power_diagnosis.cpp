@@ -128,7 +128,7 @@ class PowerLogModel : public LogModel {
   PowerLogModel(const PowerModel& base, const PowerResiduals& residuals,
                 const std::vector<const Effect*>& effects,
                 const std::vector<std::string>& base_effects)
-      : LogModel(residuals.log().time),
+      : LogModel({span_of(residuals.log().time)}),
         base_(base),
         residuals_(residuals),
         cache_(residuals.stages().size()) {
@@ -154,13 +154,13 @@ class PowerLogModel : public LogModel {
   /// After the residuals' noise has changed.
   void forget() { cache_.assign(cache_.size(), {}); }
 
-  [[nodiscard]] std::size_t series(const Effect& effect) const override {
+  [[nodiscard]] std::size_t series(std::size_t group) const override {
     std::size_t stage = 0;
-    while (!acts_on(effect, residuals_.stages()[stage].stage)) ++stage;
+    while (!acts_on(effect(group), residuals_.stages()[stage].stage)) ++stage;
     return stage;
   }
-  [[nodiscard]] Channel channel(const Effect& effect) const override {
-    return power_channel(effect.channel, residuals_.log());
+  [[nodiscard]] Channel channel(std::size_t group) const override {
+    return power_channel(effect(group).channel, residuals_.log());
   }
   [[nodiscard]] std::vector<double> left_by(std::size_t k,
                                             std::span<const double> values) const override {

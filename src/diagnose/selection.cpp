@@ -68,7 +68,7 @@ class Search {
 
   Selection run() {
     Selection result = nothing_selected(record_, options_);
-    student_factor_ = result.student_factor;
+    student_factor_ = student_quantile(degrees_, 0.975);
     tell("fitting the base model");
     place_fitted(record_);
     const BlockFit base = fit(selected_, nullptr);
@@ -174,9 +174,10 @@ class Search {
       }
       distance.back() *= other;
     }
+    const double degrees = degrees_of_freedom(record_, g);
     if (distance.empty()) {
       const BlockDifference gain = difference(without.block_error, with.block_error);
-      return gain.sum > 0 ? 2 * student_tail(gain.sum / gain.se, degrees_) : 1;
+      return gain.sum > 0 ? 2 * student_tail(gain.sum / gain.se, degrees) : 1;
     }
     const auto count = static_cast<Index>(distance.size());
     MatrixXd spread(count, static_cast<Index>(record_.blocks()));
@@ -185,8 +186,9 @@ class Search {
     const MatrixXd covariance = jackknife_covariance(std::move(spread));
     const double t2 = offset.dot(symmetric_pseudo_inverse(covariance) * offset);
     const auto numerator = static_cast<double>(count);
-    const double denominator = degrees_ + 1 - numerator;
-    return fisher_tail(t2 / numerator * denominator / degrees_, numerator, denominator);
+    const double denominator = degrees + 1 - numerator;
+    if (denominator < 1) return 1;  // so few blocks cannot tell so many sizes from chance
+    return fisher_tail(t2 / numerator * denominator / degrees, numerator, denominator);
   }
 
   /// Whether the group lowers the held-out error of the named part alone, too. A name that helps
@@ -207,10 +209,12 @@ class Search {
     const double least_gain = options_.least_gain_percent *
                               (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed) *
                               group(g).least_gain_factor;
-    trial.worth_a_name = gained.percent >= least_gain &&
-                         gained.percent > student_factor_ * gained.se &&
-                         trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
-                             options_.false_alarm_probability;
+    trial.worth_a_name =
+        gained.percent >= least_gain &&
+        gained.percent > student_quantile(degrees_of_freedom(record_, g), 0.975) * gained.se &&
+        trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
+            options_.false_alarm_probability &&
+        largest_block_share(record_, with, g) <= most_of_one_block;
     trial.fit = std::move(with);
     return trial;
   }

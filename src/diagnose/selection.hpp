@@ -46,6 +46,8 @@ struct ParameterGroup {
   bool fitted = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
   double least_gain_factor = 1;              ///< as in `Effect`
+  /// So many blocks it acts in, where it belongs to one of several records; 0 for all.
+  std::size_t blocks = 0;
   /// Index of a group that goes back to neutral when this one is freed, since this one describes
   /// the same thing in more detail; none by default.
   std::optional<std::size_t> replaces{};
@@ -127,6 +129,8 @@ struct SizeEstimate {
   double base = 1;
   double base_error = 0;
   double covariance = 0;
+  /// Of what the record knows of it, the part of the block that knows most.
+  double largest_block_share = 0;
 };
 
 /// What is left and no candidate explains.
@@ -139,11 +143,12 @@ struct UnnamedStructure {
 
 /// The outcome of a search.
 struct Selection {
-  std::size_t rows = 0;       ///< used
-  std::size_t blocks = 0;     ///< with rows in them
-  double student_factor = 0;  ///< half width of a 95 % interval over its standard error
-  ModelFit base;              ///< only the fitted groups free
-  ModelFit extended;          ///< with the selected groups
+  std::size_t rows = 0;    ///< used
+  std::size_t blocks = 0;  ///< with rows in them
+  /// Half width of a 95 % interval over its standard error, for the parameters of each group.
+  std::vector<double> student_factor{};
+  ModelFit base;      ///< only the fitted groups free
+  ModelFit extended;  ///< with the selected groups
   /// The best estimates: with the selected groups and, where it is large (a quarter of the squared
   /// error) and makes the estimates more precise, with the unnamed structure; else the same as
   /// `extended`.
@@ -158,6 +163,8 @@ struct Selection {
     double gain_percent = 0;     ///< of freeing it
     double gain_se_percent = 0;  ///< standard error over blocks
     ModelFit freed{};            ///< with it freed
+    /// Of what the record knows of it as freed, the part of the block that knows most.
+    double largest_block_share = 0;
   };
   std::vector<Open> open{};       ///< in their order
   double least_gain_percent = 0;  ///< that was asked of a name

@@ -164,13 +164,10 @@ SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
   return range;
 }
 
-SampleRange moving_part(const FlightLog& log) {
+std::vector<SampleRange> moving_parts(const FlightLog& log) {
   validate(log);
   const auto& time = log.time;
-  const auto duration = [&time](const SampleRange& r) { return time[r.last - 1] - time[r.first]; };
-
-  SampleRange best;
-  SampleRange part;
+  std::vector<SampleRange> parts;
   for (std::size_t i = 0; i < time.size(); ++i) {
     if (std::abs(forward_speed(log, i)) < moving_speed) continue;
     SampleRange stretch{i, i + 1};
@@ -179,19 +176,33 @@ SampleRange moving_part(const FlightLog& log) {
       ++stretch.last;
     }
     i = stretch.last;
-    if (duration(stretch) < moving_duration) continue;
+    if (time[stretch.last - 1] - time[stretch.first] < moving_duration) continue;
     const bool continues =
-        part.size() > 0 && time[stretch.first] - time[part.last - 1] < longest_pause;
-    part = continues ? SampleRange{part.first, stretch.last} : stretch;
-    if (best.size() == 0 || duration(part) > duration(best)) best = part;
+        !parts.empty() && time[stretch.first] - time[parts.back().last - 1] < longest_pause;
+    if (continues) {
+      parts.back().last = stretch.last;
+    } else {
+      parts.push_back(stretch);
+    }
   }
-  if (best.size() == 0) {
+  if (parts.empty()) {
     throw UnsuitableFlight(
         fmt::format("the drone never flies forward or backward at {} m/s for {} s: there is no "
                     "drag to learn from; give a flight with passes in both directions, or a range",
                     moving_speed, moving_duration));
   }
-  return best;
+  return parts;
+}
+
+SampleRange moving_part(const FlightLog& log) {
+  const std::vector<SampleRange> parts = moving_parts(log);
+  return *std::max_element(parts.begin(), parts.end(),
+                           [&log](const SampleRange& a, const SampleRange& b) {
+                             const auto duration = [&log](const SampleRange& part) {
+                               return log.time[part.last - 1] - log.time[part.first];
+                             };
+                             return duration(a) < duration(b);
+                           });
 }
 
 double pitch_offset_from_hover(const FlightLog& hover) {

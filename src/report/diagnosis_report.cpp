@@ -12,27 +12,35 @@ namespace tethercalc {
 
 namespace {
 
+/// With the number of the flight, where it belongs to one of several.
+ordered_json of_flight(ordered_json told, std::size_t flight) {
+  if (flight > 0) told["flight"] = flight;
+  return told;
+}
+
 ordered_json parameters_json(const std::vector<ParameterEstimate>& parameters) {
   return json_list(parameters, [](const ParameterEstimate& p) {
-    return ordered_json{{"name", p.name},
-                        {"value", number_or_null(p.value)},
-                        {"unit", p.unit},
-                        {"ci95", {number_or_null(p.ci95_lower), number_or_null(p.ci95_upper)}}};
+    return of_flight({{"name", p.name},
+                      {"value", number_or_null(p.value)},
+                      {"unit", p.unit},
+                      {"ci95", {number_or_null(p.ci95_lower), number_or_null(p.ci95_upper)}}},
+                     p.flight);
   });
 }
 
 ordered_json finding_json(const Finding& f) {
-  return {{"effect", f.effect},
-          {"title", f.title},
-          {"mechanism", f.mechanism},
-          {"stage", f.stage},
-          {"parameters", parameters_json(f.parameters)},
-          {"holdout_rmse_before", number_or_null(f.holdout_rmse_before)},
-          {"holdout_rmse_after", number_or_null(f.holdout_rmse_after)},
-          {"gain_percent", number_or_null(f.gain_percent)},
-          {"gain_se_percent", number_or_null(f.gain_se_percent)},
-          {"indistinguishable_from", f.indistinguishable_from},
-          {"to_separate", f.to_separate}};
+  return of_flight({{"effect", f.effect},
+                    {"title", f.title},
+                    {"mechanism", f.mechanism},
+                    {"stage", f.stage},
+                    {"parameters", parameters_json(f.parameters)},
+                    {"holdout_rmse_before", number_or_null(f.holdout_rmse_before)},
+                    {"holdout_rmse_after", number_or_null(f.holdout_rmse_after)},
+                    {"gain_percent", number_or_null(f.gain_percent)},
+                    {"gain_se_percent", number_or_null(f.gain_se_percent)},
+                    {"indistinguishable_from", f.indistinguishable_from},
+                    {"to_separate", f.to_separate}},
+                   f.flight);
 }
 
 ordered_json before_after(const BeforeAfter& pair) {
@@ -50,6 +58,12 @@ std::string with_interval(const ParameterEstimate& p) {
   const std::string unit = p.unit == "1" ? "" : " " + p.unit;
   return fmt::format("{} = {}{} (95 %: {} to {})", p.name, fixed(p.value, decimals), unit,
                      fixed(p.ci95_lower, decimals), fixed(p.ci95_upper, decimals));
+}
+
+/// An effect by its id, with the flight where it belongs to one of several.
+template <typename Told>
+std::string name_of(const Told& told) {
+  return told.flight > 0 ? fmt::format("{} (flight {})", told.effect, told.flight) : told.effect;
 }
 
 std::string with_stop(std::string sentence) {
@@ -118,7 +132,7 @@ class Story {
       const double gain =
           100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
       std::string names;
-      for (const Finding& f : d_.findings) names += (names.empty() ? "" : ", ") + f.effect;
+      for (const Finding& f : d_.findings) names += (names.empty() ? "" : ", ") + name_of(f);
       text = fmt::format("{} explain{} {:.0f} % of the error of this {} log.", style_.good(names),
                          d_.findings.size() == 1 ? "s" : "", gain, d_.kind);
     }
@@ -152,7 +166,7 @@ class Story {
     if (d_.budget.findings.size() != d_.findings.size() || d_.budget.noise <= 0) return;
     TextTable table({word_column("source"), word_column("stage"), "share"});
     for (std::size_t k = 0; k < d_.findings.size(); ++k) {
-      table.add({d_.findings[k].effect, d_.findings[k].stage,
+      table.add({name_of(d_.findings[k]), d_.findings[k].stage,
                  fmt::format("{:.1f} %", d_.budget.findings[k])});
     }
     table.add({"unexplained", "", fmt::format("{:.1f} %", d_.budget.unexplained)});
@@ -161,7 +175,8 @@ class Story {
   }
 
   void finding(const Finding& f) {
-    heading(f.title + " (" + f.effect + ", " + f.stage + ")");
+    heading(f.title + (f.flight > 0 ? fmt::format(" in flight {}", f.flight) : "") + " (" +
+            f.effect + ", " + f.stage + ")");
     std::vector<std::string> values;
     for (const ParameterEstimate& p : f.parameters) values.push_back(with_interval(p));
     std::string text = fmt::format(
@@ -182,7 +197,7 @@ class Story {
       std::vector<std::string> values;
       for (const ParameterEstimate& p : s.parameters) values.push_back(with_interval(p));
       paragraph(fmt::format("{} would help by {:.1f} ± {:.1f} %, with {}. What is missing: {}",
-                            s.effect, s.gain_percent, s.gain_se_percent, fmt::join(values, ", "),
+                            name_of(s), s.gain_percent, s.gain_se_percent, fmt::join(values, ", "),
                             with_stop(s.missing)));
     }
   }
@@ -192,7 +207,7 @@ class Story {
     TextTable table({word_column("effect"), word_column("parameter"), "off neutral by more than"});
     for (const RuledOut& r : d_.ruled_out) {
       table.add(
-          {r.effect, r.parameter, significant(r.bound, 2) + (r.unit == "1" ? "" : " " + r.unit)});
+          {name_of(r), r.parameter, significant(r.bound, 2) + (r.unit == "1" ? "" : " " + r.unit)});
     }
     out_.emplace_back(TitledTable{
         "Ruled out, each by itself: what this log would have shown (95 %)", std::move(table)});
@@ -234,7 +249,7 @@ class Story {
         const auto same = std::find_if(lacking.begin(), lacking.end(),
                                        [&n](const auto& entry) { return entry.first == n.needs; });
         (same == lacking.end() ? lacking.emplace_back(n.needs, 0) : *same)
-            .second.push_back(n.effect);
+            .second.push_back(name_of(n));
       }
       for (const auto& [needs, effects] : lacking) {
         paragraph(fmt::format("{}: needs {}", fmt::join(effects, ", "), with_stop(needs)));
@@ -243,7 +258,7 @@ class Story {
     if (!d_.not_identifiable.empty()) {
       heading("What this log can never show");
       for (const NotIdentifiable& n : d_.not_identifiable) {
-        paragraph(fmt::format("{}: {}", n.effect, with_stop(n.because)));
+        paragraph(fmt::format("{}: {}", name_of(n), with_stop(n.because)));
       }
     }
   }
@@ -272,23 +287,25 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
                      {"parameters", parameters_json(d.base.parameters)}}}};
   out["findings"] = json_list(d.findings, finding_json);
   out["suspected"] = json_list(d.suspected, [](const Suspected& x) {
-    return ordered_json{{"effect", x.effect},
-                        {"gain_percent", number_or_null(x.gain_percent)},
-                        {"gain_se_percent", number_or_null(x.gain_se_percent)},
-                        {"parameters", parameters_json(x.parameters)},
-                        {"missing", x.missing}};
+    return of_flight({{"effect", x.effect},
+                      {"gain_percent", number_or_null(x.gain_percent)},
+                      {"gain_se_percent", number_or_null(x.gain_se_percent)},
+                      {"parameters", parameters_json(x.parameters)},
+                      {"missing", x.missing}},
+                     x.flight);
   });
   out["ruled_out"] = json_list(d.ruled_out, [](const RuledOut& r) {
-    return ordered_json{{"effect", r.effect},
-                        {"parameter", r.parameter},
-                        {"bound", number_or_null(r.bound)},
-                        {"unit", r.unit}};
+    return of_flight({{"effect", r.effect},
+                      {"parameter", r.parameter},
+                      {"bound", number_or_null(r.bound)},
+                      {"unit", r.unit}},
+                     r.flight);
   });
   out["not_testable"] = json_list(d.not_testable, [](const NotTestable& n) {
-    return ordered_json{{"effect", n.effect}, {"needs", n.needs}};
+    return of_flight({{"effect", n.effect}, {"needs", n.needs}}, n.flight);
   });
   out["not_identifiable"] = json_list(d.not_identifiable, [](const NotIdentifiable& n) {
-    return ordered_json{{"effect", n.effect}, {"because", n.because}};
+    return of_flight({{"effect", n.effect}, {"because", n.because}}, n.flight);
   });
   out["unexplained"] = {{"detected", d.unexplained.detected},
                         {"channels", d.unexplained.channels},
@@ -382,7 +399,7 @@ std::string diagnosis_csv(const std::vector<Finding>& findings) {
       "effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent\n";
   for (const Finding& f : findings) {
     for (const ParameterEstimate& p : f.parameters) {
-      out += csv_line({f.effect, f.stage, p.name, p.value, p.unit, p.ci95_lower, p.ci95_upper,
+      out += csv_line({name_of(f), f.stage, p.name, p.value, p.unit, p.ci95_lower, p.ci95_upper,
                        f.gain_percent, f.gain_se_percent});
     }
   }

@@ -60,7 +60,7 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     flown.drone.mass = flight->mass.value_or(design.drone.mass);
     flown.flight.air_density = flight->air_density.value_or(design.flight.air_density);
     study.flight = of_suitable(LogKind::flight, [&] {
-      return diagnose_flight(flown, flight->log, flight->options, progress);
+      return diagnose_flights(flown, flight->flights, flight->options, progress);
     });
   }
   if (const auto& power = question.power) {

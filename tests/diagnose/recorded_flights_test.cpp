@@ -43,17 +43,18 @@ FlightLog read_log(const std::filesystem::path& file) {
   return log;
 }
 
-Diagnosis diagnosed(const FlightLog& log, double mass, double air_density,
+Diagnosis diagnosed(const MeasuredFlight& log, double mass, double air_density,
                     const FlightDiagnosisOptions& options) {
   Design design;
   design.drone.mass = mass;
   design.flight.air_density = air_density;
-  return diagnose_flight(design, log, options);
+  return diagnose_flights(design, {&log, 1}, options);
 }
 
-FlightDiagnosisOptions published_choice(const FlightLog& log) {
+MeasuredFlight published_part(const FlightLog& log) { return {log, range_in_percent(log, 25, 90)}; }
+
+FlightDiagnosisOptions published_choice() {
   FlightDiagnosisOptions options;
-  options.range = range_in_percent(log, 25, 90);
   options.pitch_offset = 1.4955439766569403 * unit::degree;
   return options;
 }
@@ -63,8 +64,8 @@ FlightDiagnosisOptions published_choice(const FlightLog& log) {
 TEST_CASE("the published flight shows linear drag and wind, and propwash beside them") {
   const auto file = test::reference_file("data/x500-flight.csv");
   if (!file) return;
-  const FlightLog log = read_log(*file);
-  FlightDiagnosisOptions options = published_choice(log);
+  const MeasuredFlight log = published_part(read_log(*file));
+  FlightDiagnosisOptions options = published_choice();
 
   std::set<std::string> found;
   for (const Finding& f : diagnosed(log, 1.549, 1.293, options).findings) found.insert(f.effect);
@@ -92,7 +93,7 @@ TEST_CASE("the practice flights are answered correctly") {
     FlightDiagnosisOptions options;
     options.base = {"linear_drag", "wind"};
     const Diagnosis d =
-        diagnosed(read_log(answers_file->parent_path() / name), answer["given"]["mass_kg"],
+        diagnosed({read_log(answers_file->parent_path() / name)}, answer["given"]["mass_kg"],
                   answer["given"]["air_density_kg_m3"], options);
     const std::string effect = answer["effect"];
     const bool unknown = effect.starts_with("unknown");
@@ -144,7 +145,7 @@ TEST_CASE("the flights of a second simulator are answered correctly") {
     FlightDiagnosisOptions options;
     options.pitch_offset = std::stod(option(answer, "--pitch-offset-deg")) * unit::degree;
     if (!option(answer, "--base").empty()) options.base = {"linear_drag", "wind"};
-    const Diagnosis d = diagnosed(read_log(*file), std::stod(option(answer, "--mass-g")) / 1000,
+    const Diagnosis d = diagnosed({read_log(*file)}, std::stod(option(answer, "--mass-g")) / 1000,
                                   std::stod(option(answer, "--air-density")), options);
     ++flights;
     const std::string hidden = answer["effect"];

@@ -1,6 +1,7 @@
 // The search on records whose answer is known by construction: linear models with drawn columns.
 #include "diagnose/selection.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -70,6 +71,25 @@ struct LinearRecord {
 
 }  // namespace
 
+TEST_CASE("what one block alone shows is no finding, however certain it seems") {
+  Random random(57);
+  for (const bool alone : {false, true}) {
+    std::vector<Column> columns = LinearRecord::drawn(random, 4);
+    if (alone) {
+      for (std::size_t i = 0; i < rows / blocks; ++i) columns[2][i] *= 30;
+    }
+    const LinearRecord record(random, {2.0, 0.0, 1.0, 0.0}, 0.8, columns);
+    const Selection found = select_effects(record.problem);
+    CHECK(found.selected.empty() == alone);
+    if (!alone) continue;
+    const auto open = std::find_if(found.open.begin(), found.open.end(),
+                                   [](const Selection::Open& o) { return o.group == 2; });
+    REQUIRE(open != found.open.end());
+    CHECK(open->largest_block_share > 0.9);
+    CHECK(open->gain_percent > 10);
+  }
+}
+
 TEST_CASE("the candidate that was put in is selected and its interval holds the truth") {
   int covered = 0;
   constexpr int trials = 40;
@@ -81,7 +101,7 @@ TEST_CASE("the candidate that was put in is selected and its interval holds the 
     CHECK(found.selected[0].group == 2);
     CHECK(found.selected[0].gain_percent > 10);  // 1 − 1/√2 = 29 % expected
     const double error = std::abs(found.complete.values[2] - 1.0);
-    covered += error <= found.student_factor * found.complete.standard_error[2] ? 1 : 0;
+    covered += error <= found.student_factor[2] * found.complete.standard_error[2] ? 1 : 0;
   }
   // 95 % of 40 is 38; fewer than 33 has a chance of 0.3 % (binomial).
   CHECK(covered >= 33);

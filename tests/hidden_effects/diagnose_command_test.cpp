@@ -36,6 +36,17 @@ FlightLog a_flight(double propwash, double duration = 240) {
 }
 const std::vector<std::string> flight_facts{"--mass-g", "1550", "--air-density", "1.225"};
 
+/// Another flight of the same drone.
+FlightLog a_second_flight(double wind) {
+  truth::HiddenFlight hidden;
+  hidden.seed = run_seed() + 77;
+  hidden.duration = 240;
+  hidden.mass = 1.55;
+  hidden.propwash = 0.6;
+  hidden.wind = wind;
+  return truth::fly(hidden);
+}
+
 PowerLog a_power_log(const std::function<void(power_truth::Scenario&)>& change = {}) {
   power_truth::Scenario scenario;
   scenario.seed = 1'000'003ULL * run_seed();
@@ -121,6 +132,36 @@ TEST_CASE("a flight and a power log are told together, each against the spec as 
   const Ran rows = diagnose(both + std::vector<std::string>{"--format", "csv"});
   CHECK_THAT(rows.out, Catch::Contains("\npropwash,airframe,propwash,"));
   CHECK_THAT(rows.out, Catch::Contains("\nextra_mass,airframe,extra_mass_kg,"));
+}
+
+TEST_CASE("flights of one drone are told together, what belongs to one of them with its number") {
+  const TemporaryFolder folder;
+  const std::string first = written(folder, "first.csv", flight_csv_text(a_flight(0.6)));
+  const std::string second = written(folder, "second.csv", flight_csv_text(a_second_flight(4)));
+  const std::vector<std::string> both =
+      std::vector<std::string>{"--flight", first,    "--flight",
+                               second,     "--base", "linear_drag,wind"} +
+      flight_facts;
+  const ordered_json d = diagnosis(both);
+  INFO(d.dump(1));
+  const auto propwash = std::find_if(d["findings"].begin(), d["findings"].end(),
+                                     [](const auto& f) { return f["effect"] == "propwash"; });
+  REQUIRE(propwash != d["findings"].end());
+  CHECK_FALSE(propwash->contains("flight"));  // it belongs to the drone
+  std::vector<std::size_t> winds;
+  for (const ordered_json& p : d["base"]["parameters"]) {
+    if (p["name"] == "wind_m_s") winds.push_back(p["flight"].get<std::size_t>());
+  }
+  CHECK(winds == std::vector<std::size_t>{1, 2});
+  const Ran story = diagnose(both);
+  check_readable(story.out);
+  CHECK_THAT(story.out, Catch::Contains("flight 2 is " + second));
+  CHECK_THAT(story.out, Catch::Contains("(flight 2)"));
+
+  const Ran short_one = diagnose(both + std::vector<std::string>{"--to", "20"});
+  CHECK(short_one.exit_code == 2);
+  CHECK(short_one.out.empty());
+  CHECK_THAT(short_one.err, Catch::Contains("flight 1: "));
 }
 
 TEST_CASE("a diagnosis in JSON has the keys and types that scripts rely on") {

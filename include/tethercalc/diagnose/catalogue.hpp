@@ -80,6 +80,9 @@ struct Effect {
 
   std::string replaces{};  ///< id of a coarser effect that this one describes in more detail
 
+  /// Belongs to one flight, like the wind: of several flights of one drone each has its own.
+  bool own_in_each_flight = false;
+
   FlightPhase flight_phase = FlightPhase::force;  ///< for effects of a flight
   /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
   /// for effects of power logs.

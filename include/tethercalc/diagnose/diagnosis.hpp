@@ -41,6 +41,9 @@ struct ParameterEstimate {
   std::string unit;       ///< "1" for a plain number
   double ci95_lower = 0;  ///< 95 % confidence interval, same unit, from the spread over blocks
   double ci95_upper = 0;  ///< the other end
+  /// 1, 2, …: the flight that it belongs to, of several that are judged together; 0: to all, as
+  /// always where there is one log. So below.
+  std::size_t flight = 0;
 };
 
 /// One named cause.
@@ -54,8 +57,11 @@ struct Finding {
   double holdout_rmse_after = 0;  ///< with it as well, everything free refitted together
   double gain_percent = 0;        ///< 100·(1 − after/before)
   double gain_se_percent = 0;     ///< standard error over blocks
-  std::vector<std::string> indistinguishable_from;  ///< ids that explain this log as well
+  /// Ids of effects that explain this log as well; with the flight, as in "wind (flight 2)", where
+  /// they act in one of several.
+  std::vector<std::string> indistinguishable_from;
   std::string to_separate;  ///< the flight or channel that would tell them apart; may be empty
+  std::size_t flight = 0;   ///< the only one that it acts in
 };
 
 /// An effect that chance hardly explains, and that is not certain or not large enough to be named.
@@ -65,6 +71,7 @@ struct Suspected {
   double gain_se_percent = 0;                 ///< standard error over blocks
   std::vector<ParameterEstimate> parameters;  ///< its sizes, beside the findings
   std::string missing;                        ///< what it takes to be sure
+  std::size_t flight = 0;                     ///< the only one that it acts in
 };
 
 /// The largest size of an effect, alone beside the findings, that this log still allows: more would
@@ -74,18 +81,21 @@ struct RuledOut {
   std::string parameter;  ///< of it
   double bound = 0;  ///< distance from neutral, the further end of the 95 % confidence interval
   std::string unit;  ///< of the bound; "1" for a plain number
+  std::size_t flight = 0;  ///< the only one that it acts in
 };
 
 /// An effect that this log says nothing about.
 struct NotTestable {
-  std::string effect;  ///< id in the catalogue
-  std::string needs;   ///< the channel, or the kind of log
+  std::string effect;      ///< id in the catalogue
+  std::string needs;       ///< the channel, or the kind of log
+  std::size_t flight = 0;  ///< the only one that it acts in
 };
 
 /// An effect that no log of this kind, or this one, can tell from the base model.
 struct NotIdentifiable {
-  std::string effect;   ///< id in the catalogue
-  std::string because;  ///< what takes its place
+  std::string effect;      ///< id in the catalogue
+  std::string because;     ///< what takes its place
+  std::size_t flight = 0;  ///< the only one that it acts in
 };
 
 /// Structure that no effect of the catalogue explains.

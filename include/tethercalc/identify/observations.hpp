@@ -86,11 +86,14 @@ struct LogPosition {
 [[nodiscard]] SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
                                        std::optional<LogPosition> to);
 
-/// The part of the flight that is flown forward and backward: from the first to the last time that
-/// the forward speed stays at 1 m/s or more, in magnitude, for at least 1 s. Such stretches with
-/// less than 30 s between them belong together (a pause in the air is data too); of several such
-/// parts it is the longest, since a longer pause may be a landing, and on the ground attitude is no
-/// thrust. Throws UnsuitableFlight where the drone never moves so.
+/// The parts of the log that are flown forward and backward, in their order: each from the first to
+/// the last time that the forward speed stays at 1 m/s or more, in magnitude, for at least 1 s.
+/// Such stretches with less than 30 s between them belong together (a pause in the air is data
+/// too); a longer pause may be a landing, and on the ground attitude is no thrust. Throws
+/// UnsuitableFlight where the drone never moves so.
+[[nodiscard]] std::vector<SampleRange> moving_parts(const FlightLog& log);
+
+/// The longest of `moving_parts`, the first of equal ones.
 [[nodiscard]] SampleRange moving_part(const FlightLog& log);
 
 /// Mean pitch in rad over the whole of `hover`: what the attitude estimator reads in level flight

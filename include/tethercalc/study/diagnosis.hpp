@@ -13,9 +13,9 @@
 
 namespace tethercalc {
 
-/// A flight, and what its log does not say.
+/// Flights of one drone, and what their logs do not say.
 struct LoggedFlight {
-  FlightLog log;                        ///< attitude and speed
+  std::vector<MeasuredFlight> flights;  ///< one at least
   FlightDiagnosisOptions options{};     ///< how to look
   std::optional<double> mass{};         ///< kg, where it was not the design's
   std::optional<double> air_density{};  ///< kg/m³, likewise
@@ -30,13 +30,13 @@ struct LoggedPower {
 /// What is asked: one log at least.
 struct DiagnosisQuestion {
   Design design;                         ///< as it stands
-  std::optional<LoggedFlight> flight{};  ///< each log is held against that
+  std::optional<LoggedFlight> flight{};  ///< logs are held against that
   std::optional<LoggedPower> power{};    ///< likewise
 };
 
 /// The answer.
 struct DiagnosisStudy {
-  std::optional<Diagnosis> flight;  ///< of the flight log
+  std::optional<Diagnosis> flight;  ///< of the flight logs, jointly
   std::optional<Diagnosis> power;  ///< of the power log; `design_impact` stands in the last of both
   Design extended;                 ///< the design with the findings of both
 };

@@ -1,0 +1,265 @@
+#include "diagnose/flight_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "diagnose/flight_samples.hpp"
+#include "identify/statistics.hpp"
+#include "model/constants.hpp"
+
+namespace tethercalc {
+namespace {
+
+/// More blocks sharpen the spread between them only a little: with 30, Student's factor is 4 %
+/// above the normal one.
+constexpr std::size_t most_blocks = 30;
+/// A yaw that stays within this never turned; its noise would only be a regressor of noise.
+constexpr double steady_yaw = 0.1;  // rad
+
+/// Samples whose central difference and average rest on three trustworthy samples.
+std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
+                                 const Observations& o, double step) {
+  std::vector<bool> trusted(o.size());
+  std::size_t in_log = 0;
+  for (std::size_t i = 0; i < o.size(); ++i) {
+    while (log.time[in_log] < o.time[i]) ++in_log;
+    trusted[i] = !faults.sample[in_log];
+  }
+  std::vector<bool> usable(o.size(), false);
+  for (std::size_t i = 1; i + 1 < o.size(); ++i) {
+    usable[i] = trusted[i - 1] && trusted[i] && trusted[i + 1] &&
+                o.time[i] - o.time[i - 1] <= step_tolerance * step &&
+                o.time[i + 1] - o.time[i] <= step_tolerance * step;
+  }
+  return usable;
+}
+
+FlightData read_flight(const Design& design, const MeasuredFlight& flight, double pitch_offset) {
+  FlightLog log = flight.log;
+  if (log.roll.empty()) log.roll.assign(log.time.size(), 0.0);
+  if (log.down_velocity.empty()) log.down_velocity.assign(log.time.size(), 0.0);
+  validate(log);
+  const double gravity = design.flight.gravity;
+  FlightSamples samples = flight.range ? FlightSamples{std::move(log), *flight.range, {}}
+                                       : flown_samples(std::move(log), gravity);
+
+  FlightData data;
+  data.faults = repair_flight_log(samples.log, samples.range);
+  average_fast_samples(samples, data.faults.sample);
+  data.faults.notes.insert(data.faults.notes.begin(), samples.notes.begin(), samples.notes.end());
+  data.observations = observe(samples.log, samples.range, pitch_offset, gravity);
+  data.record =
+      flight_record(data.observations, design.drone.mass, design.flight.air_density, gravity);
+  if (data.observations.size() < 3) {
+    throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
+  }
+  data.step = median_step(data.observations.time);
+  check_flight_units(data.record, data.observations.forward_acceleration, data.step);
+  const std::vector<bool> usable =
+      usable_samples(samples.log, data.faults, data.observations, data.step);
+  for (const bool use : usable) data.block.push_back(use ? 0 : -1);
+  data.usable = static_cast<double>(std::count(usable.begin(), usable.end(), true)) * data.step;
+  return data;
+}
+
+/// The samples that are used, in blocks from `first` on.
+void number_blocks(FlightData& data, int first) {
+  const auto count = static_cast<std::size_t>(std::count(data.block.begin(), data.block.end(), 0));
+  std::size_t seen = 0;
+  for (int& block : data.block) {
+    if (block == 0) block = first + static_cast<int>(seen++ * data.blocks / count);
+  }
+}
+
+/// What all flights of a drone share beside its effects.
+Effect drag_areas() {
+  constexpr double largest = 10;  // m², beyond any drone
+  const EffectParameter area{
+      .name = "front_area_m2", .unit = "m²", .upper = largest, .scale = 5e-3, .start = 0.015};
+  EffectParameter top = area;
+  top.name = "top_area_m2";
+  return {.title = "drag areas", .parameters = {area, top}, .sizes = 2};
+}
+
+/// What each flight fits beside its effects.
+std::vector<Effect> instrument_gains(const FlightData& data) {
+  const double known = data.faults.height_unknown ? 0 : 1;
+  const auto [least, most] = std::minmax_element(data.record.yaw.begin(), data.record.yaw.end());
+  const double turns = *most - *least > steady_yaw ? 1 : 0;
+  return {{.title = "vertical acceleration",
+           .parameters = {{.name = "vertical_acceleration_gain",
+                           .unit = "1",
+                           .neutral = known,
+                           .upper = 1.5 * known,
+                           .scale = 0.2}}},
+          {.title = "turning frame",
+           .parameters = {{.name = "turn_gain", .unit = "1", .upper = 1.5 * turns, .scale = 0.2}}}};
+}
+
+/// Whether headings a good part of a turn apart are flown, each for some time.
+bool turns(const FlightData& data) {
+  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
+  std::vector<double> yaw = data.record.yaw;
+  std::sort(yaw.begin(), yaw.end());
+  return yaw[yaw.size() * 19 / 20] - yaw[yaw.size() / 20] > apart;
+}
+
+/// Mean over the two intervals around each sample of a quantity that is straight between samples,
+/// with the weights that the three-point derivative gives to the intervals.
+void average_around(const std::vector<double>& time, const std::vector<double>& a,
+                    std::span<double> out) {
+  const std::size_t size = a.size();
+  out[0] = a[0];
+  out[size - 1] = a[size - 1];
+  for (std::size_t i = 1; i + 1 < size; ++i) {
+    const double before = time[i] - time[i - 1];
+    const double after = time[i + 1] - time[i];
+    out[i] = ((a[i - 1] + a[i]) / 2 * after + (a[i] + a[i + 1]) / 2 * before) / (before + after);
+  }
+}
+
+std::vector<LogModel::Span> spans_of(const std::vector<FlightData>& flights) {
+  std::vector<LogModel::Span> spans;
+  for (const FlightData& data : flights) {
+    spans.push_back(span_of(data.record.time, flights.size() > 1 ? data.blocks : 0));
+  }
+  return spans;
+}
+
+}  // namespace
+
+std::vector<FlightData> read_flights(const Design& design, std::span<const MeasuredFlight> flights,
+                                     double pitch_offset) {
+  std::vector<FlightData> read;
+  double usable = 0;
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    try {
+      read.push_back(read_flight(design, flights[k], pitch_offset));
+    } catch (const UnsuitableFlight& error) {
+      if (flights.size() == 1) throw;
+      throw UnsuitableFlight(fmt::format("flight {}: {}", k + 1, error.what()));
+    }
+    usable += read.back().usable;
+  }
+  int first_block = 0;
+  for (std::size_t k = 0; k < read.size(); ++k) {
+    FlightData& data = read[k];
+    const double share = data.usable / usable * static_cast<double>(most_blocks);
+    data.blocks = static_cast<std::size_t>(std::min(share, data.usable / shortest_block));
+    if (read.size() > 1) {
+      data.blocks = std::max(
+          data.blocks,
+          std::min(fewest_own_blocks, static_cast<std::size_t>(data.usable / shortest_block)));
+      if (data.blocks < fewest_own_blocks) {
+        throw UnsuitableFlight(fmt::format(
+            "flight {}: {:.1f} s of it can be used; together with others {:.0f} s are needed",
+            k + 1, data.usable, shortest_block * fewest_own_blocks));
+      }
+    }
+    number_blocks(data, first_block);
+    first_block += static_cast<int>(data.blocks);
+  }
+  return read;
+}
+
+bool testable(const Effect& effect, const LogFaults& faults) {
+  return !(faults.height_unknown && contains(effect.needs, "vd_m_s"));
+}
+
+FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& flights,
+                         const std::vector<std::string>& base)
+    : LogModel(spans_of(flights)), flights_(flights) {
+  const bool several = flights.size() > 1;
+  const auto which = [several](std::size_t k) { return several ? std::optional(k) : std::nullopt; };
+  add(base_.emplace_back(drag_areas()), design, true);
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    base_group_.push_back(effects().size());
+    for (Effect& gain : instrument_gains(flights[k])) {
+      add(base_.emplace_back(std::move(gain)), design, true, which(k));
+    }
+  }
+  for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+    const bool fitted = contains(base, effect.id);
+    bool added = false;
+    for (std::size_t k = 0; k < flights.size(); ++k) {
+      if (!testable(effect, flights[k].faults)) continue;
+      const bool own = several && effect.own_in_each_flight;
+      if (added && !own) continue;
+      add(effect, design, fitted, own ? which(k) : std::nullopt);
+      added = true;
+      if (!turns(flights[k])) hold_across(effect);
+    }
+  }
+
+  std::vector<FlightPrediction> predictions;
+  for (const FlightData& data : flights) {
+    first_row_.push_back(problem.measured.size());
+    const auto& acceleration = data.observations.forward_acceleration;
+    problem.measured.insert(problem.measured.end(), acceleration.begin(), acceleration.end());
+    problem.block.insert(problem.block.end(), data.block.begin(), data.block.end());
+    predictions.emplace_back(data.record);
+  }
+  problem.noise.assign(problem.measured.size(), 1.0);
+  problem.predict = [this, predictions = std::move(predictions)](std::span<const double> values,
+                                                                 std::span<double> out) mutable {
+    for (std::size_t k = 0; k < predictions.size(); ++k) {
+      predict_acceleration(predictions[k], this->base(k, values), freed(k, values));
+      average_around(predictions[k].record.time, predictions[k].acceleration, rows_of(k, out));
+    }
+  };
+}
+
+/// In the group added last.
+void FlightModel::hold_across(const Effect& effect) {
+  for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    ModelParameter& p = problem.groups.back().parameters[k];
+    if (effect.parameters[k].only_if_turning) p.lower = p.upper = p.neutral;
+  }
+}
+
+FlightBase FlightModel::base(std::size_t flight, std::span<const double> values) const {
+  const std::size_t gains = first_parameter(base_group_[flight]);
+  return {.front_area = values[0],
+          .top_area = values[1],
+          .vertical_acceleration_gain = values[gains],
+          .turn_gain = values[gains + 1]};
+}
+
+std::vector<EffectValues> FlightModel::freed(std::size_t flight,
+                                             std::span<const double> values) const {
+  std::vector<EffectValues> result;
+  for (std::size_t g = base_.size(); g < effects().size(); ++g) {
+    if (log_of(g).value_or(flight) == flight && !is_neutral(g, values)) {
+      result.push_back({&effect(g), own(g, values)});
+    }
+  }
+  return result;
+}
+
+std::optional<std::size_t> FlightModel::index_in(std::size_t flight,
+                                                 std::string_view parameter) const {
+  for (std::size_t g = 0; g < effects().size(); ++g) {
+    if (log_of(g).value_or(flight) != flight) continue;
+    for (std::size_t k = 0; k < effect(g).parameters.size(); ++k) {
+      if (effect(g).parameters[k].name == parameter) return first_parameter(g) + k;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<double> FlightModel::left_by(std::size_t flight, std::span<const double> values) const {
+  std::vector<double> predicted(problem.measured.size());
+  problem.predict(values, predicted);
+  const auto measured = rows_of(flight, problem.measured);
+  const auto rows = rows_of(flight, predicted);
+  std::vector<double> left;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    left.push_back(flights_[flight].block[i] < 0 ? nan : measured[i] - rows[i]);
+  }
+  return left;
+}
+
+}  // namespace tethercalc
