@@ -283,6 +283,9 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, i
     for (const std::string& note : reading.notes) {
       fmt::print(stderr, "{}: {}\n", name, note);
     }
+    if (!reading.log.north_wind.empty()) {
+      fmt::print(stderr, "{}: the measured wind is not used: a steady one is fitted\n", name);
+    }
     logs.push_back(std::move(reading.log));
   }
   return logs;

@@ -55,7 +55,7 @@ void misalign(FlightPrediction& p, double angle) {
   const double s = std::sin(angle);
   for (std::size_t i = 0; i < p.airspeed.size(); ++i) {
     const double ahead = p.airspeed[i];
-    const double aside = p.record.right_speed[i];
+    const double aside = p.aside[i];
     const double tan_tilt = p.tan_tilt[i];
     // Along the drone's own axes. What effects did to the drag stays as it was.
     const double own_ahead = ahead * c - aside * s;
@@ -92,7 +92,7 @@ void lag(FlightPrediction& p, double constant) {
   // The true speed is ahead by what the logged one gains in a time constant.
   const std::vector<double> logged = lagging(time, constant, p.acceleration);
   for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
-    const double aside = p.record.right_speed[i];
+    const double aside = p.aside[i];
     const double tan_tilt = p.tan_tilt[i];
     p.acceleration[i] -= (law_drag(p, p.airspeed[i] + constant * logged[i], aside, tan_tilt) -
                           law_drag(p, p.airspeed[i], aside, tan_tilt)) /
@@ -447,7 +447,7 @@ std::vector<Effect> flight_effects() {
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
            const double ahead = p.airspeed[i];
-           const double aside = p.record.right_speed[i];
+           const double aside = p.aside[i];
            const double tan_tilt = p.tan_tilt[i];
            const double too_much = law_drag(p, ahead, aside, tan_tilt) -
                                    law_drag(p, ahead / x[0], aside / x[0], tan_tilt);

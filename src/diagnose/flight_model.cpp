@@ -89,6 +89,7 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
   const double known = data.faults.height_unknown ? 0 : 1;
   const auto [least, most] = std::minmax_element(data.record.yaw.begin(), data.record.yaw.end());
   const double turns = *most - *least > steady_yaw ? 1 : 0;
+  const double measured = data.observations.forward_wind.empty() ? 0 : 1;
   return {{.title = "vertical acceleration",
            .parameters = {{.name = "vertical_acceleration_gain",
                            .unit = "1",
@@ -96,7 +97,13 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
                            .upper = 1.5 * known,
                            .scale = 0.2}}},
           {.title = "turning frame",
-           .parameters = {{.name = "turn_gain", .unit = "1", .upper = 1.5 * turns, .scale = 0.2}}}};
+           .parameters = {{.name = "turn_gain", .unit = "1", .upper = 1.5 * turns, .scale = 0.2}}},
+          {.title = "measured wind",
+           .parameters = {{.name = "wind_gain",
+                           .unit = "1",
+                           .neutral = measured,
+                           .upper = 1.5 * measured,
+                           .scale = 0.2}}}};
 }
 
 /// Whether headings a good part of a turn apart are flown, each for some time.
@@ -225,7 +232,8 @@ FlightBase FlightModel::base(std::size_t flight, std::span<const double> values)
   return {.front_area = values[0],
           .top_area = values[1],
           .vertical_acceleration_gain = values[gains],
-          .turn_gain = values[gains + 1]};
+          .turn_gain = values[gains + 1],
+          .wind_gain = values[gains + 2]};
 }
 
 std::vector<EffectValues> FlightModel::freed(std::size_t flight,

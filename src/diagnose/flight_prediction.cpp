@@ -28,6 +28,10 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.forward_speed = observations.forward_speed;
   record.right_speed = observations.right_speed;
   record.down_speed = observations.down_speed;
+  record.headwind = observations.forward_wind;
+  record.crosswind = observations.right_wind;
+  record.headwind.resize(observations.size(), 0.0);
+  record.crosswind.resize(observations.size(), 0.0);
   record.down_acceleration = observations.down_acceleration;
   record.tan_tilt.reserve(observations.size());
   for (const double tilt : observations.tilt) record.tan_tilt.push_back(std::tan(tilt));
@@ -66,8 +70,9 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
   for (auto series :
        {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
         &FlightRecord::along_heading, &FlightRecord::right_of_heading, &FlightRecord::forward_speed,
-        &FlightRecord::right_speed, &FlightRecord::down_speed, &FlightRecord::down_acceleration,
-        &FlightRecord::sideward_thrust, &FlightRecord::turn_acceleration}) {
+        &FlightRecord::right_speed, &FlightRecord::headwind, &FlightRecord::crosswind,
+        &FlightRecord::down_speed, &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
+        &FlightRecord::turn_acceleration}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -80,6 +85,7 @@ FlightPrediction::FlightPrediction(const FlightRecord& flight)
     : record(flight),
       tilt(flight.size()),
       headwind(flight.size()),
+      aside(flight.size()),
       tan_tilt(flight.size()),
       airspeed(flight.size()),
       drag(flight.size()),
@@ -91,7 +97,10 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   const FlightRecord& record = p.record;
   const std::size_t size = record.size();
   p.tilt = record.tilt;
-  p.headwind.assign(size, 0.0);
+  for (std::size_t i = 0; i < size; ++i) {
+    p.headwind[i] = base.wind_gain * record.headwind[i];
+    p.aside[i] = record.right_speed[i] - base.wind_gain * record.crosswind[i];
+  }
   p.law = {base.front_area, base.top_area, 0, 0};
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
@@ -102,8 +111,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
-    p.drag[i] = airframe_drag_along(p.law, record.air_density, p.airspeed[i], record.right_speed[i],
-                                    p.tan_tilt[i]);
+    p.drag[i] =
+        airframe_drag_along(p.law, record.air_density, p.airspeed[i], p.aside[i], p.tan_tilt[i]);
     p.lift[i] = record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
   }
   act(p, effects, FlightPhase::force);

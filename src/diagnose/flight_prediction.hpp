@@ -23,9 +23,11 @@ struct FlightRecord {
   /// how far forward is along that heading, and how far to its right.
   std::vector<double> along_heading;
   std::vector<double> right_of_heading;
-  std::vector<double> forward_speed;      ///< m/s over ground
-  std::vector<double> right_speed;        ///< m/s over ground
-  std::vector<double> down_speed;         ///< m/s
+  std::vector<double> forward_speed;  ///< m/s over ground
+  std::vector<double> right_speed;    ///< m/s over ground
+  std::vector<double> headwind;    ///< m/s along the forward axis, as measured; 0 where it was not
+  std::vector<double> crosswind;   ///< to the right, likewise
+  std::vector<double> down_speed;  ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
   std::vector<double> sideward_thrust;  ///< tan φ/cos θ: of what the thrust carries, to the right
   /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
@@ -58,6 +60,9 @@ struct FlightBase {
   /// Part of the turning frame's acceleration that the logged speed shows: 1 for a drone that moves
   /// through space, less where the speed to the right is noise, 0 where the log never knew a frame.
   double turn_gain = 0;
+  /// Part of the measured wind's changes that the drag follows. The sensor is beside the
+  /// propellers, and noisy; of its mean the effect `wind` tells how wrong it is.
+  double wind_gain = 0;
 };
 
 /// A prediction in the making. The catalogue's effects work on it in the phases of `FlightPhase`;
@@ -66,6 +71,7 @@ struct FlightPrediction {
   const FlightRecord& record;    ///< what is predicted from
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
+  std::vector<double> aside;     ///< m/s, the airspeed to the right
   AirframeDrag law;              ///< of the drag
   std::vector<double> tan_tilt;  ///< of `tilt`; known in the force phase
   std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
@@ -85,11 +91,12 @@ struct EffectValues {
 
 /// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the forward part of the drag
 /// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`. To the right the
-/// airspeed is taken as the speed over ground: a crosswind that is fitted mimics linear drag, since
-/// both drag in proportion to a small speed forward, and most flights turn too little to tell them
-/// apart. A thrust along the body's z-axis turned by yaw, pitch and roll in this order points
-/// forward by tan θ of what it carries, whatever the roll; the published 1/cos φ is not in it.
-/// Effects act in the order given within each phase; those at their neutral values change nothing.
+/// airspeed is taken as the speed over ground, less a measured wind: a crosswind that is fitted
+/// mimics linear drag, since both drag in proportion to a small speed forward, and most flights
+/// turn too little to tell them apart. A thrust along the body's z-axis turned by yaw, pitch and
+/// roll in this order points forward by tan θ of what it carries, whatever the roll; the published
+/// 1/cos φ is not in it. Effects act in the order given within each phase; those at their neutral
+/// values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
 

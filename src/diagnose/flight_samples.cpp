@@ -38,10 +38,10 @@ constexpr double standing_speed = 1;     // m/s, of a position estimate that wan
 constexpr double toppled_angle = 75 * unit::degree;  // as `observe` has it
 constexpr double toppled_margin = 1;                 // s before and after
 
-constexpr std::array flight_series{&FlightLog::time,           &FlightLog::roll,
-                                   &FlightLog::pitch,          &FlightLog::yaw,
-                                   &FlightLog::north_velocity, &FlightLog::east_velocity,
-                                   &FlightLog::down_velocity};
+constexpr std::array flight_series{
+    &FlightLog::time,          &FlightLog::roll,           &FlightLog::pitch,
+    &FlightLog::yaw,           &FlightLog::north_velocity, &FlightLog::east_velocity,
+    &FlightLog::down_velocity, &FlightLog::north_wind,     &FlightLog::east_wind};
 
 auto iterator_at(const std::vector<double>& values, std::size_t i) {
   return values.begin() + static_cast<std::ptrdiff_t>(i);
@@ -105,7 +105,7 @@ FlightLog without(const FlightLog& log, const Marks& marks) {
   FlightLog rest;
   rest.other_vehicle = log.other_vehicle;
   for (auto series : flight_series) {
-    for (std::size_t i = 0; i < marks.size(); ++i) {
+    for (std::size_t i = 0; i < (log.*series).size(); ++i) {
       if (!marks[i]) (rest.*series).push_back((log.*series)[i]);
     }
   }
@@ -216,6 +216,7 @@ void average_fast_samples(FlightSamples& samples, std::vector<bool>& faulty) {
   std::vector<bool> any_faulty;
   for (std::size_t first = range.first; first + count <= range.last; first += count) {
     for (auto series : flight_series) {
+      if ((log.*series).empty()) continue;  // was not measured
       (means.*series)
           .push_back(std::accumulate(iterator_at(log.*series, first),
                                      iterator_at(log.*series, first + count), 0.0) /

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "identify/statistics.hpp"
@@ -24,8 +25,15 @@ constexpr double steepest_angle =
 constexpr double fastest_multirotor = 200;  // m/s: beyond every speed on record
 constexpr double lost_estimates = 0.01;     // of the samples
 
+/// Parts of a velocity along the heading and to the right of it.
+std::pair<double, double> to_heading(double yaw, double north, double east) {
+  const double cos_yaw = std::cos(yaw);
+  const double sin_yaw = std::sin(yaw);
+  return {cos_yaw * north + sin_yaw * east, cos_yaw * east - sin_yaw * north};
+}
+
 double forward_speed(const FlightLog& log, std::size_t i) {
-  return std::cos(log.yaw[i]) * log.north_velocity[i] + std::sin(log.yaw[i]) * log.east_velocity[i];
+  return to_heading(log.yaw[i], log.north_velocity[i], log.east_velocity[i]).first;
 }
 
 /// Which neighbours of a sample may be used for its derivative.
@@ -88,12 +96,16 @@ void validate(const FlightLog& log) {
         log.other_vehicle));
   }
   const std::size_t size = log.time.size();
+  const auto is_wind = [&log](const std::vector<double>* values) {
+    return values == &log.north_wind || values == &log.east_wind;
+  };
   for (const auto& [name, values] :
        {std::pair{"time", &log.time}, std::pair{"roll", &log.roll}, std::pair{"pitch", &log.pitch},
         std::pair{"yaw", &log.yaw}, std::pair{"north velocity", &log.north_velocity},
         std::pair{"east velocity", &log.east_velocity},
-        std::pair{"down velocity", &log.down_velocity}}) {
-    if (values->size() != size) {
+        std::pair{"down velocity", &log.down_velocity}, std::pair{"north wind", &log.north_wind},
+        std::pair{"east wind", &log.east_wind}}) {
+    if (values->size() != size && !(values->empty() && is_wind(values))) {
       throw UnsuitableFlight(fmt::format("the flight log has {} values of {} for {} times",
                                          values->size(), name, size));
     }
@@ -239,10 +251,8 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
   const std::size_t begin = range.first == 0 ? 0 : range.first - 1;
   const std::size_t end = std::min(range.last + 1, size);
   for (std::size_t i = begin; i < end; ++i) {
-    const double cos_yaw = std::cos(log.yaw[i]);
-    const double sin_yaw = std::sin(log.yaw[i]);
-    forward[i] = cos_yaw * log.north_velocity[i] + sin_yaw * log.east_velocity[i];
-    right[i] = cos_yaw * log.east_velocity[i] - sin_yaw * log.north_velocity[i];
+    std::tie(forward[i], right[i]) =
+        to_heading(log.yaw[i], log.north_velocity[i], log.east_velocity[i]);
   }
 
   const double longest_step = gap_factor * median_step(log.time);
@@ -264,6 +274,11 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
     out.forward_speed.push_back(forward[i]);
     out.right_speed.push_back(right[i]);
     out.down_speed.push_back(log.down_velocity[i]);
+    if (!log.north_wind.empty() && !log.east_wind.empty()) {
+      const auto [ahead, aside] = to_heading(log.yaw[i], log.north_wind[i], log.east_wind[i]);
+      out.forward_wind.push_back(ahead);
+      out.right_wind.push_back(aside);
+    }
     out.forward_acceleration.push_back(derivative(log.time, forward, i, use));
     out.down_acceleration.push_back(down_acceleration);
     out.expected_acceleration.push_back((gravity - down_acceleration) * std::tan(tilt) /

@@ -29,7 +29,19 @@ constexpr double fastest_m_s = 500;
 constexpr double furthest_yaw_deg = 360'000;
 
 /// Samples as logged: time in s, angles in degrees, velocities in m/s.
-enum Channel : std::size_t { time_s, roll_deg, pitch_deg, yaw_deg, vn, ve, vd, channel_count };
+enum Channel : std::size_t {
+  time_s,
+  roll_deg,
+  pitch_deg,
+  yaw_deg,
+  vn,
+  ve,
+  vd,
+  wind_north,
+  wind_east,
+  airspeed_forward,
+  channel_count
+};
 using Samples = std::vector<std::vector<double>>;
 
 bool is_plausible(const Samples& samples, std::size_t i) {
@@ -83,7 +95,20 @@ std::vector<double> without_wraps(std::vector<double> angle) {
   return angle;
 }
 
+/// The wind that makes up the difference to the speed over ground; none to the right.
+void take_wind_from_airspeed(FlightLog& log, const std::vector<double>& airspeed) {
+  for (std::size_t i = 0; i < airspeed.size(); ++i) {
+    const double ahead_north = std::cos(log.yaw[i]);
+    const double ahead_east = std::sin(log.yaw[i]);
+    const double wind =
+        ahead_north * log.north_velocity[i] + ahead_east * log.east_velocity[i] - airspeed[i];
+    log.north_wind.push_back(ahead_north * wind);
+    log.east_wind.push_back(ahead_east * wind);
+  }
+}
+
 FlightLog to_flight_log(Samples samples) {
+  samples.resize(channel_count);
   FlightLog log;
   log.time = std::move(samples[time_s]);
   log.roll = in_radians(std::move(samples[roll_deg]));
@@ -92,6 +117,9 @@ FlightLog to_flight_log(Samples samples) {
   log.north_velocity = std::move(samples[vn]);
   log.east_velocity = std::move(samples[ve]);
   log.down_velocity = std::move(samples[vd]);
+  log.north_wind = std::move(samples[wind_north]);
+  log.east_wind = std::move(samples[wind_east]);
+  take_wind_from_airspeed(log, samples[airspeed_forward]);
   return log;
 }
 
@@ -243,7 +271,13 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
                                                  within("yaw_deg", furthest_yaw_deg),
                                                  within("vn_m_s", fastest_m_s),
                                                  within("ve_m_s", fastest_m_s),
-                                                 within("vd_m_s", fastest_m_s)};
+                                                 within("vd_m_s", fastest_m_s),
+                                                 within("wind_north_m_s", fastest_m_s),
+                                                 within("wind_east_m_s", fastest_m_s),
+                                                 within("airspeed_forward_m_s", fastest_m_s)};
+  for (const Channel measured : {wind_north, wind_east, airspeed_forward}) {
+    wanted[measured].required = false;
+  }
   FlightLogReading reading;
   reading.source = "CSV";
   wanted[roll_deg].required = wanted[vd].required = !options.level_where_missing;
@@ -254,6 +288,14 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
     samples[channel].assign(samples[time_s].size(), 0.0);
     reading.notes.push_back(
         fmt::format("{} is missing: taken for {}", wanted[channel].name, taken_for));
+  }
+  if (samples[wind_north].empty() != samples[wind_east].empty()) {
+    fail(name, "wind_north_m_s and wind_east_m_s are one wind: give both or none");
+  }
+  if (!samples[wind_north].empty() && !samples[airspeed_forward].empty()) {
+    fail(name,
+         "airspeed_forward_m_s goes without wind_north_m_s and wind_east_m_s: each gives the "
+         "other, and only one can be what was measured");
   }
   reading.log = to_flight_log(std::move(samples));
   return reading;

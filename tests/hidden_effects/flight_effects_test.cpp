@@ -33,14 +33,19 @@ HiddenFlight drawn_flight(std::uint64_t seed) {
   return hidden;
 }
 
-Diagnosis diagnosed(const HiddenFlight& hidden,
-                    const std::vector<std::string>& base = {"linear_drag", "wind"}) {
+Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log,
+                    const std::vector<std::string>& base) {
   Design design;
   design.drone.mass = hidden.mass;
   design.flight.air_density = hidden.air_density;
   FlightDiagnosisOptions options;
   options.base = base;
-  return diagnose_flight(design, truth::fly(hidden), options);
+  return diagnose_flight(design, log, options);
+}
+
+Diagnosis diagnosed(const HiddenFlight& hidden,
+                    const std::vector<std::string>& base = {"linear_drag", "wind"}) {
+  return diagnosed(hidden, truth::fly(hidden), base);
 }
 
 bool names_first(const Diagnosis& d, const std::string& effect) {
@@ -69,6 +74,35 @@ const std::vector<Case>& cases() {
 }
 
 }  // namespace
+
+TEST_CASE("a wind that is measured is no finding, and its drag is followed") {
+  int found_without = 0;
+  int found_with = 0;
+  int covered = 0;
+  const int draws = test::draws(4);
+  for (int draw = 0; draw < draws; ++draw) {
+    HiddenFlight hidden;
+    hidden.seed = 7100 + static_cast<std::uint64_t>(draw) + 1000 * test::run_seed();
+    hidden.duration = 300;
+    hidden.wind = 2;
+    hidden.wind_wave = 1.5;
+    hidden.anemometer_noise = 0.3;
+    FlightLog log = truth::fly(hidden);
+    const Diagnosis with = diagnosed(hidden, log, {"linear_drag"});
+    log.north_wind.clear();
+    log.east_wind.clear();
+    const Diagnosis without = diagnosed(hidden, log, {"linear_drag"});
+    found_without += !without.findings.empty();
+    found_with += !with.findings.empty();
+    CHECK(with.base.holdout_rmse < without.base.holdout_rmse);
+    for (const ParameterEstimate& p : with.base.parameters) {
+      if (p.name == "wind_gain") covered += p.ci95_lower <= 1 && p.ci95_upper >= 0.9;
+    }
+  }
+  CHECK(found_without == draws);
+  CHECK(found_with <= 1);
+  CHECK(covered >= draws - 1);
+}
 
 TEST_CASE("a hidden effect is found first, with the truth within its interval") {
   int flights = 0;

@@ -208,8 +208,8 @@ TEST_CASE("a crash in the log is left out, and the flight before it judged") {
     log.roll.push_back(std::min(3.0, 0.2 * i));
     log.pitch.push_back(0.3);
     log.yaw.push_back(log.yaw.back());
-    log.north_velocity.push_back(4);
-    log.east_velocity.push_back(1);
+    log.north_velocity.push_back(4 * std::cos(log.yaw.back()));
+    log.east_velocity.push_back(4 * std::sin(log.yaw.back()));
     log.down_velocity.push_back(3);
   }
   const Diagnosis d = diagnose_flight(design_of(hidden), log, usual_base());

@@ -184,6 +184,11 @@ FlightLog fly(const HiddenFlight& h) {
           rounded(forward * std::cos(yaw) - lagging_right * std::sin(yaw)));
       log.east_velocity.push_back(rounded(forward * std::sin(yaw) + lagging_right * std::cos(yaw)));
       log.down_velocity.push_back(rounded(down + h.speed_noise * normal(random)));
+      if (h.anemometer_noise > 0) {
+        const double measured = along + h.anemometer_noise * normal(random);
+        log.north_wind.push_back(measured * std::cos(yaw));
+        log.east_wind.push_back(measured * std::sin(yaw));
+      }
     }
     speed += acceleration(halfway) * step;
   }

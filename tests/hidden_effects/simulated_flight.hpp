@@ -43,7 +43,9 @@ struct HiddenFlight {
   double speed_digit = 0;      ///< m/s, speeds are rounded to this
   double steepest_pitch = 30;  ///< deg
   int steps_per_sample = 10;   ///< of 10 ms: 10 Hz
-  double climb = 0;            ///< m, a climb to this height and back every two minutes
+  /// m/s, white noise of an anemometer on board; 0: there is none.
+  double anemometer_noise = 0;
+  double climb = 0;  ///< m, a climb to this height and back every two minutes
 
   double attitude_delay = 0;  ///< s, attitude is logged this late
   double pitch_trim = 0;      ///< deg, logged minus true pitch

@@ -138,6 +138,36 @@ TEST_CASE("a flight log in CSV comes out in radians, NED as given") {
   CHECK(log.down_velocity == std::vector<double>{3, -6});
 }
 
+TEST_CASE("a measured wind comes from its own columns, or from the airspeed along the heading") {
+  const std::string header =
+      flight_header.substr(0, flight_header.size() - 1) + ",wind_north_m_s,wind_east_m_s\n";
+  const FlightLog winds =
+      parse_flight_log(bytes_of(header + "0,0,0,90,1,2,3,-4,5\n0.1,0,0,90,1,2,3,-4,6\n"),
+                       "flight.csv", {})
+          .log;
+  CHECK(winds.north_wind == std::vector<double>{-4, -4});
+  CHECK(winds.east_wind == std::vector<double>{5, 6});
+
+  const std::string airspeed =
+      flight_header.substr(0, flight_header.size() - 1) + ",airspeed_forward_m_s\n";
+  const FlightLog ahead =
+      parse_flight_log(bytes_of(airspeed + "0,0,0,90,1,2,3,5\n0.1,0,0,0,1,2,3,5\n"), "flight.csv",
+                       {})
+          .log;
+  // To the east at 2 m/s with 5 m/s of air from ahead: 3 m/s of wind from the east.
+  CHECK(ahead.north_wind[0] == Approx(0).margin(1e-12));
+  CHECK(ahead.east_wind[0] == Approx(-3));
+  CHECK(ahead.north_wind[1] == Approx(-4));
+  CHECK(ahead.east_wind[1] == Approx(0).margin(1e-12));
+
+  const std::string half =
+      flight_header.substr(0, flight_header.size() - 1) + ",wind_north_m_s\n0,0,0,0,1,2,3,4\n";
+  CHECK_THAT(flight_problems(half), Catch::Contains("give both or none"));
+  const std::string both =
+      header.substr(0, header.size() - 1) + ",airspeed_forward_m_s\n0,0,0,0,1,2,3,4,5,6\n";
+  CHECK_THAT(flight_problems(both), Catch::Contains("only one can be what was measured"));
+}
+
 TEST_CASE("a flight log in CSV is refused where a value cannot be, or time does not increase") {
   CHECK(flight_problems(flight_header + "0,0,90.1,0,0,0,0\n") ==
         "flight.csv:2: pitch_deg is \"90.1\", expected -90 to 90");

@@ -22,8 +22,11 @@ struct FlightLog {
   std::vector<double> north_velocity;  ///< m/s
   std::vector<double> east_velocity;   ///< m/s
   std::vector<double> down_velocity;   ///< m/s
+  /// Velocity of the air over ground, m/s, where it was measured; else both are empty.
+  std::vector<double> north_wind{};
+  std::vector<double> east_wind{};  ///< likewise
   /// What flew where the log says that it was no multirotor: "ArduPlane V3.1.2, an aeroplane".
-  std::string other_vehicle;
+  std::string other_vehicle{};
 };
 
 /// A log, or the chosen part of it, that cannot tell what it is asked. The message is a sentence
@@ -54,6 +57,8 @@ struct Observations {
   std::vector<double> forward_speed;          ///< m/s over ground
   std::vector<double> right_speed;            ///< m/s over ground
   std::vector<double> down_speed;             ///< m/s
+  std::vector<double> forward_wind{};         ///< m/s over ground; empty where not measured
+  std::vector<double> right_wind{};           ///< likewise
   std::vector<double> forward_acceleration;   ///< m/s², rate of change of forward_speed
   std::vector<double> down_acceleration;      ///< m/s²
   std::vector<double> expected_acceleration;  ///< m/s² forward if there were no drag

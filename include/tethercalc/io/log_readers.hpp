@@ -43,7 +43,9 @@ struct FlightLogReading {
 /// From CSV: columns `time_s, roll_deg, pitch_deg, yaw_deg, vn_m_s, ve_m_s, vd_m_s` in any order,
 /// named exactly so; every value finite, angles within ±90° (pitch), ±360° (roll) and ±360 000°
 /// (yaw), velocities within ±500 m/s, time increasing. Which of them may be missing, the options
-/// tell.
+/// tell. A measured wind may stand beside them: `wind_north_m_s` and `wind_east_m_s`, the velocity
+/// of the air over ground (of a wind from the north `wind_north_m_s` is negative), or
+/// `airspeed_forward_m_s` along the heading, from which the wind ahead follows.
 ///
 /// Which of the two it is, the content tells: a log has zero bytes or marks among its first bytes.
 ///
