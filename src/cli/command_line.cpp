@@ -94,6 +94,8 @@ class Command {
     return repeatable("--flight", logs.flight_logs, flight_help)
         .option("--power", logs.power_log, power_help)
         .comma_list("--base", logs.base, base_help)
+        .repeatable("--effects", logs.effect_files,
+                    "Your own effects to try as well (JSON); repeatable")
         .flight(logs.flight);
   }
 

@@ -137,7 +137,8 @@ struct DiagnoseOptions {
   SpecOptions spec;
   std::vector<std::string> flight_logs;  ///< flights of one drone
   std::string power_log;
-  std::vector<std::string> base;  ///< ids of effects that are part of the base model
+  std::vector<std::string> base;          ///< ids of effects that are part of the base model
+  std::vector<std::string> effect_files;  ///< effects to try beside those of the catalogue
   FlightOptions flight;
   bool into = false;      ///< print the extended spec instead of the diagnosis
   std::string into_file;  ///< write it there instead, beside the diagnosis

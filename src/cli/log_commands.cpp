@@ -16,6 +16,7 @@
 #include "files/input_files.hpp"
 #include "files/output_files.hpp"
 #include "io/closest_name.hpp"
+#include "tethercalc/files/effect_file.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
@@ -68,42 +69,70 @@ void clear_progress() {
   if (::isatty(STDERR_FILENO) == 1) std::fprintf(stderr, "\r\x1b[K");
 }
 
+/// The effects of the files given, no id twice.
+std::vector<Effect> own_effects(const DiagnoseOptions& options) {
+  std::vector<Effect> effects;
+  for (const std::string& file : options.effect_files) {
+    for (Effect& effect : read_effects(file)) {
+      const auto same = std::find_if(effects.begin(), effects.end(),
+                                     [&](const Effect& other) { return other.id == effect.id; });
+      if (same != effects.end()) {
+        throw InputError(file, fmt::format("\"{}\" is an effect of another file, too", effect.id));
+      }
+      effects.push_back(std::move(effect));
+    }
+  }
+  return effects;
+}
+
+bool is_given(const DiagnoseOptions& options, LogKind kind) {
+  return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
+}
+
 /// The effects of --base that a log of `kind` can show. Every name must be one of a given log.
-std::vector<std::string> base_effects(const DiagnoseOptions& options, LogKind kind) {
+std::vector<std::string> base_effects(const DiagnoseOptions& options, LogKind kind,
+                                      std::span<const Effect> own) {
   std::vector<std::string> chosen;
-  for (const std::string& id : options.base) {
-    const Effect* effect = find_effect(id);
-    if (effect != nullptr && effect->log == kind) chosen.push_back(id);
+  for (const Effect* effect : effects_for(kind, own)) {
+    if (std::find(options.base.begin(), options.base.end(), effect->id) != options.base.end()) {
+      chosen.push_back(effect->id);
+    }
   }
   return chosen;
 }
 
-void check_base(const DiagnoseOptions& options) {
+[[noreturn]] void fail_without_log(const char* option, const std::string& id, LogKind kind) {
+  const bool flight = kind == LogKind::flight;
+  throw InputError(option,
+                   fmt::format("\"{}\" is an effect of {} logs; give one with {}", id,
+                               flight ? "flight" : "power", flight ? "--flight" : "--power"));
+}
+
+/// What --base and --effects name must be of a log that is given.
+void check_effects(const DiagnoseOptions& options, std::span<const Effect> own) {
+  for (const Effect& effect : own) {
+    if (!is_given(options, effect.log)) fail_without_log("--effects", effect.id, effect.log);
+  }
   std::vector<std::string> known;
-  for (const Effect& effect : effect_catalogue()) {
-    const bool given =
-        effect.log == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
-    if (given) known.push_back(effect.id);
+  for (const LogKind kind : {LogKind::flight, LogKind::power}) {
+    for (const Effect* effect : effects_for(kind, own)) {
+      if (is_given(options, kind)) known.push_back(effect->id);
+    }
   }
   for (const std::string& id : options.base) {
     if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    const Effect* effect = find_effect(id);
-    if (effect != nullptr) {
-      const bool flight = effect->log == LogKind::flight;
-      throw InputError("--base",
-                       fmt::format("\"{}\" is an effect of {} logs; give one with {}", id,
-                                   flight ? "flight" : "power", flight ? "--flight" : "--power"));
-    }
+    if (const Effect* effect = find_effect(id)) fail_without_log("--base", id, effect->log);
     throw InputError("--base", fmt::format("\"{}\" is not an effect; allowed are {}{}", id,
                                            fmt::join(known, ", "), did_you_mean(id, known)));
   }
 }
 
-LoggedFlight read_flights(const DiagnoseOptions& options, std::vector<std::string>& notes) {
+LoggedFlight read_flights(const DiagnoseOptions& options, std::span<const Effect> own,
+                          std::vector<std::string>& notes) {
   LoggedFlight flight;
   flight.mass = flown_mass(options.flight);
   flight.air_density = air_density(options.flight);
-  flight.options.base = base_effects(options, LogKind::flight);
+  flight.options.base = base_effects(options, LogKind::flight, own);
   flight.options.pitch_offset = pitch_offset(options.flight);
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
@@ -170,6 +199,7 @@ void check_into(const DiagnoseOptions& options) {
   if (options.into_file.empty()) return;
   std::vector<std::string> inputs = options.flight_logs;
   inputs.insert(inputs.end(), {options.spec.file, options.power_log});
+  inputs.insert(inputs.end(), options.effect_files.begin(), options.effect_files.end());
   for (const std::string& read : inputs) {
     std::error_code ignored;
     if (std::filesystem::equivalent(options.into_file, read, ignored)) {
@@ -322,12 +352,15 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   if (options.flight_logs.empty() && options.power_log.empty()) {
     throw InputError("diagnose", "needs a measured log: --flight LOG, --power LOG or both");
   }
-  check_base(options);
   DiagnosisQuestion question{file.design};
+  question.hypotheses = own_effects(options);
+  check_effects(options, question.hypotheses);
   std::vector<std::string> notes;
-  if (!options.flight_logs.empty()) question.flight = read_flights(options, notes);
+  if (!options.flight_logs.empty())
+    question.flight = read_flights(options, question.hypotheses, notes);
   if (!options.power_log.empty()) {
-    question.power = {read_power_log(options.power_log), base_effects(options, LogKind::power)};
+    question.power = {read_power_log(options.power_log),
+                      base_effects(options, LogKind::power, question.hypotheses)};
   }
   DiagnosisStudy study = studied(options, question);
   if (study.flight) {

@@ -13,6 +13,7 @@
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/diagnose/hypothesis.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -34,7 +35,8 @@ struct Preliminary {
 };
 
 Preliminary preliminary_fit(const Design& design, const std::vector<FlightData>& flights) {
-  const FlightModel model(design, flights, {"linear_drag", "wind"});
+  const FlightModel model(design, flights, effects_for(LogKind::flight, {}),
+                          {"linear_drag", "wind"});
   const SelectionProblem& problem = model.problem;
   const std::size_t delay = model.index_of("attitude_delay_s").value();
   SelectionOptions nothing;
@@ -177,9 +179,9 @@ std::string in_flight(const std::vector<FlightData>& flights, std::size_t flight
 void tell_headings(const std::vector<FlightData>& flights, Diagnosis& d) {
   for (std::size_t k = 0; k < flights.size(); ++k) {
     const auto is_directed = [k](const auto& told) {
-      const auto& parameters = find_effect(told.effect)->parameters;
-      return (told.flight == 0 || told.flight == k + 1) &&
-             std::any_of(parameters.begin(), parameters.end(),
+      const Effect* effect = find_effect(told.effect);
+      return effect != nullptr && (told.flight == 0 || told.flight == k + 1) &&
+             std::any_of(effect->parameters.begin(), effect->parameters.end(),
                          [](const EffectParameter& p) { return p.only_if_turning; });
     };
     if (std::none_of(d.findings.begin(), d.findings.end(), is_directed) &&
@@ -200,7 +202,8 @@ std::size_t used_samples(const FlightData& data) {
 }
 
 void report(const std::vector<FlightData>& flights, const FlightModel& model,
-            const Selection& selection, const FlightDiagnosisOptions& options, Diagnosis& d) {
+            const Selection& selection, const FlightDiagnosisOptions& options,
+            const std::vector<const Effect*>& effects, Diagnosis& d) {
   d.not_identifiable.push_back(
       {"extra_mass",
        "a wrong mass only rescales the drag areas, since both enter as force over mass"});
@@ -219,15 +222,16 @@ void report(const std::vector<FlightData>& flights, const FlightModel& model,
       {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
        "m/s", speed_rmse(flights, model, selection.base, options.speed_window),
        speed_rmse(flights, model, selection.extended, options.speed_window)});
-  for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+  for (const Effect* effect : effects) {
     if (std::none_of(flights.begin(), flights.end(),
-                     [&](const FlightData& f) { return testable(effect, f.faults); })) {
-      d.not_testable.push_back({effect.id, "a down velocity that moves (vd_m_s)"});
+                     [&](const FlightData& f) { return testable(*effect, f.faults); })) {
+      d.not_testable.push_back({effect->id, "a down velocity that moves (vd_m_s)"});
     }
   }
 }
 
-Diagnosis too_short(const std::vector<FlightData>& flights) {
+Diagnosis too_short(const std::vector<FlightData>& flights,
+                    const std::vector<const Effect*>& effects) {
   Diagnosis d;
   double usable = 0;
   for (const FlightData& data : flights) {
@@ -239,8 +243,8 @@ Diagnosis too_short(const std::vector<FlightData>& flights) {
   const double needed = shortest_block * static_cast<double>(fewest_blocks);
   const std::string needs = fmt::format(
       "a longer flight: {:.0f} s, this one has {:.1f} s that can be used", needed, usable);
-  for (const Effect& effect : effect_catalogue(LogKind::flight)) {
-    d.not_testable.push_back({effect.id, needs});
+  for (const Effect* effect : effects) {
+    d.not_testable.push_back({effect->id, needs});
   }
   d.notes.push_back(fmt::format(
       "too short to tell an effect from chance: {:.1f} s of usable flight, {:.0f} s are needed",
@@ -272,7 +276,8 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
   if (!(design.drone.mass > 0) || !(design.flight.air_density > 0)) {
     throw std::invalid_argument("mass and air density must be positive");
   }
-  check_base_effects(LogKind::flight, options.base);
+  const std::vector<const Effect*> effects = effects_for(LogKind::flight, options.hypotheses);
+  check_base_effects(LogKind::flight, effects, options.base);
   const std::vector<FlightData> read = read_flights(design, flights, options.pitch_offset);
 
   Diagnosis d;
@@ -280,14 +285,14 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
       std::accumulate(read.begin(), read.end(), std::size_t{0},
                       [](std::size_t sum, const FlightData& f) { return sum + f.blocks; });
   if (blocks < fewest_blocks) {
-    d = too_short(read);
+    d = too_short(read, effects);
   } else {
-    FlightModel model(design, read, options.base);
+    FlightModel model(design, read, effects, options.base);
     Preliminary preliminary = preliminary_fit(design, read);
     model.problem.unnamed = shapes_of(read, model, preliminary);
     model.problem.systematic = std::move(preliminary.time_stamp_error);
     const Selection selection = select_effects(model.problem, options.selection, progress);
-    report(read, model, selection, options, d);
+    report(read, model, selection, options, effects, d);
   }
   d.kind = "flight";
   d.unit = unit_of_flights;

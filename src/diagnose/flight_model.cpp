@@ -177,6 +177,7 @@ bool testable(const Effect& effect, const LogFaults& faults) {
 }
 
 FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& flights,
+                         const std::vector<const Effect*>& tried,
                          const std::vector<std::string>& base)
     : LogModel(spans_of(flights)), flights_(flights) {
   const bool several = flights.size() > 1;
@@ -188,7 +189,8 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
       add(base_.emplace_back(std::move(gain)), design, true, which(k));
     }
   }
-  for (const Effect& effect : effect_catalogue(LogKind::flight)) {
+  for (const Effect* const entry : tried) {
+    const Effect& effect = *entry;
     const bool fitted = contains(base, effect.id);
     bool added = false;
     for (std::size_t k = 0; k < flights.size(); ++k) {

@@ -46,9 +46,9 @@ struct FlightData {
 /// else belongs to the drone, is shared; what belongs to a flight is a group of each.
 class FlightModel : public LogModel {
  public:
-  /// `flights` must outlive it.
+  /// With these effects, of which some are always fitted. `flights` and effects must outlive it.
   FlightModel(const Design& design, const std::vector<FlightData>& flights,
-              const std::vector<std::string>& base);
+              const std::vector<const Effect*>& tried, const std::vector<std::string>& base);
 
   /// What every flight fits beside its effects, with the values of the flight.
   [[nodiscard]] FlightBase base(std::size_t flight, std::span<const double> values) const;

@@ -351,9 +351,10 @@ LogModel::Span span_of(std::span<const double> time, std::size_t blocks) {
   return time.empty() ? LogModel::Span{} : LogModel::Span{time.front(), time.back(), blocks};
 }
 
-void check_base_effects(LogKind kind, std::span<const std::string> ids) {
+void check_base_effects(LogKind kind, std::span<const Effect* const> effects,
+                        std::span<const std::string> ids) {
   std::vector<std::string> known, unknown;
-  for (const Effect& effect : effect_catalogue(kind)) known.push_back(effect.id);
+  for (const Effect* effect : effects) known.push_back(effect->id);
   for (const std::string& id : ids) {
     if (!contains(known, id)) unknown.push_back(id);
   }
@@ -381,7 +382,10 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
   diagnosis.unexplained.detected = true;
   diagnosis.unexplained.channels = unnamed.channels;
   diagnosis.unexplained.share_percent = unnamed.share_percent;
-  diagnosis.unexplained.regressor = log.problem.unnamed[unnamed.regressors.front()].shape;
+  const UnnamedRegressor& strongest = log.problem.unnamed[unnamed.regressors.front()];
+  diagnosis.unexplained.regressor = strongest.shape;
+  diagnosis.unexplained.formula = strongest.formula;
+  diagnosis.unexplained.coefficient = strongest.formula_unit * unnamed.coefficients.front();
 }
 
 double undetectable_percent(double samples, std::size_t shapes, double false_alarm_probability) {

@@ -86,8 +86,9 @@ class LogModel {
 /// Of a log with samples at `time`, rising; empty where there are none.
 [[nodiscard]] LogModel::Span span_of(std::span<const double> time, std::size_t blocks = 0);
 
-/// Throws std::invalid_argument unless each of `ids` is an effect of such logs.
-void check_base_effects(LogKind kind, std::span<const std::string> ids);
+/// Throws std::invalid_argument unless each of `ids` is one of `effects`, those of such logs.
+void check_base_effects(LogKind kind, std::span<const Effect* const> effects,
+                        std::span<const std::string> ids);
 
 /// All that is told alike of every kind of log: qualities and parameters of the models, findings
 /// with their traces, aliases, the error budget, and of the unexplained all but its size.

@@ -2,7 +2,9 @@
 // every sample, stage by stage, each stage from the quantities that were measured before it.
 #pragma once
 
+#include <cstddef>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -37,6 +39,9 @@ struct PowerModel {
   double motor_power_growth = 0;  ///< from the first to the last sample, steadily, over the first
   double dropped_mass = 0;        ///< kg that the drone is lighter by from `drop_time` on
   double drop_time = 0;           ///< s of the log's clock
+  /// W drawn at the bus beside, in a sample of the log in which the rest draws so much.
+  std::vector<std::function<double(const PowerModel&, const PowerLog&, std::size_t, double)>>
+      added_power{};
 };
 
 /// What heat balances of one log's samples came to. A search asks for the same ones hundreds of

@@ -16,6 +16,7 @@
 #include "diagnose/unnamed_shapes.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
+#include "tethercalc/diagnose/hypothesis.hpp"
 #include "tethercalc/model/flight_state.hpp"
 
 namespace tethercalc {
@@ -299,31 +300,33 @@ double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
 /// The effects that the log can show; the others go to `diagnosis.not_testable`.
 std::vector<const Effect*> testable_effects(const PowerLog& log,
                                             const std::map<Stage, std::string>& unusable,
+                                            const std::vector<const Effect*>& candidates,
                                             Diagnosis& diagnosis) {
   std::vector<const Effect*> effects;
-  for (const Effect& effect : effect_catalogue(LogKind::power)) {
-    std::string needs = lacking(effect, log);
+  for (const Effect* effect : candidates) {
+    std::string needs = lacking(*effect, log);
     for (const auto& [stage, reason] : unusable) {
-      if (needs.empty() && acts_on(effect, stage)) needs = reason;
+      if (needs.empty() && acts_on(*effect, stage)) needs = reason;
     }
     if (needs.empty()) {
-      effects.push_back(&effect);
+      effects.push_back(effect);
     } else {
-      diagnosis.not_testable.push_back({effect.id, needs});
+      diagnosis.not_testable.push_back({effect->id, needs});
     }
   }
   return effects;
 }
 
 /// True where nothing can be judged from a log this short, which is then told.
-bool too_short(const PowerLog& log, Diagnosis& diagnosis) {
+bool too_short(const PowerLog& log, const std::vector<const Effect*>& candidates,
+               Diagnosis& diagnosis) {
   const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
   if (duration >= shortest_power_log && log.time.size() >= fewest_power_samples) return false;
   const std::string needs =
       fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
                   shortest_power_log, duration, log.time.size());
-  for (const Effect& effect : effect_catalogue(LogKind::power)) {
-    diagnosis.not_testable.push_back({effect.id, needs});
+  for (const Effect* effect : candidates) {
+    diagnosis.not_testable.push_back({effect->id, needs});
   }
   diagnosis.notes.push_back("the log is too short to judge");
   return true;
@@ -361,13 +364,15 @@ void compare_stages(const PowerResiduals& residuals, const PowerLogModel& view,
 
 PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                               std::span<const std::string> base_effects,
-                              const SelectionProgress& progress) {
+                              const SelectionProgress& progress,
+                              std::span<const Effect> hypotheses) {
   check_lengths(log);
   if (!design.tether.cross_section) {
     throw std::invalid_argument(
         "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
   }
-  check_base_effects(LogKind::power, base_effects);
+  const std::vector<const Effect*> candidates = effects_for(LogKind::power, hypotheses);
+  check_base_effects(LogKind::power, candidates, base_effects);
 
   PowerDiagnosis result{{}, design};
   Diagnosis& diagnosis = result.diagnosis;
@@ -377,7 +382,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.samples = log.time.size();
   diagnosis.base.holdout_rmse = nan;
   diagnosis.extended.holdout_rmse = nan;
-  if (too_short(log, diagnosis)) return result;
+  if (too_short(log, candidates, diagnosis)) return result;
   check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
@@ -387,7 +392,8 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
   PowerResiduals residuals(base, std::move(screened));
-  const std::vector<const Effect*> effects = testable_effects(residuals.log(), unusable, diagnosis);
+  const std::vector<const Effect*> effects =
+      testable_effects(residuals.log(), unusable, candidates, diagnosis);
   if (residuals.stages().empty()) return result;
 
   PowerLogModel view(base, residuals, effects, {base_effects.begin(), base_effects.end()});

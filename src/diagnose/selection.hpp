@@ -65,6 +65,8 @@ struct UnnamedRegressor {
   double size = 1;               ///< what a coefficient of 1 stands for, in `unit`
   std::string unit{};            ///< empty where the column has a unit of its own
   double least_gain_factor = 1;  ///< must gain so many times the usual minimum, as in `Effect`
+  std::string formula{};         ///< of c times it, as a `Hypothesis` has one; empty: has none
+  double formula_unit = 1;       ///< c where the coefficient is 1
 };
 
 /// A record and the model that should explain it. Readings of several instruments are stacked: one

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "identify/linear_algebra.hpp"
@@ -18,6 +19,7 @@ struct Shape {
   std::string words;    ///< likewise
   Series values;        ///< one a sample
   double least_gain_factor = 1;
+  std::string formula{};  ///< of the values, over `formula_channels`
 };
 
 bool varies(const Series& x) { return (x != x[0]).any(); }
@@ -32,12 +34,13 @@ Series height_gained(const Observations& o) {
   return height;
 }
 
+/// `x` is the channel that formulas call `variable`.
 void add_powers(std::vector<Shape>& shapes, const std::string& channel, const std::string& name,
-                const Series& x) {
+                const Series& x, const std::string& variable) {
   if (!varies(x)) return;
-  shapes.push_back({channel, name, x});
-  shapes.push_back({channel, "the magnitude of the " + name, x.abs()});
-  shapes.push_back({channel, "the square of the " + name, x.square()});
+  shapes.push_back({channel, name, x, 1, variable});
+  shapes.push_back({channel, "the magnitude of the " + name, x.abs(), 1, "abs(" + variable + ")"});
+  shapes.push_back({channel, "the square of the " + name, x.square(), 1, variable + "^2"});
 }
 
 /// Steps are so near to each other that one between two of them explains no less than an effect
@@ -51,13 +54,16 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
   const double begin = time[0];
   const double duration = time[time.size() - 1] - begin;
   const Series elapsed = (time - begin) / duration - 0.5;
-  shapes.push_back({"time_s", "time, steadily", elapsed});
-  shapes.push_back(
-      {"time_s", "the square of the time from the middle of the flight", elapsed.square()});
+  const std::string part =
+      fmt::format("((time - {:.3f}) / {:.3f})", begin + duration / 2, duration);
+  shapes.push_back({"time_s", "time, steadily", elapsed, 1, part});
+  shapes.push_back({"time_s", "the square of the time from the middle of the flight",
+                    elapsed.square(), 1, part + "^2"});
   for (int k = 1; k < step_places; ++k) {
     const double at = begin + duration * k / step_places;
     shapes.push_back({"time_s", fmt::format("a step at about {:.0f} s", at),
-                      (time >= at).cast<double>(), gain_of_steps});
+                      (time >= at).cast<double>(), gain_of_steps,
+                      fmt::format("(time >= {:.3f})", at)});
   }
 }
 
@@ -67,7 +73,7 @@ constexpr int coarse_steps = 40;
 Shape step_at(const PowerLog& log, double share) {
   const double at = log.time.front() + share * (log.time.back() - log.time.front());
   return {"time_s", fmt::format("a step at {:.0f} s", at),
-          (as_series(log.time) >= at).cast<double>()};
+          (as_series(log.time) >= at).cast<double>(), 1, fmt::format("(time >= {:.3f})", at)};
 }
 
 std::vector<Shape> shapes_of(const PowerLog& log) {
@@ -77,32 +83,40 @@ std::vector<Shape> shapes_of(const PowerLog& log) {
   for (int k = 1; k < coarse_steps; ++k) {
     shapes.push_back(step_at(log, static_cast<double>(k) / coarse_steps));
   }
-  shapes.push_back({"time_s", "a steady drift", share});
+  const std::string part = fmt::format("(time - {:.3f}) / {:.3f}", log.time.front(), duration);
+  shapes.push_back({"time_s", "a steady drift", share, 1, part});
   for (int k = 1; k <= 8; ++k) {
     const std::string words = fmt::format("a wave of {:.0f} s", duration / k);
     const Series phase = 2 * std::numbers::pi * k * share;
-    shapes.push_back({"time_s", words, phase.cos()});
-    shapes.push_back({"time_s", words, phase.sin()});
+    const std::string turns = fmt::format("({} * 2 * _pi * {})", k, part);
+    shapes.push_back({"time_s", words, phase.cos(), 1, "cos" + turns});
+    shapes.push_back({"time_s", words, phase.sin(), 1, "sin" + turns});
   }
 
-  const auto powers = [&shapes](const char* channel, const char* word,
+  const auto powers = [&shapes](const char* channel, const char* word, const char* variable,
                                 const std::vector<double>& values, bool bends) {
     if (values.empty()) return;
     const Series x = as_series(values);
+    const double middle = 0.5 * (x.maxCoeff() + x.minCoeff());
     const double half = 0.5 * (x.maxCoeff() - x.minCoeff());
     if (!(half > 0)) return;
-    const Series z = (x - 0.5 * (x.maxCoeff() + x.minCoeff())) / half;
-    shapes.push_back({channel, fmt::format("in proportion to the {}", word), z});
+    const Series z = (x - middle) / half;
+    const std::string scaled = fmt::format("(({} - {:.6g}) / {:.6g})", variable, middle, half);
+    shapes.push_back({channel, fmt::format("in proportion to the {}", word), z, 1, scaled});
     if (!bends) return;
+    shapes.push_back({channel, fmt::format("with the square of the {}", word),
+                      (x / x.maxCoeff()).square(), 1,
+                      fmt::format("({} / {:.6g})^2", variable, x.maxCoeff())});
     shapes.push_back(
-        {channel, fmt::format("with the square of the {}", word), (x / x.maxCoeff()).square()});
-    shapes.push_back({channel, fmt::format("bent over the {}", word), z.square()});
-    shapes.push_back({channel, fmt::format("with the cube of the {}", word), z.cube()});
+        {channel, fmt::format("bent over the {}", word), z.square(), 1, scaled + "^2"});
+    shapes.push_back(
+        {channel, fmt::format("with the cube of the {}", word), z.cube(), 1, scaled + "^3"});
   };
-  powers("height_m", "height", log.height, true);
-  powers("airspeed_m_s", "airspeed", log.airspeed, true);
+  powers("height_m", "height", "height", log.height, true);
+  powers("airspeed_m_s", "airspeed", "airspeed", log.airspeed, true);
   // A temperature hardly varies: its powers would be constants, which effects with a name are.
-  powers("ambient_temperature_C", "ambient temperature", log.ambient_temperature_C, false);
+  powers("ambient_temperature_C", "ambient temperature", "ambient_temperature",
+         log.ambient_temperature_C, false);
   return shapes;
 }
 
@@ -117,6 +131,10 @@ UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const
                           stage.shaped_unit};
   residuals.whitened(k, {column.data(), residuals.samples()},
                      std::span(result.column).subspan(stage.first_row, stage.rows));
+  if (stage.stage == Stage::motors) {
+    result.formula = "power * c * " + shape.formula;
+    result.formula_unit = stage.noise;
+  }
   return result;
 }
 
@@ -124,45 +142,50 @@ UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const
 
 std::vector<UnnamedRegressor> flight_shapes(const Observations& o, double wind) {
   std::vector<Shape> shapes;
-  add_powers(shapes, "roll_deg", "roll", as_series(o.roll));
-  add_powers(shapes, "pitch_deg", "pitch", as_series(o.tilt));
-  add_powers(shapes, "lateral_speed_m_s", "lateral speed", as_series(o.right_speed));
-  add_powers(shapes, "vd_m_s", "vertical speed", as_series(o.down_speed));
+  add_powers(shapes, "roll_deg", "roll", as_series(o.roll), "roll");
+  add_powers(shapes, "pitch_deg", "pitch", as_series(o.tilt), "tilt");
+  add_powers(shapes, "lateral_speed_m_s", "lateral speed", as_series(o.right_speed), "right_speed");
+  add_powers(shapes, "vd_m_s", "vertical speed", as_series(o.down_speed), "down_speed");
   if (varies(as_series(o.down_speed))) {
     Series height = height_gained(o);
+    const std::string above = fmt::format("(height - {:.3f})", height.mean());
     height -= height.mean();
-    shapes.push_back({"height_m", "height", height});
-    shapes.push_back({"height_m", "the square of the height from its mean", height.square()});
+    shapes.push_back({"height_m", "height", height, 1, above});
+    shapes.push_back(
+        {"height_m", "the square of the height from its mean", height.square(), 1, above + "^2"});
   }
   if (const Series yaw = as_series(o.yaw); varies(yaw)) {
-    shapes.push_back({"yaw_deg", "the cosine of the yaw", yaw.cos()});
-    shapes.push_back({"yaw_deg", "the sine of the yaw", yaw.sin()});
+    shapes.push_back({"yaw_deg", "the cosine of the yaw", yaw.cos(), 1, "cos(yaw)"});
+    shapes.push_back({"yaw_deg", "the sine of the yaw", yaw.sin(), 1, "sin(yaw)"});
   }
   add_time(shapes, as_series(o.time));
 
   const Series u = as_series(o.forward_speed) - wind;
-  const std::pair<const char*, Series> carriers[] = {
-      {"", Series::Ones(u.size())},
-      {", times the airspeed", u},
-      {", times the magnitude of the airspeed", u.abs()},
-      {", times the airspeed and its magnitude", u * u.abs()}};
+  const std::tuple<const char*, const char*, Series> carriers[] = {
+      {"", "", Series::Ones(u.size())},
+      {", times the airspeed", " * airspeed", u},
+      {", times the magnitude of the airspeed", " * abs(airspeed)", u.abs()},
+      {", times the airspeed and its magnitude", " * airspeed * abs(airspeed)", u * u.abs()}};
   std::vector<UnnamedRegressor> regressors;
   const auto add = [&regressors](const std::string& channel, const std::string& words,
-                                 const Series& column) -> UnnamedRegressor& {
-    return regressors.emplace_back(UnnamedRegressor{
-        .channel = channel, .shape = words, .column = {column.begin(), column.end()}});
+                                 const Series& column,
+                                 const std::string& formula) -> UnnamedRegressor& {
+    return regressors.emplace_back(UnnamedRegressor{.channel = channel,
+                                                    .shape = words,
+                                                    .column = {column.begin(), column.end()},
+                                                    .formula = "mass * c * " + formula});
   };
   for (const Shape& shape : shapes) {
-    for (const auto& [words, carrier] : carriers) {
-      add(shape.channel, shape.words + words, shape.values * carrier).least_gain_factor =
-          shape.least_gain_factor;
+    for (const auto& [words, factor, carrier] : carriers) {
+      add(shape.channel, shape.words + words, shape.values * carrier, shape.formula + factor)
+          .least_gain_factor = shape.least_gain_factor;
     }
   }
-  add("airspeed_m_s", "the magnitude of the airspeed", u.abs());
-  add("airspeed_m_s", "the square of the airspeed", u.square());
-  add("airspeed_m_s", "the cube of the airspeed", u.cube());
-  add("airspeed_m_s", "the direction of the airspeed",
-      (u < 0).select(-Series::Ones(u.size()), 1.0));
+  add("airspeed_m_s", "the magnitude of the airspeed", u.abs(), "abs(airspeed)");
+  add("airspeed_m_s", "the square of the airspeed", u.square(), "airspeed^2");
+  add("airspeed_m_s", "the cube of the airspeed", u.cube(), "airspeed^3");
+  add("airspeed_m_s", "the direction of the airspeed", (u < 0).select(-Series::Ones(u.size()), 1.0),
+      "sign(airspeed)");
   return regressors;
 }
 

@@ -43,6 +43,22 @@ ordered_json finding_json(const Finding& f) {
                    f.flight);
 }
 
+/// What has no name as an effect of one's own, ready to be given one; null where it has no formula.
+ordered_json unnamed_effect(const Unexplained& u, const std::string& kind) {
+  if (!u.detected || u.formula.empty()) return nullptr;
+  const double size = std::abs(u.coefficient);
+  const auto rounded = [](double value) { return std::stod(significant(value, 2)); };
+  return {{"id", "unnamed"},
+          {"title", "Follows " + u.regressor},
+          {"mechanism", "Not known yet."},
+          {kind == "power" ? "power_W" : "force_N", u.formula},
+          {"parameters",
+           {{{"name", "c"},
+             {"lower", rounded(-10 * size)},
+             {"upper", rounded(10 * size)},
+             {"scale", rounded(size / 10)}}}}};
+}
+
 ordered_json before_after(const BeforeAfter& pair) {
   return ordered_json::array({number_or_null(pair.before), number_or_null(pair.after)});
 }
@@ -232,6 +248,10 @@ class Story {
                     "{}: {}",
                     style_.bad("Unnamed structure:"), u.share_percent, significant(u.size, 2),
                     u.size_unit, fmt::join(u.channels, ", "), with_stop(u.shape)));
+    const ordered_json effect = unnamed_effect(u, d_.kind);
+    if (effect.is_null()) return;
+    paragraph("As a file for --effects, to be given a name and tried again:");
+    out_.emplace_back(StoryLines{effect.dump(2) + "\n"});
   }
 
   void design() {
@@ -314,7 +334,8 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
                         {"size", number_or_null(d.unexplained.size)},
                         {"size_unit", d.unexplained.size_unit},
                         {"shape", d.unexplained.shape},
-                        {"regressor", d.unexplained.regressor}};
+                        {"regressor", d.unexplained.regressor},
+                        {"effect", unnamed_effect(d.unexplained, d.kind)}};
   out["extended"] = {{"holdout_rmse", number_or_null(d.extended.holdout_rmse)},
                      {"parameters", parameters_json(d.extended.parameters)},
                      {"spec", extended}};
@@ -347,6 +368,8 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const TextStyle& style) {
       out += "\n" + style.bold(heading->text) + "\n";
     } else if (const auto* table = std::get_if<TitledTable>(&part)) {
       out += table->text(style);
+    } else if (const auto* lines = std::get_if<StoryLines>(&part)) {
+      out += lines->text;
     } else {
       out += wrapped(std::get<std::string>(part));
     }

@@ -103,6 +103,8 @@ Section diagnosis_section(const LogDiagnosis& log, const GnuplotRunner& gnuplot)
     body += std::exchange(picture, "");
     if (const auto* heading = std::get_if<StoryHeading>(&part)) {
       body += html::element("h3", heading->text) + "\n";
+    } else if (const auto* lines = std::get_if<StoryLines>(&part)) {
+      body += html::element("pre", lines->text) + "\n";
     } else {
       body += html::table(std::get<TitledTable>(part), fmt::format("table-{}-{}", id, ++tables));
     }

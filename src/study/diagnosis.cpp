@@ -59,13 +59,17 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     Design flown = design;
     flown.drone.mass = flight->mass.value_or(design.drone.mass);
     flown.flight.air_density = flight->air_density.value_or(design.flight.air_density);
+    FlightDiagnosisOptions options = flight->options;
+    options.hypotheses.insert(options.hypotheses.end(), question.hypotheses.begin(),
+                              question.hypotheses.end());
     study.flight = of_suitable(LogKind::flight, [&] {
-      return diagnose_flights(flown, flight->flights, flight->options, progress);
+      return diagnose_flights(flown, flight->flights, options, progress);
     });
   }
   if (const auto& power = question.power) {
-    PowerDiagnosis found = of_suitable(
-        LogKind::power, [&] { return diagnose_power(design, power->log, power->base, progress); });
+    PowerDiagnosis found = of_suitable(LogKind::power, [&] {
+      return diagnose_power(design, power->log, power->base, progress, question.hypotheses);
+    });
     study.power = std::move(found.diagnosis);
     study.extended = std::move(found.extended);
   }
@@ -75,7 +79,8 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
   if (study.flight && study.power) {
     // What a flight can never show the power log may.
     std::erase_if(study.flight->not_identifiable, [](const NotIdentifiable& n) {
-      return find_effect(n.effect)->log == LogKind::power;
+      const Effect* effect = find_effect(n.effect);
+      return effect != nullptr && effect->log == LogKind::power;
     });
   }
   std::optional<Diagnosis>& last = study.power ? study.power : study.flight;

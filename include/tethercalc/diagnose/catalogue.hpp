@@ -1,6 +1,7 @@
 // The catalogue of effects: every cause that a diagnosis can name.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -86,11 +87,11 @@ struct Effect {
   FlightPhase flight_phase = FlightPhase::force;  ///< for effects of a flight
   /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
   /// for effects of power logs.
-  void (*on_flight)(FlightPrediction&, std::span<const double>) = nullptr;
+  std::function<void(FlightPrediction&, std::span<const double>)> on_flight{};
 
   /// How it changes the model of a power log, which must not contain the effect already; values in
   /// SI, in the order of `parameters`. Null for effects of flight logs.
-  void (*on_power)(PowerModel&, std::span<const double>) = nullptr;
+  std::function<void(PowerModel&, std::span<const double>)> on_power{};
   /// The stages of a power log whose comparison it changes: tether, converter or motors.
   std::vector<Stage> shows_in{};
   /// id of an effect before it in the catalogue that every log shows in the same way. It is told

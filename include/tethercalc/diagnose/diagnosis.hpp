@@ -111,6 +111,10 @@ struct Unexplained {
   std::string size_unit;  ///< "m/s²"; of a power log "ohm", "W" or "%", by stage
   std::string shape;      ///< plain words; empty where nothing was detected
   std::string regressor;  ///< the one that captures it best
+  /// The same as a `Hypothesis` has it, with a parameter c: a force in N, or a power in W. Empty
+  /// where it is neither, as a resistance.
+  std::string formula;
+  double coefficient = 0;  ///< c
 };
 
 /// A model fitted to the log, judged on data it was not fitted to.

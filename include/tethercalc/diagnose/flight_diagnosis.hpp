@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/design.hpp"
@@ -20,10 +21,11 @@ struct MeasuredFlight {
 
 /// How to look, and what to take for granted.
 struct FlightDiagnosisOptions {
-  double pitch_offset = 0;        ///< rad, taken off the logged pitch before anything else
-  std::vector<std::string> base;  ///< ids of effects that are refitted but not reported
-  double speed_window = 5;        ///< s, of the open-loop simulation of the speed
-  SelectionOptions selection;     ///< thresholds of the search
+  double pitch_offset = 0;         ///< rad, taken off the logged pitch before anything else
+  std::vector<std::string> base;   ///< ids of effects that are refitted but not reported
+  double speed_window = 5;         ///< s, of the open-loop simulation of the speed
+  SelectionOptions selection;      ///< thresholds of the search
+  std::vector<Effect> hypotheses;  ///< tried beside those of the catalogue, see `effect_of`
 };
 
 /// Compares the forward acceleration of `flights` with what its attitude and speed make us expect

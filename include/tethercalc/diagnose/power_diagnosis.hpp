@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/model/design.hpp"
@@ -26,12 +27,15 @@ inline constexpr double shortest_power_log = 180;
 /// the noise's memory taken out; held-out errors are in that unit, 1 being nothing but noise. The
 /// findings' errors in volts and watts stand in `Diagnosis::further`.
 ///
+/// `hypotheses` are tried beside the effects of the catalogue, see `effect_of`.
+///
 /// A log that is too short, or lacks channels, has the effects that it cannot show under
 /// `not_testable`; that is an answer, not an error. Throws std::invalid_argument where the design
 /// has no cable cross-section, a base effect is unknown or belongs to flights, the channels differ
 /// in length, or their values cannot be in the units their names say.
 [[nodiscard]] PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                                             std::span<const std::string> base_effects = {},
-                                            const SelectionProgress& progress = {});
+                                            const SelectionProgress& progress = {},
+                                            std::span<const Effect> hypotheses = {});
 
 }  // namespace tethercalc

@@ -20,8 +20,12 @@ namespace tethercalc {
 struct StoryHeading {
   std::string text;  ///< one line
 };
-/// A heading, a paragraph, or a table.
-using StoryPart = std::variant<StoryHeading, std::string, TitledTable>;
+/// Lines to be copied as they are.
+struct StoryLines {
+  std::string text;  ///< each ends in a line break
+};
+/// A heading, a paragraph, a table, or lines.
+using StoryPart = std::variant<StoryHeading, std::string, TitledTable, StoryLines>;
 
 /// The story: what was predicted and measured, where the error comes from, each finding in two
 /// sentences, what stays unexplained, what the design gains, and what could not be tested.

@@ -32,6 +32,7 @@ struct DiagnosisQuestion {
   Design design;                         ///< as it stands
   std::optional<LoggedFlight> flight{};  ///< logs are held against that
   std::optional<LoggedPower> power{};    ///< likewise
+  std::vector<Effect> hypotheses{};      ///< tried beside the catalogue, see `effect_of`
 };
 
 /// The answer.
