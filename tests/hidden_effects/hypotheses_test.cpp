@@ -232,6 +232,15 @@ TEST_CASE("every problem of an effect's file is told with its place") {
   CHECK_THAT(refusal(both), Contains("needs one formula"));
 }
 
+TEST_CASE("every channel of a formula stands in the documentation") {
+  const std::string page = test::file_text(test::project_file("docs/diagnosis.md"));
+  for (const LogKind kind : {LogKind::flight, LogKind::power}) {
+    for (const FormulaChannel& channel : formula_channels(kind)) {
+      CHECK_THAT(page, Catch::Contains("`" + std::string(channel.name) + "`"));
+    }
+  }
+}
+
 TEST_CASE("whatever bytes an effect's file holds, it is read or refused with reasons") {
   test::Random random(test::run_seed());
   const std::string whole = file_with("-c * airspeed * exp(-max(height, 0) / 3) + c * sin(tilt)^2");
