@@ -18,7 +18,7 @@ using Action = std::function<int()>;
 
 Format parse_format(const std::string& text) {
   const std::vector<std::string> names{"table", "json", "csv"};  // as in Format
-  const auto found = std::find(names.begin(), names.end(), text);
+  const auto found = std::ranges::find(names, text);
   if (found != names.end()) return static_cast<Format>(found - names.begin());
   throw InputError("--format", "\"" + text + "\" is not a format; allowed are table, json and csv" +
                                    did_you_mean(text, names));

@@ -1,22 +1,53 @@
-// The commands: what each is asked, and the function that answers. Each of these returns the
-// program's exit code and throws InputError for bad input.
+// The commands: what each is asked, the function that answers, and where its answer goes and in
+// which form. Each of these functions returns the program's exit code and throws InputError for bad
+// input.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "cli/output.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
+#include "tethercalc/report/text_table.hpp"
 #include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
 
 namespace tethercalc::cli {
+
+enum class Format { table, json, csv };
+
+struct Output {
+  Format format = Format::table;
+  std::string file;  ///< empty: standard output
+};
+
+/// Exit codes of the program; scripts rely on them.
+enum ExitCode : int { done = 0, answer_is_no = 1, bad_input = 2, internal_error = 3 };
+
+/// Colours where the answer goes to a terminal that wants them: TERM is not "dumb" and NO_COLOR is
+/// not set (no-color.org).
+[[nodiscard]] TextStyle style_for(const Output& output);
+
+/// How figures and pages name a file that they are made of: without folders, which say nothing to
+/// others.
+[[nodiscard]] std::string base_name(const std::string& file);
+
+/// Writes the answer, to the file whole or not at all. Throws InputError where it cannot.
+void emit(const Output& output, const std::string& text);
+
+/// The text of a JSON answer.
+[[nodiscard]] std::string json_text(const nlohmann::ordered_json& json);
+
+/// Writes the answer in the form that was asked for, of which alone it is made.
+void emit(const Output& output, const std::function<std::string()>& text,
+          const std::function<nlohmann::ordered_json()>& json,
+          const std::function<std::string()>& csv);
 
 /// The program: parses the arguments and runs the command that they name. `argv` begins with the
 /// program's name.

@@ -144,7 +144,7 @@ void check_options(const PlotOptions& options) {
   for (const auto& [figures, names] : takers) {
     if (figures.find(options.kind) != std::string::npos) continue;
     for (const std::string& name : names) {
-      if (std::count(options.given.begin(), options.given.end(), name) == 0) continue;
+      if (std::ranges::count(options.given, name) == 0) continue;
       problems.add(name,
                    fmt::format("is an option of the figures {}, not of {}", figures, options.kind));
     }

@@ -203,15 +203,6 @@ struct Sweep {
   }
 };
 
-[[noreturn]] void refuse_to_resume(const RowFile& file, std::uint64_t line,
-                                   const std::string& found, const std::string& expected) {
-  throw InputError(
-      fmt::format("{}:{}", file.name(), line),
-      fmt::format("does not belong to this sweep, so it cannot be continued: the spec, the "
-                  "options or the program differ\n  found    {}\n  expected {}",
-                  found.substr(0, 200), expected.substr(0, 200)));
-}
-
 /// Number of rows of the sweep that `file` already holds. Its first, last and broken line are
 /// compared with what this run would have written there.
 std::uint64_t rows_done(const Sweep& sweep, const RowFile& file) {
@@ -224,9 +215,12 @@ std::uint64_t rows_done(const Sweep& sweep, const RowFile& file) {
   }
   const auto expect = [&](std::uint64_t line, const std::string& found, bool broken) {
     const std::string expected = sweep.file_line(line);
-    if (broken ? !expected.starts_with(found) : found != expected) {
-      refuse_to_resume(file, line + 1, found, expected);
-    }
+    if (broken ? expected.starts_with(found) : found == expected) return;
+    throw InputError(
+        fmt::format("{}:{}", file.name(), line + 1),
+        fmt::format("does not belong to this sweep, so it cannot be continued: the spec, the "
+                    "options or the program differ\n  found    {}\n  expected {}",
+                    found.substr(0, 200), expected.substr(0, 200)));
   };
   if (lines > 0) expect(0, file.first_line(), false);
   if (lines > 0) expect(lines - 1, file.last_line(), false);
@@ -276,14 +270,6 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
   return false;
 }
 
-void tell_summary(const SweepOptions& options, const SweepSummary& summary,
-                  const SweepSpace& space) {
-  if (!options.summary_file.empty()) {
-    write_whole_file(options.summary_file, json_text(summary_json(summary, space)));
-  }
-  std::fputs(summary_text(summary, space, {}).c_str(), stderr);
-}
-
 }  // namespace
 
 int run_sweep(const SweepOptions& options) {
@@ -317,7 +303,10 @@ int run_sweep(const SweepOptions& options) {
   }
   if (summarised) {
     summary.sensitivity = sweep_sensitivity(space, base.design, runner);
-    tell_summary(options, summary, space);
+    if (!options.summary_file.empty()) {
+      write_whole_file(options.summary_file, json_text(summary_json(summary, space)));
+    }
+    std::fputs(summary_text(summary, space, {}).c_str(), stderr);
   }
   return done;
 }

@@ -17,7 +17,6 @@
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/hypothesis.hpp"
-#include "tethercalc/model/flight_state.hpp"
 
 namespace tethercalc {
 namespace {

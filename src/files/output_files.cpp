@@ -86,44 +86,33 @@ void write_whole_file(const std::filesystem::path& path, std::string_view conten
 }
 
 RowFile::RowFile(int file, std::string name, bool owned)
-    : file_(file), owned_(owned), regular_(is_regular_file(file)), name_(std::move(name)) {}
+    : file_(file), owned_(owned), regular_(is_regular_file(file)), name_(std::move(name)) {
+  // Redirected to a file that others have written to before, as in (a; b) > file.
+  const off_t offset = regular_ && !owned ? ::lseek(file, 0, SEEK_CUR) : 0;
+  size_ = offset > 0 ? static_cast<std::uint64_t>(offset) : 0;
+}
 
-RowFile::RowFile(RowFile&& other) noexcept
-    : file_(std::exchange(other.file_, -1)),
-      owned_(other.owned_),
-      regular_(other.regular_),
-      name_(std::move(other.name_)),
-      size_(other.size_),
-      lines_found_(other.lines_found_),
-      first_line_(std::move(other.first_line_)),
-      last_line_(std::move(other.last_line_)),
-      broken_line_(std::move(other.broken_line_)) {}
+RowFile::RowFile(int file, std::string name) : RowFile(file, std::move(name), true) {
+  if (!regular_) throw InputError(name_, "is no regular file, so it cannot be continued");
+  read_what_is_there();
+  const auto size = static_cast<off_t>(size_);
+  if (::lseek(file_, size, SEEK_SET) != size) {
+    throw InputError(name_, "cannot be continued: " + reason(errno));
+  }
+}
 
 RowFile::~RowFile() {
   if (owned_ && file_ >= 0) ::close(file_);
 }
 
-RowFile RowFile::standard_output() {
-  RowFile rows(STDOUT_FILENO, "standard output", false);
-  // Redirected to a file that others have written to before, as in (a; b) > file.
-  const off_t offset = rows.regular_ ? ::lseek(STDOUT_FILENO, 0, SEEK_CUR) : 0;
-  rows.size_ = offset > 0 ? static_cast<std::uint64_t>(offset) : 0;
-  return rows;
-}
+RowFile RowFile::standard_output() { return {STDOUT_FILENO, "standard output", false}; }
 
 RowFile RowFile::create(const std::string& path) {
   return {open_or_refuse(path, O_WRONLY | O_TRUNC, "writing"), path, true};
 }
 
 RowFile RowFile::resume(const std::string& path) {
-  RowFile rows(open_or_refuse(path, O_RDWR, "reading and writing"), path, true);
-  if (!rows.regular_) throw InputError(path, "is no regular file, so it cannot be continued");
-  rows.read_what_is_there();
-  const auto size = static_cast<off_t>(rows.size_);
-  if (::lseek(rows.file_, size, SEEK_SET) != size) {
-    throw InputError(path, "cannot be continued: " + reason(errno));
-  }
-  return rows;
+  return {open_or_refuse(path, O_RDWR, "reading and writing"), path};
 }
 
 void RowFile::read_what_is_there() {

@@ -29,11 +29,8 @@ class RowFile {
   /// for reading and writing, or is no regular file.
   [[nodiscard]] static RowFile resume(const std::string& path);
 
-  /// Movable; the one moved from is closed.
-  RowFile(RowFile&& other) noexcept;
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
-  RowFile& operator=(RowFile&&) = delete;
   ~RowFile();
 
   /// The path, or "standard output".
@@ -60,11 +57,12 @@ class RowFile {
 
  private:
   RowFile(int file, std::string name, bool owned);
+  RowFile(int file, std::string name);  ///< that is resumed
   void read_what_is_there();
 
-  int file_ = -1;
-  bool owned_ = false;
-  bool regular_ = false;
+  int file_;
+  bool owned_;
+  bool regular_;
   std::string name_;
   std::uint64_t size_ = 0;  ///< bytes up to the end of the last whole line
   std::uint64_t lines_found_ = 0;

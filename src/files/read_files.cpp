@@ -1,10 +1,122 @@
 #include "tethercalc/files/read_files.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "files/input_files.hpp"
+#include "io/closest_name.hpp"
+#include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string closest_file_hint(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    return fmt::format("; the folder {} does not exist either", folder.string());
+  }
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    names.push_back(entry.path().filename().string());
+  }
+  return did_you_mean(path.filename().string(), names);
+}
+
+struct Descriptor {
+  int number;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+/// What can be read of an open file, but no more than a little beyond `most` bytes.
+std::string read_to_end(int descriptor, const std::string& name,
+                        std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  std::string all;
+  std::array<char, 1 << 16> part;
+  while (all.size() <= most) {
+    const ssize_t got = ::read(descriptor, part.data(), part.size());
+    if (got == 0) break;
+    if (got > 0) {
+      all.append(part.data(), static_cast<std::size_t>(got));
+    } else if (errno != EINTR) {
+      throw InputError(name, fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+  }
+  return all;
+}
+
+LoadedText checked_text(int descriptor, const std::string& name) {
+  std::string text = read_to_end(descriptor, name, text_file_limit);
+  if (text.size() > text_file_limit) {
+    throw InputError(name,
+                     fmt::format("is larger than {} bytes, the most that a spec, a motor or a "
+                                 "material may have; is it the right file?",
+                                 text_file_limit));
+  }
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw InputError(name, "is empty");
+  return {name, std::move(text)};
+}
+
+}  // namespace
+
+LoadedText read_text_file(const std::string& path) {
+  if (path == "-") return checked_text(STDIN_FILENO, "standard input");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (path.empty() || status.type() == fs::file_type::not_found) {
+    const bool dangling = fs::is_symlink(fs::symlink_status(path, error));
+    throw InputError(path.empty() ? "\"\"" : path, dangling
+                                                       ? "is a link to a file that is not there"
+                                                       : "no such file" + closest_file_hint(path));
+  }
+  if (fs::is_directory(status)) throw InputError(path, "is a directory, not a file");
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.number < 0) {
+    throw InputError(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
+  }
+  return checked_text(file.number, path);
+}
+
+MappedFile::MappedFile(const std::filesystem::path& path) {
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  struct stat status {};
+  if (file.number < 0 || ::fstat(file.number, &status) != 0) {
+    throw InputError(path.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
+  }
+  if (S_ISDIR(status.st_mode)) throw InputError(path.string(), "is a directory, expected a file");
+  if (S_ISREG(status.st_mode) && status.st_size > 0) {
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* const start = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
+    if (start != MAP_FAILED) {
+      bytes_ = {static_cast<const std::byte*>(start), size};
+      return;
+    }
+  }
+  // Pipes, devices, and files whose size is not known beforehand (those under /proc say 0).
+  copy_ = read_to_end(file.number, path.string());
+  bytes_ = std::as_bytes(std::span(copy_));
+}
+
+MappedFile::~MappedFile() {
+  if (copy_.empty() && !bytes_.empty()) {
+    ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+  }
+}
 
 TextLoader files_in(std::filesystem::path folder) {
   return [folder = std::move(folder)](const std::string& reference) {

@@ -623,19 +623,18 @@ DragIdentification identify_drag(std::span<const FlightLog> logs,
                                  const DragIdentificationOptions& options) {
   DragIdentification out;
   out.options = options;
-  std::vector<Observations> flights;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     try {
-      flights.push_back(observe_part(logs[i], options));
+      out.flights.push_back(observe_part(logs[i], options));
     } catch (const UnsuitableFlight& error) {
       if (logs.size() == 1) throw;
       throw UnsuitableFlight(fmt::format("log {}: {}", i + 1, error.what()));
     }
-    const Observations& flight = flights.back();
-    if (flight.size() == 0) throw UnsuitableFlight(fmt::format("log {} is all gaps", i + 1));
-    out.parts.push_back({flight.time.front(), flight.time.back(), flight.size()});
+    if (out.flights.back().size() == 0) {
+      throw UnsuitableFlight(fmt::format("log {} is all gaps", i + 1));
+    }
   }
-  out.fit = fit_drag(flights, options.conditions);
+  out.fit = fit_drag(out.flights, options.conditions);
   return out;
 }
 

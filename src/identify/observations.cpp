@@ -121,7 +121,7 @@ void validate(const FlightLog& log) {
     throw UnsuitableFlight(
         fmt::format("the flight log has {} samples; accelerations need at least 3", size));
   }
-  const auto back = std::adjacent_find(log.time.begin(), log.time.end(), std::greater_equal<>());
+  const auto back = std::ranges::adjacent_find(log.time, std::greater_equal<>());
   if (back != log.time.end()) {
     throw UnsuitableFlight(
         fmt::format("time does not increase from {:.6f} s to {:.6f} s at sample {}", *back,

@@ -37,7 +37,7 @@ inline constexpr double mad_to_sigma = 1.4826;
 /// Whether `value` is among `values`.
 template <typename T, typename Value>
 [[nodiscard]] bool contains(const std::vector<T>& values, const Value& value) {
-  return std::find(values.begin(), values.end(), value) != values.end();
+  return std::ranges::find(values, value) != values.end();
 }
 
 /// Element by element.

@@ -59,8 +59,8 @@ class FieldFinder {
   }
 
   [[nodiscard]] bool is_group(std::string_view pointer) const {
-    return std::any_of(fields_.begin(), fields_.end(),
-                       [&](const SpecField& field) { return is_below(field.pointer, pointer); });
+    return std::ranges::any_of(
+        fields_, [&](const SpecField& field) { return is_below(field.pointer, pointer); });
   }
 
   /// The keys that may stand in a group.
@@ -103,8 +103,8 @@ class FieldFinder {
   }
 
   [[nodiscard]] bool in_unusable_group(std::string_view pointer) const {
-    return std::any_of(unusable_groups_.begin(), unusable_groups_.end(),
-                       [&](const std::string& group) { return is_below(pointer, group); });
+    return std::ranges::any_of(unusable_groups_,
+                               [&](const std::string& group) { return is_below(pointer, group); });
   }
 
   const JsonPlace& object_;
@@ -126,7 +126,19 @@ bool commands_a_terminal(const std::string& text) {
   return false;
 }
 
+std::string joined(const std::vector<InputProblem>& problems) {
+  std::string text;
+  for (const InputProblem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += problem.where + ": " + problem.message;
+  }
+  return text;
+}
+
 }  // namespace
+
+InputError::InputError(std::vector<InputProblem> problems)
+    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
 
 void Problems::add(std::string where, std::string message) {
   if (kept_.size() == most_) {

@@ -18,7 +18,15 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-std::size_t distance_of_lower(const std::string& a, const std::string& b) {
+bool contains(const std::string& outer, const std::string& inner) {
+  return inner.size() >= 3 && outer.find(inner) != std::string::npos;
+}
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view first, std::string_view second) {
+  const std::string a = lower_case(first);
+  const std::string b = lower_case(second);
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -37,16 +45,6 @@ std::size_t distance_of_lower(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
-bool contains(const std::string& outer, const std::string& inner) {
-  return inner.size() >= 3 && outer.find(inner) != std::string::npos;
-}
-
-}  // namespace
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  return distance_of_lower(lower_case(a), lower_case(b));
-}
-
 std::optional<std::string> closest_name(std::string_view name,
                                         std::span<const std::string> candidates) {
   if (name.empty() || name.size() > longest_compared) return std::nullopt;
@@ -56,7 +54,7 @@ std::optional<std::string> closest_name(std::string_view name,
   std::size_t least = 0;
   for (const std::string& candidate : candidates) {
     const std::string known = lower_case(candidate);
-    const std::size_t distance = distance_of_lower(wanted, known);
+    const std::size_t distance = edit_distance(wanted, known);
     const bool near = 3 * distance <= std::max(wanted.size(), known.size());
     if (near && (nearest == nullptr || distance < least)) {
       nearest = &candidate;

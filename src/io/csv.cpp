@@ -83,8 +83,7 @@ CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted
   CellMeaning meaning;
   std::vector<bool> found(wanted.size(), false);
   for (const std::string_view name : split_csv_line(line)) {
-    const auto match = std::find_if(wanted.begin(), wanted.end(),
-                                    [&](const CsvColumn& column) { return column.name == name; });
+    const auto match = std::ranges::find(wanted, name, &CsvColumn::name);
     if (match == wanted.end()) {
       meaning.emplace_back();
       if (others == OtherCsvColumns::rejected) {

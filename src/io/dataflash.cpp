@@ -19,73 +19,54 @@ using dataflash::read;
 constexpr std::size_t most_told = 100;  // stretches skipped, and definitions rejected
 constexpr std::size_t numbers_in_a = 32;
 
-/// IEEE 754 binary16.
-double read_half(const std::byte* at) {
-  const auto bits = read<std::uint16_t>(at);
-  const int exponent = (bits >> 10) & 0x1F;
-  const int fraction = bits & 0x3FF;
-  double magnitude = 0;
-  if (exponent == 0x1F) {
-    magnitude = fraction == 0 ? HUGE_VAL : std::nan("");
-  } else if (exponent == 0) {
-    magnitude = std::ldexp(fraction, -24);
-  } else {
-    magnitude = std::ldexp(fraction + 0x400, exponent - 25);
-  }
-  return (bits & 0x8000) != 0 ? -magnitude : magnitude;
-}
-
-/// A number stored as a T, in units of 1/Divisor.
-template <class T, int Divisor = 1>
+/// Reads numbers of one kind, which are stored as a T, in units of 1/Divisor.
+template <char kind_, class T, int Divisor = 1>
 struct NumberReader {
+  static constexpr char kind = kind_;
   double operator()(const std::byte* at) const {
     const auto number = static_cast<double>(read<T>(at));
     return Divisor == 1 ? number : number / Divisor;
   }
 };
 
-/// Calls `use` with the reader of numbers of that kind, and returns its result. So a loop over many
-/// messages is compiled once for each kind, instead of asking for the kind in every message.
-template <class Use>
-auto with_reader_of(char kind, Use use) {
-  switch (kind) {
-    case 'b':
-      return use(NumberReader<std::int8_t>{});
-    case 'B':
-    case 'M':
-      return use(NumberReader<std::uint8_t>{});
-    case 'h':
-      return use(NumberReader<std::int16_t>{});
-    case 'H':
-      return use(NumberReader<std::uint16_t>{});
-    case 'i':
-      return use(NumberReader<std::int32_t>{});
-    case 'I':
-      return use(NumberReader<std::uint32_t>{});
-    case 'q':
-      return use(NumberReader<std::int64_t>{});
-    case 'Q':
-      return use(NumberReader<std::uint64_t>{});
-    case 'c':
-      return use(NumberReader<std::int16_t, 100>{});
-    case 'C':
-      return use(NumberReader<std::uint16_t, 100>{});
-    case 'e':
-      return use(NumberReader<std::int32_t, 100>{});
-    case 'E':
-      return use(NumberReader<std::uint32_t, 100>{});
-    case 'L':
-      return use(NumberReader<std::int32_t, 10'000'000>{});
-    case 'g':
-      return use(read_half);
-    case 'f':
-      return use(NumberReader<float>{});
-    case 'd':
-      return use(NumberReader<double>{});
-    default:
-      return use([](const std::byte*) { return std::nan(""); });
+/// Likewise of IEEE 754 binary16.
+struct HalfReader {
+  static constexpr char kind = 'g';
+  double operator()(const std::byte* at) const {
+    const auto bits = read<std::uint16_t>(at);
+    const int exponent = (bits >> 10) & 0x1F;
+    const int fraction = bits & 0x3FF;
+    double magnitude = 0;
+    if (exponent == 0x1F) {
+      magnitude = fraction == 0 ? HUGE_VAL : std::nan("");
+    } else if (exponent == 0) {
+      magnitude = std::ldexp(fraction, -24);
+    } else {
+      magnitude = std::ldexp(fraction + 0x400, exponent - 25);
+    }
+    return (bits & 0x8000) != 0 ? -magnitude : magnitude;
   }
-}
+};
+
+template <class... Readers>
+struct AnyOf {
+  template <class Use>
+  static void use(char kind, const Use& use) {
+    (void)((Readers::kind == kind && (use(Readers{}), true)) || ...);
+  }
+};
+
+/// Of every kind that is one number. A loop over many messages in what is used with one of them is
+/// compiled once for each kind, instead of asking for the kind in every message.
+using Numbers =
+    AnyOf<NumberReader<'b', std::int8_t>, NumberReader<'B', std::uint8_t>,
+          NumberReader<'M', std::uint8_t>, NumberReader<'h', std::int16_t>,
+          NumberReader<'H', std::uint16_t>, NumberReader<'i', std::int32_t>,
+          NumberReader<'I', std::uint32_t>, NumberReader<'q', std::int64_t>,
+          NumberReader<'Q', std::uint64_t>, NumberReader<'c', std::int16_t, 100>,
+          NumberReader<'C', std::uint16_t, 100>, NumberReader<'e', std::int32_t, 100>,
+          NumberReader<'E', std::uint32_t, 100>, NumberReader<'L', std::int32_t, 10'000'000>,
+          NumberReader<'f', float>, NumberReader<'d', double>, HalfReader>;
 
 using MessageVisitor = std::function<void(const DataFlashFormat&, const std::byte*)>;
 
@@ -111,11 +92,10 @@ class ContentsTaker {
   void on_format(std::uint8_t type, const std::byte* fmt) {
     DataFlashFormat format = dataflash::parse_format(fmt);
     auto& types = contents.types;
-    const auto known =
-        std::find_if(types.begin(), types.end(), [&format](const DataFlashContents::Type& t) {
-          return t.format.type == format.type && t.format.name == format.name &&
-                 t.format.format == format.format && t.format.labels == format.labels;
-        });
+    const auto known = std::ranges::find_if(types, [&format](const DataFlashContents::Type& t) {
+      return t.format.type == format.type && t.format.name == format.name &&
+             t.format.format == format.format && t.format.labels == format.labels;
+    });
     index_[type] = static_cast<std::size_t>(known - types.begin());
     if (known == types.end()) types.push_back({std::move(format), 0});
   }
@@ -230,7 +210,7 @@ class ColumnFiller {
   void append(std::vector<double>& column, const DataFlashField& field) const {
     const std::size_t filled = column.size();
     column.resize(filled + waiting_);  // within what the constructor reserved
-    with_reader_of(field.kind, [&](auto number_at) {
+    Numbers::use(field.kind, [&](auto number_at) {
       for (std::size_t i = 0; i < waiting_; ++i) {
         column[filled + i] = number_at(batch_[i] + field.offset);
       }
@@ -246,8 +226,9 @@ class ColumnFiller {
 }  // namespace
 
 double field_value(const std::byte* message, const DataFlashField& field) {
-  return with_reader_of(field.kind,
-                        [at = message + field.offset](auto reader) { return reader(at); });
+  double value = std::nan("");
+  Numbers::use(field.kind, [&](auto number_at) { value = number_at(message + field.offset); });
+  return value;
 }
 
 bool DataFlashField::is_number() const {
@@ -256,8 +237,7 @@ bool DataFlashField::is_number() const {
 }
 
 const DataFlashField* DataFlashFormat::find(std::string_view field_name) const {
-  const auto found = std::find_if(fields.begin(), fields.end(),
-                                  [&](const DataFlashField& f) { return f.name == field_name; });
+  const auto found = std::ranges::find(fields, field_name, &DataFlashField::name);
   return found == fields.end() ? nullptr : &*found;
 }
 

@@ -28,7 +28,7 @@ bool is_at_or_below(std::string_view pointer, std::string_view top) {
 std::string pointer_of(std::string_view dotted) {
   if (dotted.starts_with('/')) return std::string(dotted);
   std::string pointer = "/" + std::string(dotted);
-  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  std::ranges::replace(pointer, '.', '/');
   return pointer;
 }
 
@@ -45,7 +45,7 @@ std::string_view without_index(std::string_view rest) {
 
 /// True where some spec may have a value at `pointer`.
 bool may_exist(std::string_view pointer, std::span<const SpecField> fields) {
-  return std::any_of(fields.begin(), fields.end(), [&](const SpecField& field) {
+  return std::ranges::any_of(fields, [&](const SpecField& field) {
     if (is_at_or_below(field.pointer, pointer)) return true;
     if (!is_at_or_below(pointer, field.pointer)) return false;
     std::string_view rest = pointer.substr(field.pointer.size());
@@ -129,7 +129,7 @@ void read_word(const JsonPlace& place, const SpecField& field, Design& design, P
   std::string found;
   if (quoted && place.value->is_string()) found = place.value->get<std::string>();
   if (!quoted && place.value->is_boolean()) found = place.value->dump();
-  const auto word = std::find(words.begin(), words.end(), found);
+  const auto word = std::ranges::find(words, found);
   if (word != words.end()) {
     set_word(design, field, static_cast<std::size_t>(word - words.begin()));
   } else if (quoted) {

@@ -80,9 +80,7 @@ class RequestReader {
     const std::string name = request_.standard == "awg" ? "AWG" : "IEC 60228";
     const SpecField& field = *find_field("tether.cross_section_mm2");
     Uniform range{0, 1000};
-    const auto freed = std::find_if(axes.begin(), axes.end(), [](const SweepAxis& axis) {
-      return axis.name == "tether.cross_section_mm2";
-    });
+    const auto freed = std::ranges::find(axes, "tether.cross_section_mm2", &SweepAxis::name);
     if (freed != axes.end()) {
       const auto* given = std::get_if<Uniform>(&freed->values);
       if (given == nullptr) {

@@ -223,7 +223,7 @@ class Builder {
     fault.offset = std::min(fault.offset, text_.size());
     if (skip_space(fault.offset) == text_.size()) fault.offset = end_of_content();
     const std::string_view before = text_.substr(0, fault.offset);
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const auto line = 1 + std::ranges::count(before, '\n');
     const std::size_t column = fault.offset - (before.rfind('\n') + 1) + 1;
     failure_ = {fmt::format("{}:{}", document_.name, line),
                 fmt::format("column {}: {}{}", column, text, excerpt_at(text_, fault.offset))};

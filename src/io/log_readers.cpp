@@ -73,7 +73,7 @@ std::size_t remove_implausible(Samples& samples) {
 
 std::size_t remove_out_of_order(Samples& samples) {
   const std::vector<double>& time = samples[time_s];
-  if (std::adjacent_find(time.begin(), time.end(), std::greater_equal<>()) == time.end()) return 0;
+  if (std::ranges::adjacent_find(time, std::greater_equal<>()) == time.end()) return 0;
   return keep(samples, longest_increasing(time));
 }
 
@@ -307,7 +307,7 @@ bool looks_like_dataflash(std::span<const std::byte> content) {
   constexpr std::size_t looked_at = 4096;
   const auto head = content.first(std::min(content.size(), looked_at));
   constexpr std::array mark = {std::byte{0xA3}, std::byte{0x95}};
-  return std::find(head.begin(), head.end(), std::byte{0}) != head.end() ||
+  return std::ranges::find(head, std::byte{0}) != head.end() ||
          std::search(head.begin(), head.end(), mark.begin(), mark.end()) != head.end();
 }
 

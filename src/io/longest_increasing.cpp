@@ -10,8 +10,7 @@ std::vector<std::size_t> longest_increasing(std::span<const double> values) {
   std::vector<std::size_t> before(values.size(), none);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto place =
-        std::lower_bound(ends.begin(), ends.end(), values[i],
-                         [&](std::size_t end, double value) { return values[end] < value; });
+        std::ranges::lower_bound(ends, values[i], {}, [&](std::size_t end) { return values[end]; });
     if (place != ends.begin()) before[i] = *(place - 1);
     if (place == ends.end()) {
       ends.push_back(i);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <stdexcept>
 
 #include "io/closest_name.hpp"
@@ -351,22 +352,15 @@ bool FieldRange::contains(double value) const {
 std::span<const SpecField> spec_fields() { return all_spec_fields; }
 
 std::span<const SpecField> object_fields(FieldKind kind) {
-  switch (kind) {
-    case motor:
-      return all_motor_fields;
-    case motor_points:
-      return all_motor_point_fields;
-    case conductor:
-      return all_conductor_fields;
-    case insulation_material:
-      return all_insulation_fields;
-    case efficiency:
-      return all_efficiency_point_fields;
-    case converter_masses:
-      return all_converter_mass_fields;
-    default:
-      return {};
-  }
+  static const std::map<FieldKind, std::span<const SpecField>> all{
+      {motor, all_motor_fields},
+      {motor_points, all_motor_point_fields},
+      {conductor, all_conductor_fields},
+      {insulation_material, all_insulation_fields},
+      {efficiency, all_efficiency_point_fields},
+      {converter_masses, all_converter_mass_fields}};
+  const auto found = all.find(kind);
+  return found == all.end() ? std::span<const SpecField>() : found->second;
 }
 
 std::string dot_path(std::string_view pointer) {

@@ -249,7 +249,7 @@ class AxisReader {
     NamedChoices choices{names_in(text, {words.begin(), words.end()})};
     std::vector<std::size_t> chosen;
     for (const std::string& name : choices.names) {
-      const auto found = std::find(words.begin(), words.end(), name);
+      const auto found = std::ranges::find(words, name);
       if (found == words.end()) {
         refuse(fmt::format("expected {} or {}, found {}{}",
                            fmt::join(words.begin(), words.end() - 1, ", "), words.back(),
@@ -257,7 +257,7 @@ class AxisReader {
       }
       chosen.push_back(static_cast<std::size_t>(found - words.begin()));
     }
-    if (std::count(chosen.begin(), chosen.end(), words.size()) > 0) return std::nullopt;
+    if (std::ranges::count(chosen, words.size()) > 0) return std::nullopt;
     return SweepAxis{dot_path(field.pointer), std::move(choices),
                      [field, chosen](Design& design, double position) {
                        set_word(design, field, chosen[static_cast<std::size_t>(position)]);
@@ -314,16 +314,14 @@ std::vector<double> ends_of(const SweepAxis& axis) {
   return all;
 }
 
-/// Whether the axis varies a field of which `find_conflicts` compares with others.
-bool can_conflict(const SweepAxis& axis) {
-  return axis.name.starts_with("supply.") || axis.name.starts_with("tether.insulation.");
-}
-
 /// The axes alone whose fields can be in conflict, each with all of its values or its ends only.
 SweepSpace conflict_space(const SweepSpace& space, bool ends_only) {
   std::vector<SweepAxis> axes;
   for (const SweepAxis& axis : space.axes()) {
-    if (!can_conflict(axis)) continue;
+    // What `find_conflicts` compares with other fields.
+    const bool can_conflict =
+        axis.name.starts_with("supply.") || axis.name.starts_with("tether.insulation.");
+    if (!can_conflict) continue;
     axes.push_back(axis);
     if (ends_only) axes.back().values = ends_of(axis);
   }
@@ -378,8 +376,7 @@ std::vector<SweepAxis> read_axes(std::span<const std::string> texts, const Desig
   for (const std::string& text : texts) {
     auto axis = AxisReader(text, base, use, problems).read();
     if (!axis) continue;
-    const bool repeated = std::any_of(
-        axes.begin(), axes.end(), [&](const SweepAxis& other) { return other.name == axis->name; });
+    const bool repeated = std::ranges::count(axes, axis->name, &SweepAxis::name) > 0;
     const auto [option, verb] =
         use == AxisUse::searched ? std::pair{"--free ", "freed"} : std::pair{"--vary ", "varied"};
     if (repeated) problems.add(option + text, fmt::format("{} is {} twice", axis->name, verb));

@@ -24,9 +24,7 @@ EfficiencyPiece piece_at(const Converter& converter, double value, Measure measu
   const auto& points = converter.efficiency;
   if (!(value > measure(points.front()))) return {points.front().efficiency, 0};
   if (value >= measure(points.back())) return {points.back().efficiency, 0};
-  const auto above =
-      std::upper_bound(points.begin(), points.end(), value,
-                       [&](double v, const EfficiencyPoint& point) { return v < measure(point); });
+  const auto above = std::ranges::upper_bound(points, value, {}, measure);
   return between(*(above - 1), *above);
 }
 
@@ -80,9 +78,8 @@ double converter_mass(const Converter& converter) {
   if (rated <= masses.front().rated_output_power) return masses.front().mass;
   const ConverterMassPoint& last = masses.back();
   if (rated >= last.rated_output_power) return last.mass * (rated / last.rated_output_power);
-  const auto above = std::upper_bound(
-      masses.begin(), masses.end(), rated,
-      [](double power, const ConverterMassPoint& p) { return power < p.rated_output_power; });
+  const auto above =
+      std::ranges::upper_bound(masses, rated, {}, &ConverterMassPoint::rated_output_power);
   const ConverterMassPoint& a = *(above - 1);
   return a.mass + (above->mass - a.mass) * (rated - a.rated_output_power) /
                       (above->rated_output_power - a.rated_output_power);

@@ -124,9 +124,7 @@ IsotonicMotorPoints isotonic_motor_points(std::span<const MotorPoint> measured) 
   }
   std::vector<std::size_t> order(measured.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return measured[a].thrust < measured[b].thrust;
-  });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return measured[i].thrust; });
 
   std::vector<Pool> pools;
   for (std::size_t i = 0; i < order.size();) {

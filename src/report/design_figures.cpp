@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "report/gnuplot_script.hpp"
-#include "tethercalc/report/design_sentences.hpp"
 #include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
@@ -49,8 +48,7 @@ gp::Range thrust_range(const Curves& curves) {
 }
 
 bool any_power(const Curves& curves) {
-  return std::any_of(curves.hover_W.begin(), curves.hover_W.end(),
-                     [](double power) { return std::isfinite(power); });
+  return std::ranges::any_of(curves.hover_W, [](double power) { return std::isfinite(power); });
 }
 
 /// Around the least power; thin conductors need any amount.
@@ -95,11 +93,10 @@ std::string size_ticks(const AreaCurve& view, std::string_view standard, double 
   }
   std::vector<Tick*> order;
   for (Tick& tick : ticks) order.push_back(&tick);
-  std::sort(order.begin(), order.end(),
-            [](const Tick* a, const Tick* b) { return a->distance < b->distance; });
+  std::ranges::sort(order, {}, &Tick::distance);
   constexpr double width_of_a_letter = 0.024;  // of the axis, 7.5 pt in one column
   for (Tick* tick : order) {
-    tick->named = std::none_of(ticks.begin(), ticks.end(), [&](const Tick& other) {
+    tick->named = std::ranges::none_of(ticks, [&](const Tick& other) {
       const double letters = 0.5 * double(tick->name.size() + other.name.size()) + 1;
       return other.named && std::abs(along(view, tick->area) - along(view, other.area)) <
                                 letters * width_of_a_letter;
@@ -153,13 +150,11 @@ gp::Plot thrust_plot(const OptimumStudy& study, std::span<const AreaPoints> poin
   plot.curve("$curves using 1:4", gp::line(colour::orange, 5), "necessary forward");
   const Optimization& result = study.result;
   if (result.feasible) {
-    const OperatingPoint judged = study.points().in(need.headroom_at);
+    const OperatingPoint judged = study.result.in(need.headroom_at);
     plot.mark(in_mm2(result.area), judged.available_thrust / unit::gram_force,
               gp::point(colour::black, 13, 0.9), "");
   } else if (study.best_headroom.value > 0) {
-    const auto best = std::find_if(points.begin(), points.end(), [&](const AreaPoints& row) {
-      return row.area == study.best_headroom.area;
-    });
+    const auto best = std::ranges::find(points, study.best_headroom.area, &AreaPoints::area);
     plot.mark(in_mm2(best->area), best->in(need.headroom_at).available_thrust / unit::gram_force,
               gp::point(colour::black, 9, 0.9),
               fmt::format("best headroom, {}×", significant(study.best_headroom.value, 3)));
@@ -172,7 +167,7 @@ gp::Plot power_plot(const OptimumStudy& study) {
   gp::Plot plot;
   plot.curve("$curves using 1:6", gp::line(colour::blue, 2, 1.6), "hover");
   if (result.feasible) {
-    const OperatingPoint judged = study.points().in(study.design.requirements.power_at);
+    const OperatingPoint judged = study.result.in(study.design.requirements.power_at);
     plot.mark(in_mm2(result.area), judged.total_power, gp::point(colour::black, 13, 0.9),
               "optimum, " + rounded_area(result.area));
   }
@@ -196,18 +191,6 @@ std::string description_of(const OptimumStudy& study) {
                      rounded_area(result.area), fixed(result.hover.total_power, 1),
                      fixed(result.forward.total_power, 1));
   return out + limit_sentence(design, result);
-}
-
-/// Colour and dashes together tell 35 motors apart; beyond, numbers alone do.
-std::string style_of(std::size_t index, double width = 1.3) {
-  constexpr std::array colours{colour::blue,   colour::vermilion, colour::green, colour::orange,
-                               colour::purple, colour::sky,       colour::black};
-  return gp::line(colours[index % colours.size()], int(index % 5) + 1, width);
-}
-
-std::string dot_colour(std::size_t index) {
-  const std::string style = style_of(index);
-  return style.substr(0, style.find(" dt"));
 }
 
 constexpr const char* circle = " pt 6 ps 0.8*dot_scale lw 1.4";
@@ -255,8 +238,8 @@ std::vector<Mark> marks_of(const MotorOptimum& motor, std::size_t index) {
   if (!motor.result.feasible) return {};
   const Requirements& need = motor.design.requirements;
   const MotorCurve& curve = motor.design.drone.motor;
-  const AreaPoints points = motor.points();
-  const std::string colour = dot_colour(index);
+  const AreaPoints& points = motor.result;
+  const std::string colour = fmt::format("lc rgb '{}'", gp::curve_colour(index));
   const double necessary = points.in(need.headroom_at).necessary_thrust;
   std::vector<Mark> marks{mark_on(curve, necessary, colour + circle),
                           mark_on(curve, need.thrust_headroom * necessary, colour + dot)};
@@ -276,7 +259,7 @@ void draw_assumed(gp::Plot& plot, const EfficiencyCurve& curve, std::span<const 
   if (!(least < first.thrust)) return;
   plot.curve(fmt::format("'+' using ($0 < 1 ? {} : {}):({}) every ::0::1", gp::number(least),
                          gp::number(first.thrust), gp::number(first.efficiency)),
-             style_of(index, 0.5));
+             gp::curve_line(index, 0.5));
 }
 
 std::string name_of(const MotorOptimum& motor, std::size_t index) {
@@ -292,7 +275,7 @@ struct Labels {
 
 Labels labels_of(const MotorOptimum& motor) {
   if (!motor.result.feasible) return {"", "infeasible"};
-  const OperatingPoint judged = motor.points().in(motor.design.requirements.power_at);
+  const OperatingPoint judged = motor.result.in(motor.design.requirements.power_at);
   return {significant(motor.result.area / unit::square_millimetre, 3),
           fixed(judged.total_power, 0)};
 }
@@ -345,7 +328,7 @@ class EndNumbers {
     if (place.x < width || place.x > 1 - width / 2 || place.y < height || place.y > 1 - height) {
       return false;
     }
-    return std::none_of(taken_.begin(), taken_.end(), [place](Place other) {
+    return std::ranges::none_of(taken_, [place](Place other) {
       return std::abs(place.x - other.x) < width / 2 + 0.01 &&
              std::abs(place.y - other.y) < height / 2;
     });
@@ -456,7 +439,8 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
     const EfficiencyCurve& curve = curves.back();
     figure.script += gp::data_block(fmt::format("motor{}", i + 1), curve,
                                     {&CurvePoint::thrust, &CurvePoint::efficiency});
-    plot.curve(fmt::format("$motor{} using 1:2", i + 1), style_of(i), words_of(ranking[i], i));
+    plot.curve(fmt::format("$motor{} using 1:2", i + 1), gp::curve_line(i, 1.3),
+               words_of(ranking[i], i));
     points.insert(points.end(), curve.begin(), curve.end());
   }
   std::vector<Mark> marks;

@@ -8,7 +8,6 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/io/spec_writer.hpp"
-#include "tethercalc/report/design_sentences.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc {

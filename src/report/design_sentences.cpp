@@ -1,4 +1,4 @@
-#include "tethercalc/report/design_sentences.hpp"
+#include "tethercalc/report/design_report.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/model/conductor_heat.hpp"
-#include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
 namespace {
@@ -23,7 +22,6 @@ std::string headroom_words(double headroom) {
 
 /// What is said of a limit. In place of the names in braces stands what `filled_in` puts there.
 struct LimitWords {
-  Limit limit;
   const char* of_optimum;   ///< why the optimum is where it is
   const char* of_refusal;   ///< why there is none, where neither power nor weight says it
   const char* of_demand;    ///< what binds
@@ -31,48 +29,41 @@ struct LimitWords {
   std::string_view in_short = "";  ///< why there is no optimum, where it is not the headroom
 };
 
+/// Of all but the least power, in the order of `Limit`.
 constexpr LimitWords all_limits[] = {
-    {Limit::available_power,
-     "Limited by the power that reaches the drone: any thinner, and it does not suffice for "
+    {"Limited by the power that reaches the drone: any thinner, and it does not suffice for "
      "{demand}.",
      "", "The thrust headroom of {headroom} in {where}"},
-    {Limit::takeoff_mass,
-     "Limited by weight: any thicker, and the tether is too heavy for {demand}.", "",
+    {"Limited by weight: any thicker, and the tether is too heavy for {demand}.", "",
      "The take-off mass"},
-    {Limit::motor_thrust, "Limited by the motors: they make no more thrust for {demand}.", "",
+    {"Limited by the motors: they make no more thrust for {demand}.", "",
      "The motors' greatest thrust"},
-    {Limit::max_pitch, "Limited by the tilt: {tilt} degrees in {where} is the most allowed.", "",
+    {"Limited by the tilt: {tilt} degrees in {where} is the most allowed.", "",
      "The largest tilt of {tilt}°", "the tilt passes its limit in {where}"},
-    {Limit::conductor_temperature,
-     "Limited by heat: any thinner, and the conductor is hotter in {where} than the {rated_C} °C "
+    {"Limited by heat: any thinner, and the conductor is hotter in {where} than the {rated_C} °C "
      "for which its insulation is rated.",
      "No cross-section that meets the other demands stays below the insulation's rated {rated_C} "
      "°C in {where}, or none has a steady temperature at all.",
      "The insulation's rated {rated_C} °C",
      "the conductor gets hotter than its insulation is rated for in {where}", "conductor too hot"},
-    {Limit::tether_strength,
-     "Limited by strength: the tether would not hold {factor} times its tension in {where}.",
+    {"Limited by strength: the tether would not hold {factor} times its tension in {where}.",
      "No cross-section that meets the other demands holds {factor} times the tension in {where}; a "
      "strength member would.",
      "The tether's strength of {factor} times its tension",
      "the tether no longer holds its tension with the factor asked for in {where}",
      "tether too weak"},
-    {Limit::converter_rating,
-     "Limited by the converter: any thicker, and lifting the tether in {where} takes more than its "
+    {"Limited by the converter: any thicker, and lifting the tether in {where} takes more than its "
      "rated {rated_W} W.",
      "No cross-section that meets the other demands leaves the converter within its rated "
      "{rated_W} W in {where}.",
      "The converter's rated {rated_W} W", "the converter's rating is passed in {where}",
      "converter too small"},
-    {Limit::input_voltage, "",  // the same at every cross-section: nothing that an optimum lies on
+    {"",  // the same at every cross-section: nothing that an optimum lies on
      "No cross-section works: a supply of {voltage} V is outside the converter's range.",
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"}};
 
-const LimitWords& limit_words(Limit limit) {
-  return *std::find_if(std::begin(all_limits), std::end(all_limits) - 1,
-                       [limit](const LimitWords& words) { return words.limit == limit; });
-}
+const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
 /// `words` with the design's numbers in place of their names.
 std::string filled_in(const char* words, const Design& design, Condition condition) {
@@ -192,8 +183,7 @@ VoltageClass voltage_class(double voltage) {
           "low voltage above the extra-low limit of 120 V DC: insulation, fault protection "
           "and disconnection are mandatory"},
       VoltageClass{"high_voltage", infinity, "high voltage above 1500 V DC"}};
-  return *std::find_if(classes.begin(), classes.end(),
-                       [voltage](const VoltageClass& c) { return voltage <= c.up_to; });
+  return *std::ranges::lower_bound(classes, voltage, {}, &VoltageClass::up_to);
 }
 
 }  // namespace

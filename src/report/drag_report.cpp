@@ -65,13 +65,13 @@ std::string title_of(const FittedParameter& parameter) {
 }
 
 std::string range_sentence(const DragIdentification& result) {
-  const bool several = result.parts.size() > 1;
+  const bool several = result.flights.size() > 1;
   std::string out = automatic(result) ? "The moving part was chosen automatically: " : "Used: ";
-  for (std::size_t i = 0; i < result.parts.size(); ++i) {
-    const FlightPart& part = result.parts[i];
-    out +=
-        fmt::format("{}{}{:.1f} s to {:.1f} s ({} samples)", i > 0 ? ", " : "",
-                    several ? fmt::format("log {} ", i + 1) : "", part.from, part.to, part.samples);
+  for (std::size_t i = 0; i < result.flights.size(); ++i) {
+    const std::vector<double>& time = result.flights[i].time;
+    out += fmt::format("{}{}{:.1f} s to {:.1f} s ({} samples)", i > 0 ? ", " : "",
+                       several ? fmt::format("log {} ", i + 1) : "", time.front(), time.back(),
+                       time.size());
   }
   return out + ".";
 }
@@ -81,9 +81,7 @@ const SteadyDrag* best_known(const std::vector<SteadyDrag>& table) {
   const auto share = [](const SteadyDrag& row) {
     return row.force.standard_error / row.force.value;
   };
-  const auto best = std::min_element(
-      table.begin(), table.end(),
-      [&](const SteadyDrag& a, const SteadyDrag& b) { return share(a) < share(b); });
+  const auto best = std::ranges::min_element(table, {}, share);
   return best == table.end() ? nullptr : &*best;
 }
 
@@ -155,8 +153,8 @@ std::vector<std::string> drag_warnings(const DragFit& fit) {
                     title_of(p), bound_name(p.at_bound), parameter_number(p, p.estimate.value)));
   }
   const std::vector<SteadyDrag> table = steady_drag_table(fit);
-  const bool may_be_none = std::any_of(
-      table.begin(), table.end(), [](const SteadyDrag& row) { return !(row.force.lower > 0); });
+  const bool may_be_none =
+      std::ranges::any_of(table, [](const SteadyDrag& row) { return !(row.force.lower > 0); });
   if (may_be_none) {
     out.emplace_back(
         "At some speeds the flight does not even tell that there is drag (intervals that reach "
@@ -193,8 +191,9 @@ ordered_json drag_json(const DragIdentification& result) {
   out["gravity_m_s2"] = fit.conditions.gravity;
   out["pitch_offset_deg"] = result.options.pitch_offset / unit::degree;
   out["range"] = automatic(result) ? "automatic" : "given";
-  out["flights"] = json_list(result.parts, [](const FlightPart& part) {
-    return ordered_json{{"from_s", part.from}, {"to_s", part.to}, {"samples", part.samples}};
+  out["flights"] = json_list(result.flights, [](const Observations& flight) {
+    return ordered_json{
+        {"from_s", flight.time.front()}, {"to_s", flight.time.back()}, {"samples", flight.size()}};
   });
   out["table"] = json_list(steady_drag_table(fit), [](const SteadyDrag& row) {
     return ordered_json{{"airspeed_m_s", row.airspeed},

@@ -1,10 +1,9 @@
-#include "tethercalc/report/envelope_report.hpp"
+#include "tethercalc/report/design_report.hpp"
 
 #include <fmt/format.h>
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
-#include "tethercalc/report/design_sentences.hpp"
 
 namespace tethercalc {
 namespace {

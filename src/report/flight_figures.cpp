@@ -42,8 +42,8 @@ std::vector<DragSample> samples_of(const DragStudy& drag) {
   std::vector<DragSample> out;
   const DragFitConditions& known = drag.identified.fit.conditions;
   const AirframeDrag parameters = drag.identified.fit.drag();
-  for (std::size_t f = 0; f < drag.flights.size(); ++f) {
-    const Observations& flight = drag.flights[f];
+  for (std::size_t f = 0; f < drag.identified.flights.size(); ++f) {
+    const Observations& flight = drag.identified.flights[f];
     const double wind = drag.identified.fit.wind()[f].estimate.value;
     for (std::size_t i = 0; i < flight.size(); ++i) {
       const double airspeed = flight.forward_speed[i] - wind;
@@ -101,9 +101,8 @@ std::string parameter_words(const DragFit& fit) {
 
 /// How many values the frame leaves out, where it does.
 std::string outside_words(std::span<const double> values, gp::Range range) {
-  const auto outside = std::count_if(values.begin(), values.end(), [range](double value) {
-    return value < range.lo || value > range.hi;
-  });
+  const auto outside = std::ranges::count_if(
+      values, [range](double value) { return value < range.lo || value > range.hi; });
   return outside == 0 ? "" : fmt::format("{} sample{} outside", outside, outside == 1 ? "" : "s");
 }
 

@@ -1,16 +1,11 @@
 #include "report/gnuplot_script.hpp"
 
-#include <cmath>
+#include <array>
 #include <iterator>
 
 #include "model/constants.hpp"
-#include "tethercalc/report/figure.hpp"
 
 namespace tethercalc::gnuplot {
-
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.7g}", value) : "NaN";
-}
 
 std::string data_block(std::string_view name, const Columns& columns) {
   std::string out = fmt::format("${} << EOD\n", name);
@@ -23,16 +18,10 @@ std::string data_block(std::string_view name, const Columns& columns) {
   return out + "EOD\n";
 }
 
-std::string line(std::string_view colour, int dash, double width) {
-  return fmt::format("lc rgb '{}' dt {} lw {}", colour, dash, width);
-}
-
-std::string point(std::string_view colour, int type, double size) {
-  return fmt::format("lc rgb '{}' pt {} ps {}*dot_scale", colour, type, size);
-}
-
-std::string area(std::string_view colour, double opacity) {
-  return fmt::format("fc rgb '{}' fillstyle solid {} noborder", colour, opacity);
+std::string_view curve_colour(std::size_t index) {
+  constexpr std::array colours{colour::blue,   colour::vermilion, colour::green, colour::orange,
+                               colour::purple, colour::sky,       colour::black};
+  return colours[index % colours.size()];
 }
 
 std::string prelude() {
@@ -49,21 +38,6 @@ std::string prelude() {
          "set datafile missing 'NaN'\n";
 }
 
-void Plot::add(const std::string& part, const std::string& words) {
-  parts_ += (parts_.empty() ? "" : ", \\\n  ") + part;
-  if (!words.empty()) parts_ += " title " + gnuplot_text(words);
-}
-
-void Plot::curve(const std::string& data, const std::string& style, const std::string& words) {
-  add(data + " with lines " + style, words);
-  if (!words.empty()) legend_.push_back({LegendEntry::Sample::line, style, words});
-}
-
-void Plot::points(const std::string& data, const std::string& style, const std::string& words) {
-  add(data + " with points " + style, words);
-  if (!words.empty()) legend_.push_back({LegendEntry::Sample::point, style, words});
-}
-
 void Plot::dots(const std::string& block, int x, int y, double width, std::string_view colour,
                 const std::string& words, double size) {
   add(fmt::format("{} using {}:{}:({}*dot_length):(0) with vectors nohead lc rgb '{}' lw {}", block,
@@ -75,23 +49,6 @@ void Plot::dots(const std::string& block, int x, int y, double width, std::strin
   if (!words.empty()) {
     legend_.push_back({LegendEntry::Sample::point, point(colour, 5, 0.35 * size), words});
   }
-}
-
-void Plot::mark(double x, double y, const std::string& style, const std::string& words) {
-  if (!std::isfinite(x) || !std::isfinite(y)) return;
-  points(fmt::format("'+' using ({}):({}) every ::0::0", number(x), number(y)), style, words);
-}
-
-std::string Plot::text(std::string_view command) const {
-  return fmt::format("{} {}\n", command, parts_);
-}
-
-std::string Layout::panel(double top, double bottom) const {
-  return fmt::format(
-      "unset label\nunset arrow\nunset object\nunset xlabel\nunset ylabel\n"
-      "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
-      "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
-      left_, 1 - right_, height(top), height(bottom));
 }
 
 Layout Layout::column(bool second) const {
@@ -106,28 +63,6 @@ Layout Layout::column(bool second) const {
     out.edge_ = left_;
   }
   return out;
-}
-
-std::string Layout::title(double at, const std::string& words) const {
-  return fmt::format("set label 104 {} at screen 0.01,{:.4f} left\n", gnuplot_text(words, 54),
-                     height(at));
-}
-
-std::string Layout::note_for_characters(double at, const std::string& words) const {
-  return fmt::format("if (characters) {{\n  set label 105 {} at screen 0.01,{:.4f} left\n}}\n",
-                     gnuplot_text(words, 54), height(at));
-}
-
-std::string Layout::above(double at, const std::string& left, const std::string& right) const {
-  return fmt::format(
-      "set label 100 {} at screen {:.4f},{:.4f} left\nset label 101 {} at screen {:.4f},{:.4f} "
-      "right\n",
-      gnuplot_text(left), edge_, height(at), gnuplot_text(right), 1 - right_, height(at));
-}
-
-std::string Layout::below(double at, const std::string& words) const {
-  return fmt::format("set label 102 {} at screen {:.4f},{:.4f} center\n", gnuplot_text(words),
-                     (left_ + 1 - right_) / 2, height(at));
 }
 
 std::string Layout::legend(double top, std::size_t columns,
@@ -177,17 +112,6 @@ std::string Layout::legend(double top, std::size_t columns,
   return out + "}\n";
 }
 
-std::string Layout::colour_box(double top, double bottom) const {
-  return fmt::format(
-      "set colorbox horizontal user origin screen {:.4f},{:.4f} size screen {:.4f},{:.4f} border\n",
-      left_, height(bottom), 1 - left_ - right_, height(top) - height(bottom));
-}
-
-std::string Layout::heading(const std::string& words) const {
-  return fmt::format("set label 103 {} at screen 0.5,{:.4f} center\n", gnuplot_text(words, 48),
-                     height(0.9));
-}
-
 Series outline(std::span<const double> x, std::span<const double> y, std::size_t bins) {
   Series out;
   if (x.size() < 2) return out;
@@ -219,31 +143,12 @@ Series outline(std::span<const double> x, std::span<const double> y, std::size_t
   return out;
 }
 
-std::size_t thinning(std::size_t samples, std::size_t most) {
-  return samples <= most ? 1 : (samples + most - 1) / most;
-}
-
-Range with_margin(Range range, double margin) {
-  const auto [lo, hi] = range;
-  const double length = hi > lo ? hi - lo : std::max(1e-9, std::abs(hi));
-  return {lo - margin * length, hi + margin * length};
-}
-
-Range extent(std::span<const double> values) {
-  Range range{1, 0};
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    range = range.lo > range.hi ? Range{value, value} : joint(range, {value, value});
-  }
-  return range.lo > range.hi ? Range{} : range;
-}
-
 Range bulk(std::span<const double> values, double outlying) {
   std::vector<double> sorted;
   std::copy_if(values.begin(), values.end(), std::back_inserter(sorted),
                [](double value) { return std::isfinite(value); });
   if (sorted.empty()) return {};
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const auto skipped = std::size_t(outlying * double(sorted.size()));
   const Range most = with_margin({sorted[skipped], sorted[sorted.size() - 1 - skipped]}, 0.25);
   return with_margin({std::max(sorted.front(), most.lo), std::min(sorted.back(), most.hi)});
@@ -257,10 +162,6 @@ std::string set_tics(std::string_view axis, Range range, int most) {
     if (digit * power >= least) step = digit * power;
   }
   return fmt::format("set {}tics {}\n", axis, number(step));
-}
-
-std::string set_range(std::string_view axis, Range range) {
-  return fmt::format("set {}range [{}:{}]\n", axis, number(range.lo), number(range.hi));
 }
 
 }  // namespace tethercalc::gnuplot

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tethercalc/report/figure.hpp"
 
 namespace tethercalc::gnuplot {
 
@@ -26,7 +29,9 @@ inline constexpr std::string_view grey = "#999999";
 }  // namespace colour
 
 /// A number as gnuplot reads it: seven significant digits, `NaN` where it does not exist.
-[[nodiscard]] std::string number(double value);
+[[nodiscard]] inline std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.7g}", value) : "NaN";
+}
 
 /// Columns of a data block.
 using Columns = std::vector<std::span<const double>>;
@@ -55,13 +60,25 @@ template <typename Row>
 inline constexpr const char* zero_line = "set xzeroaxis lt 1 lc rgb '#999999' lw 0.5\n";
 
 /// Style of a line: colour, dash type 1 (solid) to 5, and width in points.
-[[nodiscard]] std::string line(std::string_view colour, int dash, double width = 1.2);
+[[nodiscard]] inline std::string line(std::string_view colour, int dash, double width = 1.2) {
+  return fmt::format("lc rgb '{}' dt {} lw {}", colour, dash, width);
+}
+
+/// Colour and dashes of the curve with that index: together they tell 35 apart.
+[[nodiscard]] std::string_view curve_colour(std::size_t index);
+[[nodiscard]] inline std::string curve_line(std::size_t index, double width) {
+  return line(curve_colour(index), int(index % 5) + 1, width);
+}
 
 /// Style of points: gnuplot's point type and a size.
-[[nodiscard]] std::string point(std::string_view colour, int type, double size = 0.6);
+[[nodiscard]] inline std::string point(std::string_view colour, int type, double size = 0.6) {
+  return fmt::format("lc rgb '{}' pt {} ps {}*dot_scale", colour, type, size);
+}
 
 /// Style of a shaded area.
-[[nodiscard]] std::string area(std::string_view colour, double opacity = 0.15);
+[[nodiscard]] inline std::string area(std::string_view colour, double opacity = 0.15) {
+  return fmt::format("fc rgb '{}' fillstyle solid {} noborder", colour, opacity);
+}
 
 /// What every figure's script begins with: encoding, literal texts, thin frame and ticks.
 [[nodiscard]] std::string prelude();
@@ -79,8 +96,14 @@ struct LegendEntry {
 class Plot {
  public:
   /// `data` as in "$curves using 1:2"; without words it stays out of the legend.
-  void curve(const std::string& data, const std::string& style, const std::string& words = "");
-  void points(const std::string& data, const std::string& style, const std::string& words = "");
+  void curve(const std::string& data, const std::string& style, const std::string& words = "") {
+    add(data + " with lines " + style, words);
+    if (!words.empty()) legend_.push_back({LegendEntry::Sample::line, style, words});
+  }
+  void points(const std::string& data, const std::string& style, const std::string& words = "") {
+    add(data + " with points " + style, words);
+    if (!words.empty()) legend_.push_back({LegendEntry::Sample::point, style, words});
+  }
 
   /// Many small dots, of columns `x` and `y` of a block, such as "$samples"; `width` is a dot's in
   /// the unit of x in one column. They are strokes, which take a fifth of the room of points in a
@@ -89,16 +112,24 @@ class Plot {
             const std::string& words = "", double size = 1.3);
 
   /// One point, unless a coordinate does not exist.
-  void mark(double x, double y, const std::string& style, const std::string& words = "");
+  void mark(double x, double y, const std::string& style, const std::string& words = "") {
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    points(fmt::format("'+' using ({}):({}) every ::0::0", number(x), number(y)), style, words);
+  }
 
   /// Anything else; `part` without its title.
-  void add(const std::string& part, const std::string& words = "");
+  void add(const std::string& part, const std::string& words = "") {
+    parts_ += (parts_.empty() ? "" : ", \\\n  ") + part;
+    if (!words.empty()) parts_ += " title " + gnuplot_text(words);
+  }
 
   /// A legend entry of something that is not plotted here.
   void entry(LegendEntry entry) { legend_.push_back(std::move(entry)); }
 
   /// The command, with its newline.
-  [[nodiscard]] std::string text(std::string_view command = "plot") const;
+  [[nodiscard]] std::string text(std::string_view command = "plot") const {
+    return fmt::format("{} {}\n", command, parts_);
+  }
   [[nodiscard]] std::span<const LegendEntry> legend() const { return legend_; }
 
  private:
@@ -118,22 +149,39 @@ class Layout {
 
   /// Begins a plot with its frame from line `top` to line `bottom`; no label, arrow or shading of
   /// an earlier one remains.
-  [[nodiscard]] std::string panel(double top, double bottom) const;
+  [[nodiscard]] std::string panel(double top, double bottom) const {
+    return fmt::format(
+        "unset label\nunset arrow\nunset object\nunset xlabel\nunset ylabel\n"
+        "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
+        "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+        left_, 1 - right_, height(top), height(bottom));
+  }
 
   /// The layout of one of two columns of equal plots, `second` or not, that share a vertical axis:
   /// its numbers stand left of the first only.
   [[nodiscard]] Layout column(bool second) const;
 
   /// A line of text from the left edge of the picture on.
-  [[nodiscard]] std::string title(double at, const std::string& words) const;
+  [[nodiscard]] std::string title(double at, const std::string& words) const {
+    return fmt::format("set label 104 {} at screen 0.01,{:.4f} left\n", gnuplot_text(words, 54),
+                       height(at));
+  }
 
   /// Texts along the edges of the plot: at the left end of line `at` what its vertical axis shows,
   /// which needs no rotated letters so, and at the right end what its upper axis shows.
   [[nodiscard]] std::string above(double at, const std::string& left,
-                                  const std::string& right = "") const;
+                                  const std::string& right = "") const {
+    return fmt::format(
+        "set label 100 {} at screen {:.4f},{:.4f} left\nset label 101 {} at screen {:.4f},{:.4f} "
+        "right\n",
+        gnuplot_text(left), edge_, height(at), gnuplot_text(right), 1 - right_, height(at));
+  }
 
   /// What the horizontal axis shows, in the middle of line `at`.
-  [[nodiscard]] std::string below(double at, const std::string& words) const;
+  [[nodiscard]] std::string below(double at, const std::string& words) const {
+    return fmt::format("set label 102 {} at screen {:.4f},{:.4f} center\n", gnuplot_text(words),
+                       (left_ + 1 - right_) / 2, height(at));
+  }
 
   /// The legend from line `top` on, in `columns` columns, filled row by row. Where characters are
   /// all there is, gnuplot's own key takes its place, from the titles of the plot.
@@ -141,13 +189,24 @@ class Layout {
                                    std::span<const LegendEntry> entries) const;
 
   /// The same below it, where characters are all there is.
-  [[nodiscard]] std::string note_for_characters(double at, const std::string& words) const;
+  [[nodiscard]] std::string note_for_characters(double at, const std::string& words) const {
+    return fmt::format("if (characters) {{\n  set label 105 {} at screen 0.01,{:.4f} left\n}}\n",
+                       gnuplot_text(words, 54), height(at));
+  }
 
   /// The scale of colours from line `top` to line `bottom`, as wide as the plot, its numbers below.
-  [[nodiscard]] std::string colour_box(double top, double bottom) const;
+  [[nodiscard]] std::string colour_box(double top, double bottom) const {
+    return fmt::format(
+        "set colorbox horizontal user origin screen {:.4f},{:.4f} size screen {:.4f},{:.4f} "
+        "border\n",
+        left_, height(bottom), 1 - left_ - right_, height(top) - height(bottom));
+  }
 
   /// A line of text in the middle of the picture's first line.
-  [[nodiscard]] std::string heading(const std::string& words) const;
+  [[nodiscard]] std::string heading(const std::string& words) const {
+    return fmt::format("set label 103 {} at screen 0.5,{:.4f} center\n", gnuplot_text(words, 48),
+                       height(0.9));
+  }
 
  private:
   [[nodiscard]] double height(double line) const { return 1 - line / lines_; }
@@ -166,7 +225,11 @@ struct Range {
 
 /// A range that leaves `margin` of its length free on both sides of `range`; where that is empty,
 /// one around it.
-[[nodiscard]] Range with_margin(Range range, double margin = 0.05);
+[[nodiscard]] inline Range with_margin(Range range, double margin = 0.05) {
+  const auto [lo, hi] = range;
+  const double length = hi > lo ? hi - lo : std::max(1e-9, std::abs(hi));
+  return {lo - margin * length, hi + margin * length};
+}
 
 /// From the lesser beginning to the greater end.
 [[nodiscard]] inline Range joint(Range a, Range b) {
@@ -184,10 +247,19 @@ struct Series {
                              std::size_t bins = 300);
 
 /// Every how manieth of `samples` is drawn so that there are at most `most`.
-[[nodiscard]] std::size_t thinning(std::size_t samples, std::size_t most);
+[[nodiscard]] inline std::size_t thinning(std::size_t samples, std::size_t most) {
+  return samples <= most ? 1 : (samples + most - 1) / most;
+}
 
 /// The least and greatest finite value; {0, 1} where there is none.
-[[nodiscard]] Range extent(std::span<const double> values);
+[[nodiscard]] inline Range extent(std::span<const double> values) {
+  Range range{1, 0};
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    range = range.lo > range.hi ? Range{value, value} : joint(range, {value, value});
+  }
+  return range.lo > range.hi ? Range{} : range;
+}
 
 /// The extent of `values` with a margin, but for the rare ones (`outlying` of them at either end)
 /// that would flatten all the others: it reaches to those only as far as a quarter of the length
@@ -198,7 +270,9 @@ struct Series {
 [[nodiscard]] std::string set_tics(std::string_view axis, Range range, int most);
 
 /// "set xrange [lo:hi]" of `axis` ("x", "y", "x2" …), with its newline.
-[[nodiscard]] std::string set_range(std::string_view axis, Range range);
+[[nodiscard]] inline std::string set_range(std::string_view axis, Range range) {
+  return fmt::format("set {}range [{}:{}]\n", axis, number(range.lo), number(range.hi));
+}
 
 }  // namespace tethercalc::gnuplot
 

@@ -1,4 +1,4 @@
-#include "tethercalc/report/library_report.hpp"
+#include "tethercalc/report/design_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,6 @@
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
-#include "tethercalc/io/input_error.hpp"
-#include "tethercalc/io/library.hpp"
-#include "tethercalc/model/units.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc {
@@ -75,8 +72,8 @@ std::string sources_text(const ordered_json& entries) {
   for (const ordered_json& entry : entries) {
     const std::string source = entry["source"];
     const std::string id = entry["id"];
-    const auto same = std::find_if(ids_of.begin(), ids_of.end(),
-                                   [&](const auto& known) { return known.first == source; });
+    const auto same =
+        std::ranges::find(ids_of, source, &std::pair<std::string, std::string>::first);
     if (same == ids_of.end()) {
       ids_of.emplace_back(source, id);
     } else {

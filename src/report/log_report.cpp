@@ -68,14 +68,6 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "";
 }
 
-ordered_json gap_json(const LogSummary::Gap& gap) {
-  return {{"start_s", gap.start}, {"duration_s", gap.duration}};
-}
-
-ordered_json skipped_json(const SkippedBytes& lost) {
-  return {{"offset", lost.offset}, {"bytes", lost.bytes}, {"messages", lost.messages}};
-}
-
 ordered_json message_json(const LogSummary::Message& message) {
   return {{"name", message.name},
           {"count", message.count},
@@ -86,13 +78,8 @@ ordered_json message_json(const LogSummary::Message& message) {
           {"fields", message.fields}};
 }
 
-std::string csv_field(const std::byte* message, const DataFlashField& field) {
-  if (field.is_number() && !std::isfinite(field_value(message, field))) return "";
-  return csv_text(field_text(message, field));
-}
-
 std::string in_order(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   for (std::string& name : names) name = printable(name);
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -145,6 +132,13 @@ std::string log_csv(const LogSummary& summary) {
 }
 
 ordered_json log_json(const LogSummary& summary, std::string_view name) {
+  const ordered_json gaps = json_list(summary.gaps, [](const LogSummary::Gap& gap) {
+    return ordered_json{{"start_s", gap.start}, {"duration_s", gap.duration}};
+  });
+  const ordered_json stretches = json_list(summary.skipped, [](const SkippedBytes& lost) {
+    return ordered_json{
+        {"offset", lost.offset}, {"bytes", lost.bytes}, {"messages", lost.messages}};
+  });
   ordered_json report = {{"file", name},
                          {"bytes", summary.bytes},
                          {"messages", summary.messages},
@@ -153,13 +147,13 @@ ordered_json log_json(const LogSummary& summary, std::string_view name) {
                          {"last_s", number_or_null(summary.last_time)},
                          {"duration_s", nullptr},
                          {"flying", nullptr},
-                         {"gaps", json_list(summary.gaps, gap_json)},
+                         {"gaps", gaps},
                          {"gap_count", summary.gap_count},
                          {"implausible_times", summary.implausible_times},
                          {"skipped",
                           {{"bytes", summary.skipped_bytes},
                            {"messages", summary.skipped_messages},
-                           {"stretches", json_list(summary.skipped, skipped_json)}}},
+                           {"stretches", stretches}}},
                          {"rejected_definitions", summary.rejected_definitions},
                          {"types", json_list(summary.types, message_json)}};
   if (summary.first_time) report["duration_s"] = *summary.last_time - *summary.first_time;
@@ -186,9 +180,10 @@ void write_messages_csv(std::span<const std::byte> log, std::string_view message
     for (const DataFlashField& column : header.fields) {
       if (&column != &header.fields.front()) line += ',';
       // By name, because a log behind another in one file may define the message anew.
-      if (const DataFlashField* const field = format.find(column.name)) {
-        line += csv_field(bytes, *field);
-      }
+      const DataFlashField* const field = format.find(column.name);
+      if (field == nullptr) continue;
+      const bool none = field->is_number() && !std::isfinite(field_value(bytes, *field));
+      if (!none) line += csv_text(field_text(bytes, *field));
     }
     out << line << '\n';
   });

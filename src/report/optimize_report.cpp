@@ -1,4 +1,4 @@
-#include "tethercalc/report/optimize_report.hpp"
+#include "tethercalc/report/design_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "report/result_values.hpp"
 #include "tethercalc/io/spec_fields.hpp"
-#include "tethercalc/report/design_sentences.hpp"
 
 namespace tethercalc {
 namespace {
@@ -30,7 +29,7 @@ Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",
       significant(design.tether.length, 3), fixed(hover.tether_mass / unit::gram, 1),
       significant(hover.tether_resistance, 4), fixed(hover.takeoff_mass / unit::gram, 0)));
-  for (std::string& sentence : cable_sentences(design, study.points())) {
+  for (std::string& sentence : cable_sentences(design, study.result)) {
     out.sentences.push_back(std::move(sentence));
   }
   const double speed = airspeed(design, Condition::forward);
@@ -253,8 +252,8 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
       {"table", table_json(study.table)}};
   out["voltage_class"] = voltage_class_json(design.supply.voltage);
   if (result.feasible) {
-    out["thermal"] = thermal_json(design, study.points());
-    out["cable"] = cable_json(design, study.points());
+    out["thermal"] = thermal_json(design, study.result);
+    out["cable"] = cable_json(design, study.result);
   } else {
     out["reason"] = refusal_sentence(design, *study.refusal);
     out["remedies"] = remedies_json(study);
@@ -326,7 +325,7 @@ TitledTable motor_table(const Design& design, std::span<const MotorOptimum> rank
     table.add({entry.motor.id, significant(r.area / unit::square_millimetre, 4),
                fixed(r.hover.tether_mass / unit::gram, 0), fixed(r.hover.total_power, 1),
                fixed(r.forward.total_power, 1),
-               fixed(entry.points().in(design.requirements.headroom_at).headroom, 2),
+               fixed(entry.result.in(design.requirements.headroom_at).headroom, 2),
                std::string(limit_name(r.limited_by))});
   }
   return {fmt::format("Motors by power in {}, each with its own best tether",

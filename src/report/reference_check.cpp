@@ -57,7 +57,7 @@ std::optional<RecordedResult> compared(const JsonDocument& document, const Named
   }
   const std::vector<std::string> known{"value", tolerances[0], tolerances[1]};
   for (const auto& [key, value] : entry.items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
+    if (std::ranges::find(known, key) == known.end()) {
       problems.add(document.where(child_pointer(pointer, key)),
                    fmt::format("unknown key {}{}", shown(key), did_you_mean(key, known)));
     }
@@ -92,7 +92,7 @@ std::vector<RecordedResult> compared(const JsonDocument& document,
   std::vector<std::string> names;
   for (const NamedResult& result : results) names.push_back(result.name);
   for (const auto& [name, entry] : document.root.items()) {
-    const auto known = std::find(names.begin(), names.end(), name);
+    const auto known = std::ranges::find(names, name);
     if (known == names.end()) {
       problems.add(document.where(child_pointer("", name)),
                    fmt::format("no result {}{}", shown(name), did_you_mean(name, names)));
@@ -165,17 +165,13 @@ std::string attribute_text(std::string_view text) {
 }
 
 std::size_t count_status(std::span<const ReferenceCheck> checks, std::string_view status) {
-  return static_cast<std::size_t>(
-      std::count_if(checks.begin(), checks.end(),
-                    [&](const ReferenceCheck& check) { return status_of(check) == status; }));
+  return static_cast<std::size_t>(std::ranges::count(checks, status, status_of));
 }
 
 }  // namespace
 
 bool ReferenceCheck::passed() const {
-  return recorded && problems.empty() &&
-         std::none_of(results.begin(), results.end(),
-                      [](const RecordedResult& result) { return result.drifted; });
+  return recorded && problems.empty() && std::ranges::none_of(results, &RecordedResult::drifted);
 }
 
 ReferenceCheck check_reference(std::string spec, const DesignFile& file,

@@ -5,14 +5,139 @@
 #include <cmath>
 #include <map>
 
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "io/csv.hpp"
 #include "model/constants.hpp"
 #include "report/gnuplot_script.hpp"
-#include "tethercalc/io/input_error.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
 namespace {
+
+// More would scroll the first, which is usually the cause, off the screen.
+constexpr std::size_t most_problems = 20;
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& file, const std::string& value)
+      : rows_(text, file), problems_(most_problems, file) {
+    table_.file = file;
+    table_.value_column = value.empty() ? "forward.total_power_W" : value;
+  }
+
+  SweepTable read() {
+    if (!rows_.next(table_.columns)) throw InputError(table_.file, "is empty");
+    header();
+    std::vector<std::string> cells;
+    while (rows_.next(cells)) row(cells);
+    problems_.throw_if_any();
+    if (table_.value.empty()) throw InputError(table_.file, "has a header and no rows");
+    return std::move(table_);
+  }
+
+ private:
+  void header() {
+    const auto& names = table_.columns;
+    const auto status = std::ranges::find(names, "status");
+    if (status == names.end()) {
+      throw InputError(rows_.where(),
+                       "is no header of a sweep: it has no column \"status\". A later part of a "
+                       "sweep in parts (--shard) has no header; join the parts first");
+    }
+    if (status == names.begin()) {
+      throw InputError(rows_.where(), "has no column of a varied field before \"status\"");
+    }
+    for (auto name = names.begin(); name != status; ++name)
+      table_.varied.push_back({*name, {}, {}});
+    const auto value = std::ranges::find(names, table_.value_column);
+    if (value == names.end()) {
+      throw InputError("--value",
+                       fmt::format("\"{}\" is no column of {}{}", table_.value_column, table_.file,
+                                   did_you_mean(table_.value_column, names)));
+    }
+    value_ = std::size_t(value - names.begin());
+  }
+
+  /// The number that a cell is; nothing, with a problem unless it is empty, where it is none.
+  std::optional<double> number(const std::string& column, const std::string& cell, bool required) {
+    const std::optional<double> value = parsed_number(cell);
+    if (!value && (required || !cell.empty())) {
+      problems_.add(rows_.where(),
+                    fmt::format("{}: \"{}\" is no number", column, cell.substr(0, 40)));
+    }
+    return value;
+  }
+
+  void row(const std::vector<std::string>& cells) {
+    if (cells.size() != table_.columns.size()) {
+      return problems_.add(rows_.where(), fmt::format("has {} cells, the header has {}",
+                                                      cells.size(), table_.columns.size()));
+    }
+    for (std::size_t c = 0; c < table_.varied.size(); ++c) varied_cell(table_.varied[c], cells[c]);
+    const auto value = number(table_.value_column, cells[value_], false);
+    if (!value) ++table_.infeasible;
+    table_.value.push_back(value.value_or(nan));
+  }
+
+  void varied_cell(SweepColumn& column, const std::string& cell) {
+    bool numbers = column.names.empty();
+    if (column.values.empty()) {
+      // Of fields that only sweeps know the first row tells.
+      const SpecField* field = find_field(column.path);
+      numbers = field != nullptr ? is_numeric(*field) : parsed_number(cell).has_value();
+    }
+    if (numbers) {
+      return column.values.push_back(number(column.path, cell, true).value_or(0));
+    }
+    const auto known = std::ranges::find(column.names, cell);
+    column.values.push_back(double(known - column.names.begin()));
+    if (known == column.names.end()) column.names.push_back(cell);
+  }
+
+  CsvRows rows_;
+  SweepTable table_;
+  std::size_t value_ = 0;
+  Problems problems_;
+};
+
+/// The ending of a name that says its unit, and the unit; empty where it has none.
+std::pair<std::string_view, const char*> unit_ending(std::string_view name) {
+  // The longest ending first: "_m_s" before "_s".
+  constexpr std::array<std::pair<std::string_view, const char*>, 28> units{
+      {{"_ohm_mm2_per_m", "Ω mm²/m"},
+       {"_ohm_mm2_m", "Ω·mm²/m"},
+       {"_1_K", "1/K"},
+       {"_per_K", "1/K"},
+       {"_kg_m3", "kg/m³"},
+       {"_g_cm3", "g/cm³"},
+       {"_kg_per_kW", "kg/kW"},
+       {"_g_per_W", "g/W"},
+       {"_W_mK", "W/(m·K)"},
+       {"_W_m2", "W/m²"},
+       {"_kV_mm", "kV/mm"},
+       {"_m_s2", "m/s²"},
+       {"_m_s", "m/s"},
+       {"_mm2", "mm²"},
+       {"_m2", "m²"},
+       {"_mm", "mm"},
+       {"_MPa", "MPa"},
+       {"_ohm", "Ω"},
+       {"_percent", "%"},
+       {"_deg", "°"},
+       {"_in", "in"},
+       {"_N", "N"},
+       {"_W", "W"},
+       {"_V", "V"},
+       {"_A", "A"},
+       {"_C", "°C"},
+       {"_m", "m"},
+       {"_g", "g"}}};
+  for (const auto& unit : units) {
+    if (name.ends_with(unit.first)) return unit;
+  }
+  return {"", ""};
+}
 
 constexpr std::size_t most_curves = 7;
 constexpr std::size_t most_cells = 40000;
@@ -32,8 +157,8 @@ std::vector<const SweepColumn*> varying(const SweepTable& table) {
     throw InputError(table.file, "has nothing to draw over: no field has two values");
   }
   // Numbers first, so that they become the axes.
-  std::stable_partition(out.begin(), out.end(),
-                        [](const SweepColumn* column) { return column->names.empty(); });
+  std::ranges::stable_partition(out,
+                                [](const SweepColumn* column) { return column->names.empty(); });
   return out;
 }
 
@@ -184,8 +309,6 @@ std::string description_of(const SweepTable& table, const Axes& axes,
 /// Curves over x: one, or one a name of y.
 Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vector<Cell>& cells,
                      Figure figure) {
-  constexpr std::array colours{colour::blue,   colour::vermilion, colour::green, colour::orange,
-                               colour::purple, colour::sky,       colour::black};
   gp::Plot plot;
   figure.script = gp::prelude();
   const std::size_t curves = axes.y == nullptr ? 1 : axes.y->names.size();
@@ -198,12 +321,12 @@ Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vecto
     figure.script += gp::data_block(name, own, {&Cell::x, &Cell::value});
     const std::string data = fmt::format("${} using 1:2", name);
     const std::string words = axes.y == nullptr ? "" : axes.y->names[k];
-    const std::string dots = gp::point(colours[k % colours.size()], 7, 0.4);
+    const std::string dots = gp::point(gp::curve_colour(k), 7, 0.4);
     constexpr std::size_t most_marked = 40;
     if (!axes.x->names.empty()) {
       plot.points(data, dots, words);  // there is nothing between two names
     } else {
-      plot.curve(data, gp::line(colours[k % colours.size()], int(k % 5) + 1, 1.5), words);
+      plot.curve(data, gp::curve_line(k, 1.5), words);
       if (own.size() <= most_marked) plot.points(data, dots);
     }
   }
@@ -225,11 +348,6 @@ Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vecto
   return figure;
 }
 
-/// Whether the places fill their grid well enough to be cells of it; a sample's do not.
-bool is_grid(const Axes& axes, const std::vector<Cell>& cells) {
-  return 2 * cells.size() >= axes.x->distinct().size() * axes.y->distinct().size();
-}
-
 /// A digit for every place, 0 for the least tenth of the range, where characters are all there is.
 std::string digits(gp::Range range) {
   return fmt::format(
@@ -246,7 +364,8 @@ Figure map_figure(const SweepTable& table, const Axes& axes, const std::vector<C
   }
   const Edges x(*axes.x);
   const Edges y(*axes.y);
-  const bool grid = is_grid(axes, cells);
+  // The places of a sample do not fill their grid well enough to be cells of it.
+  const bool grid = 2 * cells.size() >= x.values.size() * y.values.size();
   figure.script = gp::prelude() + "$cells << EOD\n";
   for (const Cell& cell : cells) {
     const std::size_t column = x.index(cell.x);
@@ -301,6 +420,32 @@ Figure map_figure(const SweepTable& table, const Axes& axes, const std::vector<C
 }
 
 }  // namespace
+
+std::vector<double> SweepColumn::distinct() const {
+  std::vector<double> out = values;
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+SweepTable parse_sweep_csv(std::string_view text, const std::string& file,
+                           const std::string& value) {
+  return Reader(text, file, value).read();
+}
+
+std::string unit_of(std::string_view name) {
+  if (const SpecField* field = find_field(name)) return std::string(field->unit);
+  return unit_ending(name).second;
+}
+
+std::string axis_label(std::string_view name) {
+  const std::string unit = unit_of(name);
+  if (!unit.empty()) name.remove_suffix(unit_ending(name).first.size());
+  std::string out(name);
+  std::ranges::replace_if(
+      out, [](char c) { return c == '.' || c == '_'; }, ' ');
+  return unit.empty() ? out : fmt::format("{} ({})", out, unit);
+}
 
 Figure sweep_figure(const SweepTable& table, const SweepView& view) {
   const Axes axes = axes_of(table, view);

@@ -8,17 +8,10 @@
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
-#include "tethercalc/report/design_sentences.hpp"
+#include "tethercalc/report/design_report.hpp"
 
 namespace tethercalc {
 namespace {
-
-/// The shortest text that reads back as the same number, as `csv_number` makes it.
-void append_number(std::string& text, double value) {
-  std::array<char, 32> digits{};
-  char* const end = fmt::format_to(digits.data(), FMT_COMPILE("{}"), value);
-  text.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
 
 /// Appends the cells of one row.
 class RowText {
@@ -29,7 +22,10 @@ class RowText {
   void number(double value) {
     text_ += *opening_++;
     if (std::isfinite(value)) {
-      append_number(text_, value);
+      // The shortest text that reads back as the same number, as `csv_number` makes it.
+      std::array<char, 32> digits{};
+      char* const end = fmt::format_to(digits.data(), FMT_COMPILE("{}"), value);
+      text_.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
     } else if (!csv_) {
       text_ += "null";
     }
@@ -39,14 +35,6 @@ class RowText {
   void words(std::string_view value) {
     text_ += *opening_++;
     text_ += csv_ ? csv_text(value) : value.empty() ? "null" : nlohmann::json(value).dump();
-  }
-
-  /// A word without characters that would need quoting.
-  void plain_word(std::string_view value) {
-    text_ += *opening_++;
-    const bool none = !csv_ && value.empty();
-    const char* const quote = csv_ || none ? "" : "\"";
-    text_.append(quote).append(none ? "null" : value).append(quote);
   }
 
   /// Both points, with the numbers that they share printed once and copied: printing is what costs
@@ -86,10 +74,6 @@ std::string reason_words(const SweepRow& row) {
   return row.outcome.given_area ? shortcoming(row.design, row.outcome.points) : "";
 }
 
-std::string_view status_word(const SweepOutcome& outcome) {
-  return !outcome.feasible ? "infeasible" : outcome.given_area ? "feasible" : "optimal";
-}
-
 constexpr std::array shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
 /// Half-width of a 95 % interval in standard errors of a normal distribution.
@@ -114,16 +98,14 @@ ordered_json sensitivity_json(const std::vector<Sensitivity>& indices, const Swe
 
 ordered_json spread_json(const Spread& spread, double si_factor) {
   const auto practical = [&](double value) { return number_or_null(value / si_factor); };
-  const QuantileHistogram& histogram = spread.histogram();
-  const bool any = histogram.count() > 0;
   ordered_json quantiles = ordered_json::object();
   for (const double share : shares) {
-    quantiles[fmt::format("{}", share)] = practical(histogram.quantile(share));
+    quantiles[fmt::format("{}", share)] = practical(spread.quantile(share));
   }
-  return {{"mean", practical(any ? spread.mean() : nan)},
+  return {{"mean", practical(spread.mean())},
           {"standard_deviation", practical(spread.standard_deviation())},
-          {"min", practical(histogram.quantile(0))},
-          {"max", practical(histogram.quantile(1))},
+          {"min", practical(spread.quantile(0))},
+          {"max", practical(spread.quantile(1))},
           {"quantiles", quantiles}};
 }
 
@@ -144,12 +126,10 @@ std::string indices_text(const std::string& of, const std::vector<Sensitivity>& 
 }
 
 void add_spread(TextTable& table, const std::string& name, const Spread& spread, double si_factor) {
-  const QuantileHistogram& histogram = spread.histogram();
-  std::vector<std::string> cells{
-      name, significant(histogram.count() > 0 ? spread.mean() / si_factor : nan, 4),
-      significant(spread.standard_deviation() / si_factor, 3)};
+  std::vector<std::string> cells{name, significant(spread.mean() / si_factor, 4),
+                                 significant(spread.standard_deviation() / si_factor, 3)};
   for (const double share : shares) {
-    cells.push_back(significant(histogram.quantile(share) / si_factor, 4));
+    cells.push_back(significant(spread.quantile(share) / si_factor, 4));
   }
   table.add(std::move(cells));
 }
@@ -185,9 +165,9 @@ void SweepRows::append(std::string& text, const SweepRow& swept) const {
     }
   }
   const bool limited = !(outcome.given_area && outcome.feasible);
-  row.plain_word(status_word(outcome));
-  row.plain_word(limited ? limit_name(outcome.limited_by) : "");
-  row.plain_word(limited ? condition_name(outcome.limiting_condition) : "");
+  row.words(!outcome.feasible ? "infeasible" : outcome.given_area ? "feasible" : "optimal");
+  row.words(limited ? limit_name(outcome.limited_by) : "");
+  row.words(limited ? condition_name(outcome.limiting_condition) : "");
   row.number(outcome.area() / unit::square_millimetre);
   row.points(outcome);
   row.words(reason_words(swept));

@@ -88,7 +88,7 @@ std::string significant(double value, int digits) {
 std::size_t display_width(const std::string& text) {
   // Bytes 10xxxxxx continue a character.
   return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::string wrapped(const std::string& text, std::size_t width, const std::string& indent) {

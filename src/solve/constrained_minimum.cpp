@@ -173,14 +173,12 @@ double distance(std::span<const double> a, std::span<const double> b) {
 
 /// The best of `points`, at most `count`, that lie further than `apart` from each other.
 std::vector<Visited> distinct_best(std::vector<Visited> points, int count, double apart) {
-  std::sort(points.begin(), points.end(),
-            [](const Visited& a, const Visited& b) { return a.better_than(b); });
+  std::ranges::sort(points, [](const Visited& a, const Visited& b) { return a.better_than(b); });
   std::vector<Visited> chosen;
   for (const Visited& point : points) {
     if (static_cast<int>(chosen.size()) == count) break;
-    const bool distinct = std::all_of(chosen.begin(), chosen.end(), [&](const Visited& other) {
-      return distance(point.unit, other.unit) > apart;
-    });
+    const bool distinct = std::ranges::all_of(
+        chosen, [&](const Visited& other) { return distance(point.unit, other.unit) > apart; });
     if (distinct) chosen.push_back(point);
   }
   return chosen;
@@ -225,13 +223,13 @@ int agreeing(const Visited& best, std::span<const Visited> descents,
              std::span<const LocalSearch> searches) {
   const double scale = std::max(std::abs(best.value), 1e-300);
   const auto leads_to_best = [&](const Visited& descent) {
-    return std::any_of(searches.begin(), searches.end(), [&](const LocalSearch& search) {
+    return std::ranges::any_of(searches, [&](const LocalSearch& search) {
       return search.end.feasible() &&
              std::abs(search.end.value - best.value) <= same_value * scale &&
              distance(search.start.unit, descent.unit) <= same_place;
     });
   };
-  return static_cast<int>(std::count_if(descents.begin(), descents.end(), leads_to_best));
+  return static_cast<int>(std::ranges::count_if(descents, leads_to_best));
 }
 
 /// The least violation, from `start`: by how much a problem without a feasible point misses.

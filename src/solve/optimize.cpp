@@ -76,8 +76,8 @@ bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
 /// from it only where the power has a second valley in the feasible set.
 double edge_towards_minimum_power(const Optimization& result) {
   const double area = result.area;
-  const auto range = std::find_if(result.feasible_areas.begin(), result.feasible_areas.end(),
-                                  [area](const Interval& i) { return i.contains(area); });
+  const auto range = std::ranges::find_if(result.feasible_areas,
+                                          [area](const Interval& i) { return i.contains(area); });
   if (range == result.feasible_areas.end()) return area;
   return area > result.minimum_power.area ? range->lo : range->hi;
 }
@@ -124,13 +124,6 @@ Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double dema
              : Limit::available_power;
 }
 
-/// Where each flight can be flown, with the headroom that is asked for, whatever the cable stands.
-IntervalSet flyable_areas(const Flights& flights) {
-  const Requirements& need = flights.hover.design().requirements;
-  return intersection(headroom_areas(flights.hover, demanded_headroom(need, Condition::hover)),
-                      headroom_areas(flights.forward, demanded_headroom(need, Condition::forward)));
-}
-
 /// The demand that is missed by least, tried at the ends and in the middle of `areas`.
 DemandMargin least_missed(const Flights& flights, const IntervalSet& areas) {
   DemandMargin least{Demand::thrust_headroom, Condition::hover, -infinity};
@@ -170,7 +163,13 @@ void name_obstacle(Optimization& result, const Flights& flights) {
   result.best_headroom = best_headroom(flights.in(asked));
   const bool enough = result.best_headroom.value >= missed.headroom;
   if (enough && is_cable_judged(design)) {
-    if (const IntervalSet flyable = flyable_areas(flights); !flyable.empty()) {
+    // Where each flight can be flown, whatever the cable stands.
+    const auto flyable_in = [&](Condition condition) {
+      return headroom_areas(flights.in(condition), demanded_headroom(need, condition));
+    };
+    const IntervalSet flyable =
+        intersection(flyable_in(Condition::hover), flyable_in(Condition::forward));
+    if (!flyable.empty()) {
       const DemandMargin margin = least_missed(flights, flyable);
       result.limited_by = limit_of(margin.demand);
       result.limiting_condition = margin.condition;

@@ -14,11 +14,6 @@ double& quantity_of(Design& design, Quantity quantity) {
   return *all[static_cast<std::size_t>(quantity)];
 }
 
-double bound_of(Quantity quantity, double present) {
-  return quantity == Quantity::supply_voltage ? highest_remedy_voltage
-                                              : present * smallest_remedy_fraction;
-}
-
 bool feasible_at(const Design& design, Quantity quantity, double value) {
   return optimum_alone(remedied(design, {quantity, value})).feasible;
 }
@@ -83,8 +78,9 @@ std::vector<Remedy> remedies(const Design& design) {
                                   Quantity::tether_length, Quantity::airspeed}) {
     Design copy = design;
     const double present = quantity_of(copy, quantity);
-    const double bound = bound_of(quantity, present);
-    const bool room = quantity == Quantity::supply_voltage ? bound > present : bound < present;
+    const bool raised = quantity == Quantity::supply_voltage;
+    const double bound = raised ? highest_remedy_voltage : present * smallest_remedy_fraction;
+    const bool room = raised ? bound > present : bound < present;
     if (!room) continue;
     if (const auto value = threshold(design, quantity, present, bound)) {
       found.push_back({quantity, rounded_feasible(design, quantity, *value, bound)});

@@ -43,34 +43,30 @@ double normal_quantile(const Normal& normal, double u) {
   return normal.mean + normal.standard_deviation * boost::math::quantile(standard, u);
 }
 
-std::uint64_t number_of_integers(const UniformInteger& range) {
-  return static_cast<std::uint64_t>(range.hi - range.lo) + 1;
-}
-
 /// Named choices first: a motor or material replaces all of its numbers, which other axes may vary.
 std::vector<std::size_t> order_of_application(std::span<const SweepAxis> axes) {
   std::vector<std::size_t> order(axes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
-    return std::holds_alternative<NamedChoices>(axes[i].values);
-  });
+  std::ranges::stable_partition(
+      order, [&](std::size_t i) { return std::holds_alternative<NamedChoices>(axes[i].values); });
   return order;
 }
 
 }  // namespace
 
 std::optional<std::uint64_t> value_count(const SweepAxis& axis) {
-  return std::visit(
-      Overloaded{[](const DecimalRange& r) { return std::optional(r.count); },
-                 [](const std::vector<double>& list) {
-                   return std::optional(static_cast<std::uint64_t>(list.size()));
-                 },
-                 [](const NamedChoices& c) {
-                   return std::optional(static_cast<std::uint64_t>(c.names.size()));
-                 },
-                 [](const UniformInteger& r) { return std::optional(number_of_integers(r)); },
-                 [](const auto&) { return std::optional<std::uint64_t>(); }},
-      axis.values);
+  return std::visit(Overloaded{[](const DecimalRange& r) { return std::optional(r.count); },
+                               [](const std::vector<double>& list) {
+                                 return std::optional(static_cast<std::uint64_t>(list.size()));
+                               },
+                               [](const NamedChoices& c) {
+                                 return std::optional(static_cast<std::uint64_t>(c.names.size()));
+                               },
+                               [](const UniformInteger& r) {
+                                 return std::optional(static_cast<std::uint64_t>(r.hi - r.lo) + 1);
+                               },
+                               [](const auto&) { return std::optional<std::uint64_t>(); }},
+                    axis.values);
 }
 
 double value_at(const SweepAxis& axis, std::uint64_t index) {
@@ -152,8 +148,8 @@ void SweepCursor::move_to(std::uint64_t row) {
 void SweepCursor::set_values(std::span<const double> values) {
   // From the first change on, everything is set again: a later axis may vary a part of what an
   // earlier one replaces. What changes slowest is rarely touched.
-  const auto first_change = std::find_if(order_.begin(), order_.end(),
-                                         [&](std::size_t i) { return !(values[i] == values_[i]); });
+  const auto first_change =
+      std::ranges::find_if(order_, [&](std::size_t i) { return !(values[i] == values_[i]); });
   for (auto i = first_change; i != order_.end(); ++i) {
     values_[*i] = values[*i];
     space_->axes()[*i].apply(design_, values_[*i]);

@@ -43,7 +43,7 @@ struct UnitPoints::Sequence {
   void move_to(std::uint64_t index) {
     if (index == current) return;
     if (index == 0) {
-      std::fill(digits.begin(), digits.end(), 0);
+      std::ranges::fill(digits, 0);
     } else {
       // The engine leaves the zeroth point out: seeded with n, it goes on with point n + 1.
       if (current == 0 || index != current + 1) engine.seed(index - 1);

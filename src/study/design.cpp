@@ -20,7 +20,7 @@ bool least_power_is_best(const DesignQuestion& question) {
   const auto* objective = std::get_if<PointQuantity>(&problem.objective);
   const auto of_fields = [](const UserLimit& limit) { return limit.quantity.index() == 1; };
   if (objective == nullptr || objective->member != &OperatingPoint::total_power || question.front ||
-      !std::all_of(problem.limits.begin(), problem.limits.end(), of_fields)) {
+      !std::ranges::all_of(problem.limits, of_fields)) {
     return false;
   }
   return !objective->condition || (!problem.frees("requirements.power_at") &&
@@ -156,7 +156,7 @@ class Prices {
     for (const DemandMargin& margin : demand_margins(best.design, best.hover, best.forward)) {
       if (margin.value > binding || !is_negotiable(best.design, margin)) continue;
       for (const auto& [demand, way] : relaxations) {
-        if (demand != margin.demand || std::count(told.begin(), told.end(), way.path) > 0) continue;
+        if (demand != margin.demand || std::ranges::count(told, way.path) > 0) continue;
         told.push_back(way.path);
         add_moved({Priced::demand, false, demand}, way, best.design);
       }

@@ -18,19 +18,16 @@ namespace {
 /// The demands of the design in both conditions.
 constexpr std::size_t fixed_demands = 2 * demand_count;
 
-std::size_t index_of(Demand demand, Condition condition) {
-  return static_cast<std::size_t>(demand) + (condition == Condition::hover ? 0 : demand_count);
-}
-
 /// How far every demand is violated: fixed_demands of them, then the user's.
 void fill_violations(const Candidate& candidate, const std::vector<UserLimit>& limits,
                      std::span<double> violations) {
   const bool exists = std::isfinite(candidate.area);
-  std::fill(violations.begin(), violations.end(), exists ? -1.0 : 1.0);
+  std::ranges::fill(violations, exists ? -1.0 : 1.0);
   if (exists) {
     for (const DemandMargin& margin :
          demand_margins(candidate.design, candidate.hover, candidate.forward)) {
-      violations[index_of(margin.demand, margin.condition)] = -margin.value;
+      const std::size_t first = margin.condition == Condition::hover ? 0 : demand_count;
+      violations[first + static_cast<std::size_t>(margin.demand)] = -margin.value;
     }
   }
   for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -71,7 +68,7 @@ Condition condition_of(const PointQuantity& quantity, const Requirements& need) 
 bool has_lower_bound(const DesignProblem& problem) {
   const auto* objective = std::get_if<PointQuantity>(&problem.objective);
   return objective != nullptr && objective->member == &OperatingPoint::total_power &&
-         std::all_of(problem.free.begin(), problem.free.end(), [](const SweepAxis& axis) {
+         std::ranges::all_of(problem.free, [](const SweepAxis& axis) {
            return searched(axis) == nullptr || axis.name == "supply.voltage_V" ||
                   axis.name.starts_with("tether.");
          });
@@ -143,8 +140,8 @@ void write_short(const MinimumProblem& problem, Minimum& minimum) {
       if (x[i] == exact) break;
       if (x[i] < problem.variables[i].lo || x[i] > problem.variables[i].hi) continue;
       const double value = problem.evaluate(x, constraints);
-      const bool kept = std::all_of(constraints.begin(), constraints.end(),
-                                    [](double c) { return c <= constraint_tolerance; });
+      const bool kept =
+          std::ranges::all_of(constraints, [](double c) { return c <= constraint_tolerance; });
       constexpr double as_good = 1e-13;
       if (!kept || !(value <= minimum.value + as_good * std::abs(minimum.value))) continue;
       minimum.x = std::move(x);
@@ -171,8 +168,7 @@ std::vector<Combination> ordered_combinations(const DesignProblem& problem) {
                                  : -infinity;
     ordered.push_back({std::move(values), bound});
   }
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const Combination& a, const Combination& b) { return a.bound < b.bound; });
+  std::ranges::stable_sort(ordered, {}, &Combination::bound);
   return ordered;
 }
 
@@ -187,8 +183,7 @@ double quantity_of(const Candidate& candidate, const CandidateQuantity& quantity
 }
 
 bool DesignProblem::frees(std::string_view path) const {
-  return std::any_of(free.begin(), free.end(),
-                     [path](const SweepAxis& axis) { return axis.name == path; });
+  return std::ranges::count(free, path, &SweepAxis::name) > 0;
 }
 
 Candidate candidate_of(Design design) {
@@ -197,9 +192,7 @@ Candidate candidate_of(Design design) {
     area = *design.tether.cross_section;
   } else {
     const Optimization optimum = optimize(design);
-    if (optimum.feasible) {
-      return {{optimum.area, optimum.hover, optimum.forward, {}}, std::move(design)};
-    }
+    if (optimum.feasible) return {optimum, std::move(design)};
     // Nearest to feasible, so that it can be told by how much the demands are missed.
     area = best_headroom(design, design.requirements.headroom_at).area;
   }
@@ -248,9 +241,7 @@ DesignAnswer search_design(const DesignProblem& problem, const MinimumOptions& o
     answer.missed = demand_states(answer.best, problem.limits);
     std::erase_if(answer.missed,
                   [](const DemandState& d) { return d.violation <= constraint_tolerance; });
-    std::stable_sort(
-        answer.missed.begin(), answer.missed.end(),
-        [](const DemandState& a, const DemandState& b) { return a.violation > b.violation; });
+    std::ranges::stable_sort(answer.missed, std::ranges::greater{}, &DemandState::violation);
   }
   return answer;
 }

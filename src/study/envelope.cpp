@@ -14,10 +14,6 @@ constexpr double shortest_length = 0.1;
 
 double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
 
-DemandMargin worst_margin(const Design& design) {
-  return evaluate_areas(design, std::span(&*design.tether.cross_section, 1)).front().worst;
-}
-
 }  // namespace
 
 double search_end(const Design& design, Reach reach) {
@@ -37,7 +33,10 @@ Design at_reach(Design design, Reach reach, double value) {
 std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
   const double start = search_start(reach);
   const double end = search_end(design, reach);
-  const auto margin = [&](double value) { return worst_margin(at_reach(design, reach, value)); };
+  const auto margin = [&](double value) {
+    const Design pushed = at_reach(design, reach, value);
+    return evaluate_areas(pushed, std::span(&*pushed.tether.cross_section, 1)).front().worst;
+  };
   constexpr int steps = 400;
   // Squared, so that steps are finer where most answers lie.
   const auto at_step = [&](int step) {
@@ -74,8 +73,7 @@ std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach 
 }
 
 bool EnvelopeStudy::any() const {
-  return std::any_of(greatest.begin(), greatest.end(),
-                     [](const ReachResult& r) { return r.end.has_value(); });
+  return std::ranges::any_of(greatest, [](const ReachResult& r) { return r.end.has_value(); });
 }
 
 EnvelopeStudy study_envelope(const Design& design) {

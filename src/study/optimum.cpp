@@ -36,7 +36,7 @@ std::vector<double> table_areas(const OptimumStudy& study) {
   }
   areas = existing(std::move(areas));
   if (areas.empty()) return areas;
-  const auto [least, most] = std::minmax_element(areas.begin(), areas.end());
+  const auto [least, most] = std::ranges::minmax_element(areas);
   const double from = 0.5 * *least;
   const double to = 1.5 * *most;
   constexpr int steps = 12;
@@ -44,7 +44,7 @@ std::vector<double> table_areas(const OptimumStudy& study) {
     const double area = from * std::pow(to / from, double(i) / steps);
     areas.push_back(rounded(area / unit::square_millimetre) * unit::square_millimetre);
   }
-  std::sort(areas.begin(), areas.end());
+  std::ranges::sort(areas);
   const auto same = [](double a, double b) { return b - a <= 1e-9 * b; };
   areas.erase(std::unique(areas.begin(), areas.end(), same), areas.end());
   return areas;
@@ -61,7 +61,7 @@ std::vector<SizePoints> sizes_near(const Design& design, double area,
     // The end of a short standard is no neighbour; it counts where no standard goes further.
     std::vector<WireNeighbours> standards = wire_sizes_near(sizes, area);
     const auto brackets = [](const WireNeighbours& s) { return s.below && s.above; };
-    if (std::any_of(standards.begin(), standards.end(), brackets)) {
+    if (std::ranges::any_of(standards, brackets)) {
       std::erase_if(standards, std::not_fn(brackets));
     }
     for (const WireNeighbours& standard : standards) {
@@ -71,9 +71,7 @@ std::vector<SizePoints> sizes_near(const Design& design, double area,
     }
   }
   if (design.tether.cross_section) add("as specified", *design.tether.cross_section);
-  std::stable_sort(near.begin(), near.end(), [](const SizePoints& a, const SizePoints& b) {
-    return a.points.area < b.points.area;
-  });
+  std::ranges::stable_sort(near, {}, [](const SizePoints& size) { return size.points.area; });
   const auto same = [](const SizePoints& a, const SizePoints& b) { return a.name == b.name; };
   near.erase(std::unique(near.begin(), near.end(), same), near.end());
   return near;
@@ -90,7 +88,7 @@ std::vector<double> landmarks(const OptimumStudy& study) {
 /// What of the cross-sections is shown.
 AreaCurve curve_around(const std::vector<double>& areas, const IntervalSet& feasible) {
   if (areas.empty()) return {};  // nothing flies: the sizes that tethers have
-  const auto [least, most] = std::minmax_element(areas.begin(), areas.end());
+  const auto [least, most] = std::ranges::minmax_element(areas);
   constexpr double most_on_a_linear_axis = 8;
   if (*most > most_on_a_linear_axis * *least) return {*least / 2.5, *most * 2.5, true, {}};
   double hi = 2.2 * *most;
@@ -128,9 +126,7 @@ std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const dou
 std::vector<WireNeighbours> wire_sizes_near(std::span<const WireSize> sizes, double area) {
   std::vector<WireNeighbours> all;
   for (const WireSize& size : sizes) {
-    auto near = std::find_if(all.begin(), all.end(), [&size](const WireNeighbours& neighbours) {
-      return neighbours.standard == size.standard;
-    });
+    auto near = std::ranges::find(all, size.standard, &WireNeighbours::standard);
     if (near == all.end()) near = all.insert(all.end(), {size.standard, {}, {}});
     if (size.area <= area) near->below = size;
     if (size.area >= area && !near->above) near->above = size;
@@ -179,7 +175,7 @@ AreaCurve area_curve(const OptimumStudy& study) {
                                           : curve.lo + (curve.hi - curve.lo) * share;
     if (area > 0) areas.push_back(area);
   }
-  std::sort(areas.begin(), areas.end());
+  std::ranges::sort(areas);
   curve.points = evaluate_areas(study.design, areas);
   return curve;
 }
@@ -191,15 +187,11 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
     with_motor.drone.motor = motor.curve;
     ranking.push_back({optimum_of(with_motor), std::move(motor)});
   }
-  const auto power = [&](const MotorOptimum& entry) {
-    return entry.points().in(design.requirements.power_at).total_power;
-  };
-  std::stable_sort(ranking.begin(), ranking.end(),
-                   [&](const MotorOptimum& a, const MotorOptimum& b) {
-                     if (a.result.feasible != b.result.feasible) return a.result.feasible;
-                     return a.result.feasible ? power(a) < power(b)
-                                              : a.best_headroom.value > b.best_headroom.value;
-                   });
+  std::ranges::stable_sort(ranking, {}, [&](const MotorOptimum& entry) {
+    return entry.result.feasible
+               ? std::pair(false, entry.result.in(design.requirements.power_at).total_power)
+               : std::pair(true, -entry.best_headroom.value);
+  });
   return ranking;
 }
 

@@ -63,11 +63,10 @@ std::vector<NamedResult> optimum_results(const Optimization& result) {
       {"limiting_condition", std::string(condition_name(result.limiting_condition))},
       {"cross_section_mm2", in_mm2(result.feasible ? result.area : std::nan(""))}};
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    const OperatingPoint& point = condition == Condition::hover ? result.hover : result.forward;
     for (const OperatingPointField& field : operating_point_fields()) {
-      results.push_back(
-          {std::string(condition_name(condition)) + "." + std::string(field.key),
-           result.feasible ? existing(practical_value(point, field)) : ResultValue()});
+      results.push_back({std::string(condition_name(condition)) + "." + std::string(field.key),
+                         result.feasible ? existing(practical_value(result.in(condition), field))
+                                         : ResultValue()});
     }
   }
   return results;

@@ -83,7 +83,7 @@ SweepOutcome sweep_outcome(const Design& design, bool given_area) {
   outcome.limited_by = result.limited_by;
   outcome.limiting_condition = result.limiting_condition;
   if (result.feasible) {
-    outcome.points = {result.area, result.hover, result.forward, {}};
+    outcome.points = result;
   } else {
     outcome.points.area = nan;
     outcome.refusal = refusal_of(design, result);
@@ -98,8 +98,7 @@ double judged_power(const SweepOutcome& outcome, const Design& design) {
 
 bool varies_cross_section(const SweepSpace& space) {
   const auto axes = space.axes();
-  return std::any_of(axes.begin(), axes.end(),
-                     [](const SweepAxis& axis) { return axis.name == "tether.cross_section_mm2"; });
+  return std::ranges::count(axes, "tether.cross_section_mm2", &SweepAxis::name) > 0;
 }
 
 void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChunk&)>& consume) {
@@ -128,18 +127,6 @@ void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChun
     };
   };
   compute_in_order<SweepChunk>(0, chunks, job.runner, make_worker, consume);
-}
-
-void Spread::add(double value) {
-  histogram_.add(value);
-  const double deviation = value - mean_;
-  mean_ += deviation / static_cast<double>(histogram_.count());
-  squares_ += deviation * (value - mean_);
-}
-
-double Spread::standard_deviation() const {
-  if (histogram_.count() < 2) return nan;
-  return std::sqrt(squares_ / static_cast<double>(histogram_.count() - 1));
 }
 
 void SweepSummary::add(const JudgedRow& row) {

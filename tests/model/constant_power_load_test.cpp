@@ -3,7 +3,7 @@
 
 #include "support/straight_tether.hpp"
 #include "tethercalc/model/power_line.hpp"
-#include "tethercalc/model/tether_load.hpp"
+#include "tethercalc/model/steady_flight.hpp"
 
 using namespace tethercalc;
 

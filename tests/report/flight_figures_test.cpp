@@ -40,7 +40,7 @@ const std::vector<std::string> nothing;
 }  // namespace
 
 TEST_CASE("the drag figure shows measured drag as mass times missing acceleration") {
-  const Observations& flight = fitted().flights.front();
+  const Observations& flight = fitted().identified.flights.front();
   const double wind = fitted().identified.fit.wind()[0].estimate.value;
   const AirframeDrag drag = fitted().identified.fit.drag();
   const auto rows = block_of(drag_figure(fitted()).script, "samples");
@@ -91,7 +91,7 @@ TEST_CASE("without the linear term the same flight is fitted by a steeper curve"
 }
 
 TEST_CASE("a log's figure keeps the extremes of every series, and drag is their difference") {
-  const Observations& flight = fitted().flights.front();
+  const Observations& flight = fitted().identified.flights.front();
   const Figure figure = log_figure("simulated.csv", flight);
   const auto extremes = [&](const char* block) {
     double lo = 1e300;
@@ -118,7 +118,7 @@ TEST_CASE("a log's figure keeps the extremes of every series, and drag is their 
 }
 
 TEST_CASE("figures of flights name their axes with units and keep their texts apart") {
-  const Figure log = log_figure("simulated.csv", fitted().flights.front());
+  const Figure log = log_figure("simulated.csv", fitted().identified.flights.front());
   for (const char* words : {"'forward acceleration (m/s²)'", "(m/s²)'", "'time of the log (s)'",
                             "'forward speed over ground (m/s)'"}) {
     CHECK_THAT(log.script, Contains(words));

@@ -73,7 +73,7 @@ TEST_CASE("a sample's quantiles and infeasible share are those of plain random d
           5 * std::sqrt(feasible * (1 - feasible)) * spread + 1e-9);
     for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
       // A quantile's place among the plain draws instead of its value: that is what chance moves.
-      const double value = summary.power.histogram().quantile(p);
+      const double value = summary.power.quantile(p);
       const auto below = std::lower_bound(plain.begin(), plain.end(), value) - plain.begin();
       const double place = static_cast<double>(below) / static_cast<double>(plain.size());
       CHECK(std::abs(place - p) <= 5 * std::sqrt(p * (1 - p) / feasible) * spread + 1e-4);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "support/random.hpp"
-#include "tethercalc/solve/quantile_histogram.hpp"
 #include "tethercalc/solve/sensitivity.hpp"
+#include "tethercalc/solve/spread.hpp"
 #include "tethercalc/solve/unit_points.hpp"
 
 using namespace tethercalc;
@@ -154,7 +154,7 @@ TEST_CASE("outputs that do not exist are left out") {
 
 TEST_CASE("a histogram's quantiles are those of the sorted numbers") {
   each_random(20, [&](Random& random) {
-    QuantileHistogram histogram;
+    Spread histogram;
     std::vector<double> sorted;
     const double spread = random.magnitude(1.001, 1e6);
     const int count = random.integer(1, 5000);
@@ -173,8 +173,7 @@ TEST_CASE("a histogram's quantiles are those of the sorted numbers") {
       CHECK(histogram.quantile(p) == Approx(exact).epsilon(1.01e-5));
     }
   });
-  CHECK(std::isnan(QuantileHistogram().quantile(0.5)));
-  CHECK_THROWS_AS(QuantileHistogram().add(0), std::invalid_argument);
-  CHECK_THROWS_AS(QuantileHistogram().add(std::numeric_limits<double>::quiet_NaN()),
-                  std::invalid_argument);
+  CHECK(std::isnan(Spread().quantile(0.5)));
+  CHECK_THROWS_AS(Spread().add(0), std::invalid_argument);
+  CHECK_THROWS_AS(Spread().add(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
 }

@@ -6,8 +6,7 @@
 
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
-#include "tethercalc/report/design_sentences.hpp"
-#include "tethercalc/report/optimize_report.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/study/design.hpp"
 #include "tethercalc/study/envelope.hpp"
 #include "tethercalc/study/sweep.hpp"

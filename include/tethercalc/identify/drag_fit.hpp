@@ -186,17 +186,10 @@ struct DragIdentificationOptions {
   std::optional<LogPosition> to;    ///< last of them; with neither, the moving part is used
 };
 
-/// The part of one log that went into the fit.
-struct FlightPart {
-  double from = 0;          ///< s of the log's own clock, first sample
-  double to = 0;            ///< s, last sample
-  std::size_t samples = 0;  ///< observations made of it
-};
-
 /// A fit together with what it was made of.
 struct DragIdentification {
   DragIdentificationOptions options;  ///< as given
-  std::vector<FlightPart> parts;      ///< one a log
+  std::vector<Observations> flights;  ///< one a log: the part of it that went into the fit
   DragFit fit;                        ///< of all logs together
 };
 

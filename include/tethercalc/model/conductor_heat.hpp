@@ -21,9 +21,6 @@ struct AirProperties {
 /// capacity 1005 J/(kg·K).
 [[nodiscard]] AirProperties air_properties(double film_temperature_C, double density_at_0C);
 
-/// Density at 0 °C of air at sea level (CIGRE TB 601), kg/m³.
-inline constexpr double standard_air_density_0C = 1.293;
-
 /// Nusselt number of a cylinder across a flow (Churchill and Bernstein 1977, J. Heat Transfer 99,
 /// 300–306); Re·Pr > 0.2.
 [[nodiscard]] double churchill_bernstein(double reynolds, double prandtl);

@@ -73,6 +73,19 @@ class Margins {
 [[nodiscard]] Margins demand_margins(const Design& design, const OperatingPoint& point,
                                      Condition condition);
 
+/// One cross-section in both flight conditions.
+struct AreaPoints {
+  double area = 0;         ///< m²
+  OperatingPoint hover;    ///< in hover
+  OperatingPoint forward;  ///< in forward flight
+  DemandMargin worst;      ///< of the demands on the design, the one least met
+
+  /// The point in `condition`.
+  [[nodiscard]] const OperatingPoint& in(Condition condition) const {
+    return condition == Condition::hover ? hover : forward;
+  }
+};
+
 /// Whether the required headroom is demanded in `condition`: where it is asked for, and no buffer
 /// battery makes it a wish.
 [[nodiscard]] bool is_headroom_demanded(const Requirements& requirements, Condition condition);

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "tethercalc/model/flight_state.hpp"
+#include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
 

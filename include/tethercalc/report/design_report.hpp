@@ -1,13 +1,121 @@
-// The answer of `design`: the best whole design among those that free fields allow.
+// What the commands on a design answer, for people, programs and spreadsheets, and the sentences
+// that they share: what limits it, and heat, strength and voltage of its cable.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "tethercalc/io/design_request.hpp"
 #include "tethercalc/report/text_table.hpp"
+#include "tethercalc/study/envelope.hpp"
 
 namespace tethercalc {
+
+/// "hover" or "forward flight".
+[[nodiscard]] std::string condition_words(Condition condition);
+
+/// Why a cable cannot be used in this design, in a few words; empty where it can.
+[[nodiscard]] std::string shortcoming(const Design& design, const AreaPoints& points);
+
+/// Why the optimum is where it is. For a feasible result.
+[[nodiscard]] std::string limit_sentence(const Design& design, const Optimization& result);
+
+/// What binds where this demand does: "The converter's rated 450 W".
+[[nodiscard]] std::string demand_words(const Design& design, Demand demand);
+
+/// What happens where this limit is passed: "the converter's rating is passed in hover".
+[[nodiscard]] std::string beyond_words(const Design& design, Limit limit, Condition where);
+
+/// Why there is no optimum, with the best that can be reached.
+[[nodiscard]] std::string refusal_sentence(const Design& design, const Refusal& refusal);
+
+/// The same in a few words, for a table.
+[[nodiscard]] std::string refusal_words(const Design& design, const Refusal& refusal);
+
+/// The class of a direct voltage in V, {`name`, `sentence`}: "touchable_elv" up to 60 V, "elv" up
+/// to 120 V, "low_voltage" up to 1500 V (extra-low voltage of IEC 61140 and IEC 60364-4-41,
+/// ripple-free), or "high_voltage". It is a name, not a proof of safety.
+[[nodiscard]] nlohmann::ordered_json voltage_class_json(double voltage);
+
+/// {`ambient_temperature_C`, `rated_temperature_C`, `hover`, `forward` {`conductor_temperature_C`,
+/// `drum_temperature_C`, `runaway`}}; null where the design has no ambient temperature.
+[[nodiscard]] nlohmann::ordered_json thermal_json(const Design& design, const AreaPoints& points);
+
+/// {`tension_N` (the greater of both conditions), `breaking_load_N` (null where unknown),
+/// `required_safety_factor`, `wall_mm`, `breakdown_voltage_V` (null where unknown)}.
+[[nodiscard]] nlohmann::ordered_json cable_json(const Design& design, const AreaPoints& points);
+
+/// Sentences on heat, strength and voltage at one cross-section, without line breaks.
+[[nodiscard]] std::vector<std::string> cable_sentences(const Design& design,
+                                                       const AreaPoints& points);
+
+/// What the heat balance of this design does not know and the user should, a sentence each.
+[[nodiscard]] std::vector<std::string> cable_warnings(const Design& design);
+
+/// What the reader of the spec noted, then these.
+[[nodiscard]] std::vector<std::string> all_warnings(const DesignFile& file);
+
+// --- `optimize`, `evaluate` and `compare` ---
+
+/// The answer in words.
+struct Answer {
+  std::string headline;                ///< the cable to fly, or that none can
+  std::vector<std::string> sentences;  ///< why, and what that means in flight
+  std::vector<std::string> remedies;   ///< changes that help where none can: "a supply of …"
+};
+
+/// What is told of a design before any table.
+[[nodiscard]] Answer answer(const DesignFile& file, const OptimumStudy& study);
+
+/// Power, current, voltage and headroom of the optimum, a row a condition. For a feasible result.
+[[nodiscard]] TitledTable condition_table(const Optimization& result);
+
+/// `study.sizes`, with what keeps each from being usable.
+[[nodiscard]] TitledTable sizes_table(const OptimumStudy& study);
+
+/// `study.table`, the optimum emphasised.
+[[nodiscard]] TitledTable power_table(const OptimumStudy& study);
+
+/// Opens with the answer in sentences, then standard sizes and the power table; 100 columns at
+/// most.
+[[nodiscard]] std::string optimize_text(const DesignFile& file, const OptimumStudy& study,
+                                        const TextStyle& style);
+
+/// The result keys of `optimize`.
+[[nodiscard]] nlohmann::ordered_json optimize_json(const DesignFile& file,
+                                                   const OptimumStudy& study);
+
+/// A header and one row: status, limit, area, and both operating points.
+[[nodiscard]] std::string optimize_csv(const OptimumStudy& study);
+
+/// A table a condition, and what keeps an area from being usable.
+[[nodiscard]] std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
+                                        const TextStyle& style);
+/// The key `table` of `evaluate`.
+[[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
+                                                   std::span<const AreaPoints> table);
+/// A header and two rows an area, hover first.
+[[nodiscard]] std::string evaluate_csv(std::span<const AreaPoints> table);
+
+/// The feasible motors of a ranking of `compare_motors`.
+[[nodiscard]] TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking);
+
+/// The infeasible ones, each with the reason in a few words.
+[[nodiscard]] std::vector<std::string> refused_motors(std::span<const MotorOptimum> ranking);
+
+/// The ranking as a table, the infeasible motors below it with the reason.
+[[nodiscard]] std::string compare_text(const DesignFile& file,
+                                       std::span<const MotorOptimum> ranking,
+                                       const TextStyle& style);
+/// An object a motor, with its optimum as in `optimize`.
+[[nodiscard]] nlohmann::ordered_json compare_json(const DesignFile& file,
+                                                  std::span<const MotorOptimum> ranking);
+/// A header and a row a motor, with the columns of `optimize_csv` after its id.
+[[nodiscard]] std::string compare_csv(std::span<const MotorOptimum> ranking);
+
+// --- `design`: the best whole design among those that free fields allow ---
 
 /// Opens with the answer, then what binds, how sure it is, the front and the spec.
 [[nodiscard]] std::string design_text(const DesignFile& file, const DesignRequest& request,
@@ -19,5 +127,32 @@ namespace tethercalc {
 
 /// A header and one row: the free fields, whether the design is feasible, and the objective.
 [[nodiscard]] std::string design_csv(const DesignRequest& request, const DesignStudy& study);
+
+// --- `envelope`: how high, how heavy, how fast and in how much wind a given cable flies ---
+
+/// A sentence a reach, then a table a curve.
+[[nodiscard]] std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
+                                        const TextStyle& style);
+
+/// `greatest` {`height_m`, `payload_g`, `headwind_m_s`, `airspeed_m_s`: {`value`, `limited_by`,
+/// `limiting_condition`, `sentence`}}, `curves` [{`of`, `against`, `points`}].
+[[nodiscard]] nlohmann::ordered_json envelope_json(const DesignFile& file,
+                                                   const EnvelopeStudy& study);
+
+/// A row a point of a curve.
+[[nodiscard]] std::string envelope_csv(const EnvelopeStudy& study);
+
+// --- `list`: what the library holds ---
+
+/// What the library holds of `what`: "motors", "conductors", "insulation" or "sizes", an object an
+/// entry with its numbers under keys that end in their units, null where nobody stated one; sources
+/// last, where there are any. Throws InputError for anything else.
+[[nodiscard]] nlohmann::ordered_json library_json(const std::string& what);
+
+/// The same as a table. Numbers with the digits that distinguish them; sources below it, each once.
+[[nodiscard]] std::string library_text(const nlohmann::ordered_json& entries,
+                                       const TextStyle& style);
+/// A header and a row an entry.
+[[nodiscard]] std::string library_csv(const nlohmann::ordered_json& entries);
 
 }  // namespace tethercalc

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "tethercalc/diagnose/diagnosis.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/figure.hpp"
-#include "tethercalc/report/optimize_report.hpp"
 #include "tethercalc/study/drag.hpp"
 
 namespace tethercalc {

@@ -28,15 +28,12 @@ enum class Limit {
 /// they give their most.
 [[nodiscard]] Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand);
 
-/// The answer to "which cross-section", or to why there is none. Areas in m².
-struct Optimization {
+/// The answer to "which cross-section", the area NaN and the points meaningless where there is
+/// none, or to why there is none. Areas in m².
+struct Optimization : AreaPoints {
   bool feasible = false;                    ///< whether any area meets all that is asked
   Limit limited_by = Limit::minimum_power;  ///< what binds: at the optimum, or where there is none
   Condition limiting_condition = Condition::hover;  ///< where the limit binds
-
-  double area = 0;         ///< the optimum; NaN where infeasible
-  OperatingPoint hover;    ///< at the optimum; meaningless where infeasible
-  OperatingPoint forward;  ///< at the optimum; meaningless where infeasible
 
   IntervalSet
       headroom_areas;  ///< where the required headroom is met, at `requirements.headroom_at`

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "tethercalc/identify/drag_fit.hpp"
 
@@ -12,9 +11,8 @@ namespace tethercalc {
 
 /// What flights say of the drag.
 struct DragStudy {
-  std::string name;                   ///< of the log, or how many there are
-  std::vector<Observations> flights;  ///< one a log, as the fit saw them
-  DragIdentification identified;      ///< the fit with the linear term, and what it was made of
+  std::string name;               ///< of the log, or how many there are
+  DragIdentification identified;  ///< the fit with the linear term, and what it was made of
   /// The same without the linear term, which shows what that is for; empty where there is no such
   /// fit.
   std::optional<DragFit> without_linear;

@@ -14,19 +14,6 @@
 
 namespace tethercalc {
 
-/// One cross-section in both flight conditions.
-struct AreaPoints {
-  double area = 0;         ///< m²
-  OperatingPoint hover;    ///< in hover
-  OperatingPoint forward;  ///< in forward flight
-  DemandMargin worst;      ///< of the demands on the design, the one least met
-
-  /// The point in `condition`.
-  [[nodiscard]] const OperatingPoint& in(Condition condition) const {
-    return condition == Condition::hover ? hover : forward;
-  }
-};
-
 /// Both conditions at each of `areas` (m², > 0).
 [[nodiscard]] std::vector<AreaPoints> evaluate_areas(const Design& design,
                                                      std::span<const double> areas);
@@ -73,11 +60,6 @@ struct DesignOptimum {
   Optimization result;             ///< the optimum
   std::optional<Refusal> refusal;  ///< why there is none
   BestHeadroom best_headroom;      ///< at `requirements.headroom_at`
-
-  /// The optimum, where there is one, in both conditions.
-  [[nodiscard]] AreaPoints points() const {
-    return {result.area, result.hover, result.forward, {}};
-  }
 };
 
 /// Optimises the design.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tethercalc/solve/ordered_chunks.hpp"
-#include "tethercalc/solve/quantile_histogram.hpp"
 #include "tethercalc/solve/sensitivity.hpp"
+#include "tethercalc/solve/spread.hpp"
 #include "tethercalc/solve/sweep_space.hpp"
 #include "tethercalc/study/optimum.hpp"
 
@@ -77,22 +77,6 @@ struct SweepChunk {
 /// Computes a sweep and hands its rows over in order. `consume` is called on this thread and
 /// returns false to stop. Holds a few hundred kilobytes a thread, whatever the number of rows.
 void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChunk&)>& consume);
-
-/// How one result is spread over the draws in which it exists.
-class Spread {
- public:
-  void add(double value);  ///< finite and positive
-  /// Mean of the values; 0 where there are none.
-  [[nodiscard]] double mean() const { return mean_; }
-  [[nodiscard]] double standard_deviation() const;  ///< of the sample; NaN below two values
-  /// The values' quantiles.
-  [[nodiscard]] const QuantileHistogram& histogram() const { return histogram_; }
-
- private:
-  QuantileHistogram histogram_;
-  double mean_ = 0;
-  double squares_ = 0;  ///< sum of squared deviations from the mean, updated as Welford (1962) does
-};
 
 /// Sensitivity of each result to each axis of a sweep, in the order of the axes.
 struct SweepSensitivity {

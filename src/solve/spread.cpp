@@ -1,4 +1,4 @@
-#include "tethercalc/solve/quantile_histogram.hpp"
+#include "tethercalc/solve/spread.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,20 +10,19 @@ namespace tethercalc {
 namespace {
 
 /// Bin i holds (γ^(i−1), γ^i]; its answer 2γ^i/(γ + 1) is within (γ − 1)/(γ + 1) of all of it.
-const double log_gamma =
-    std::log((1 + QuantileHistogram::relative_error) / (1 - QuantileHistogram::relative_error));
+const double log_gamma = std::log((1 + Spread::relative_error) / (1 - Spread::relative_error));
 
 std::int64_t bin_of(double value) {
   return static_cast<std::int64_t>(std::ceil(std::log(std::clamp(value, 1e-30, 1e30)) / log_gamma));
 }
 
 double middle_of(std::int64_t bin) {
-  return std::exp(static_cast<double>(bin) * log_gamma) * (1 - QuantileHistogram::relative_error);
+  return std::exp(static_cast<double>(bin) * log_gamma) * (1 - Spread::relative_error);
 }
 
 }  // namespace
 
-void QuantileHistogram::add(double value) {
+void Spread::add(double value) {
   if (!(value > 0) || !std::isfinite(value)) {
     throw std::invalid_argument("a quantile histogram takes positive numbers only");
   }
@@ -42,9 +41,18 @@ void QuantileHistogram::add(double value) {
   ++count_;
   least_ = std::min(least_, value);
   largest_ = std::max(largest_, value);
+  const double deviation = value - mean_;
+  mean_ += deviation / static_cast<double>(count_);
+  squares_ += deviation * (value - mean_);
 }
 
-double QuantileHistogram::quantile(double p) const {
+double Spread::mean() const { return count_ > 0 ? mean_ : nan; }
+
+double Spread::standard_deviation() const {
+  return count_ < 2 ? nan : std::sqrt(squares_ / static_cast<double>(count_ - 1));
+}
+
+double Spread::quantile(double p) const {
   if (count_ == 0) return nan;
   const double share = std::ceil(p * static_cast<double>(count_));
   const auto rank = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(share), 1, count_);

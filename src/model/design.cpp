@@ -1,4 +1,4 @@
-#include "tethercalc/model/flight_state.hpp"
+#include "tethercalc/model/design.hpp"
 
 #include <algorithm>
 
