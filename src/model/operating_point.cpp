@@ -41,11 +41,12 @@ void warm_up(const SteadyFlight& flight, double radius, OperatingPoint& point) {
 OperatingPoint evaluate(const SteadyFlight& flight, double area) {
   const Design& design = flight.design();
   const double radius = conductor_radius(area);
+  const TetherLoad load = flight.tether().load(radius);
 
   OperatingPoint point;
   point.cross_section = area;
-  point.tether_mass = flight.tether().mass(radius);
-  point.tether_tension = flight.tether().tension(radius);
+  point.tether_mass = load.mass;
+  point.tether_tension = load.greatest_tension();
   point.tether_resistance = flight.tether().resistance(radius);
   point.battery_mass = flight.battery_mass(radius);
   point.takeoff_mass = or_nan(flight.takeoff_mass(radius, point.battery_mass));

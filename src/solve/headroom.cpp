@@ -293,7 +293,7 @@ IntervalSet strong_radii(const SteadyFlight& flight, double hi) {
   if (factor == 0 || !(hi > 0)) return {{0, hi}};
   const auto strong = [&](double radius) {
     return breaking_load(design.tether, conductor_area(radius)) >=
-           factor * flight.tether().tension(radius);
+           factor * flight.tether().load(radius).greatest_tension();
   };
   const bool metal = strength_member_data(design.tether.strength_member).strength == 0;
   if (!strong(metal ? hi : 0)) return {};

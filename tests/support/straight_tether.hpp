@@ -1,7 +1,7 @@
 // A tether by itself, hanging straight, asked by the area of its conductors.
 #pragma once
 
-#include "tethercalc/model/steady_flight.hpp"
+#include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc::test {
 
