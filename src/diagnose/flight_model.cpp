@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnose/flight_samples.hpp"
+#include "identify/flight_units.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
@@ -57,7 +58,7 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }
   data.step = median_step(data.observations.time);
-  check_flight_units(data.record, data.observations.forward_acceleration, data.step);
+  check_flight_units(data.observations, gravity);
   const std::vector<bool> usable =
       usable_samples(samples.log, data.faults, data.observations, data.step);
   for (const bool use : usable) data.block.push_back(use ? 0 : -1);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "identify/flight_units.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -49,12 +51,7 @@ FlightRecord flight_record(const Observations& observations, double mass, double
     record.along_heading.push_back(std::cos(yaw - record.mean_heading));
     record.right_of_heading.push_back(std::sin(yaw - record.mean_heading));
   }
-  record.turn_acceleration.assign(observations.size(), 0.0);
-  for (std::size_t i = 1; i + 1 < observations.size(); ++i) {
-    const double yaw_rate = (observations.yaw[i + 1] - observations.yaw[i - 1]) /
-                            (observations.time[i + 1] - observations.time[i - 1]);
-    record.turn_acceleration[i] = yaw_rate * observations.right_speed[i];
-  }
+  record.turn_acceleration = turn_acceleration(observations);
   record.mass = mass;
   record.air_density = air_density;
   record.gravity = gravity;

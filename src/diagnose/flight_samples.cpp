@@ -11,8 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "diagnose/flight_log_faults.hpp"
-#include "diagnose/flight_prediction.hpp"
+#include "identify/flight_units.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
@@ -124,10 +123,8 @@ bool flies(const FlightLog& log, const SampleRange& part, const Marks& marks, do
   const FlightLog rest = without(log, other);
   if (rest.time.size() < 3) return false;
   try {
-    const Observations o = observe(rest, {0, rest.time.size()}, 0, gravity);
-    const FlightRecord record = flight_record(o, 1, 1, gravity);
     const std::optional<Leaning> leaning =
-        leaning_over_a_second(record, o.forward_acceleration, median_step(o.time));
+        leaning_over_a_second(observe(rest, {0, rest.time.size()}, 0, gravity), gravity);
     return leaning && leaning->correlation > leans_to_speed_up;
   } catch (const UnsuitableFlight&) {
     return false;

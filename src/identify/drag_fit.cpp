@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "identify/flight_units.hpp"
 #include "identify/linear_algebra.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
@@ -616,7 +617,10 @@ Observations observe_part(const FlightLog& log, const DragIdentificationOptions&
   validate(log);
   const bool chosen = options.from || options.to;
   const SampleRange range = chosen ? select_range(log, options.from, options.to) : moving_part(log);
-  return observe(log, range, options.pitch_offset, options.conditions.gravity);
+  const double gravity = options.conditions.gravity;
+  Observations flight = observe(log, range, options.pitch_offset, gravity);
+  check_flight_units(flight, gravity);
+  return flight;
 }
 
 DragIdentification identify_drag(std::span<const FlightLog> logs,

@@ -57,6 +57,7 @@ bool is_plausible(const Samples& samples, std::size_t i) {
 std::size_t keep(Samples& samples, std::span<const std::size_t> kept) {
   const std::size_t before = samples[time_s].size();
   for (auto& channel : samples) {
+    if (channel.empty()) continue;  // the log has none
     for (std::size_t i = 0; i < kept.size(); ++i) channel[i] = channel[kept[i]];
     channel.resize(kept.size());
   }
@@ -67,6 +68,31 @@ std::size_t remove_implausible(Samples& samples) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < samples[time_s].size(); ++i) {
     if (is_plausible(samples, i)) kept.push_back(i);
+  }
+  return keep(samples, kept);
+}
+
+/// Whether a velocity leaps to sample i and back, faster than anything flies: by 20 g for the time
+/// between, and by 10 m/s at least.
+bool is_leap(const Samples& samples, std::size_t i) {
+  const std::vector<double>& time = samples[time_s];
+  const double most = std::max(10.0, 200 * (time[i + 1] - time[i - 1]) / 2);
+  return std::ranges::any_of(std::array{vn, ve, vd}, [&](Channel channel) {
+    const std::vector<double>& v = samples[channel];
+    if (v.empty()) return false;
+    const double up = v[i] - v[i - 1];
+    const double down = v[i] - v[i + 1];
+    return up * down > 0 && std::min(std::abs(up), std::abs(down)) > most &&
+           std::abs(v[i + 1] - v[i - 1]) < most;
+  });
+}
+
+/// `samples` in the order of their time. Returns the number removed.
+std::size_t remove_leaps(Samples& samples) {
+  const std::size_t size = samples[time_s].size();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i == 0 || i + 1 == size || !is_leap(samples, i)) kept.push_back(i);
   }
   return keep(samples, kept);
 }
@@ -250,6 +276,7 @@ FlightLogReading read_dataflash(std::span<const std::byte> content, const std::s
   reading.source = from.description;
   reading.samples_implausible = remove_implausible(samples);
   reading.samples_out_of_order = remove_out_of_order(samples);
+  reading.samples_implausible += remove_leaps(samples);
   note_damage(reading, contents);
   note_removed(reading);
   reading.log = to_flight_log(std::move(samples));
@@ -297,6 +324,8 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
          "airspeed_forward_m_s goes without wind_north_m_s and wind_east_m_s: each gives the "
          "other, and only one can be what was measured");
   }
+  reading.samples_implausible = remove_leaps(samples);
+  note_removed(reading);
   reading.log = to_flight_log(std::move(samples));
   return reading;
 }

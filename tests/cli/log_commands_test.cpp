@@ -349,6 +349,69 @@ TEST_CASE("a parameter that the flight lacks the means for is held at its bound,
   CHECK_THAT(into.err, Contains("drag: linear_m_s wants to leave its upper bound"));
 }
 
+TEST_CASE("drag refuses a flight in other units as diagnose does") {
+  const TemporaryFolder folder;
+  constexpr double degree = 0.017453292519943295;
+  // Each column is time, roll, pitch, yaw, north, east and down velocity.
+  struct Mistake {
+    std::vector<std::size_t> columns;
+    double factor;
+    const char* told;
+  };
+  for (const auto& [columns, factor, told] :
+       {Mistake{{1, 2, 3}, degree, "radians"}, Mistake{{4, 5, 6}, 3.6, "km/h"},
+        Mistake{{0}, 1000, "milliseconds"}, Mistake{{2}, -1, "pitch must be positive nose-up"}}) {
+    std::istringstream original(file_text(example));
+    std::ostringstream changed;
+    std::string line;
+    std::getline(original, line);
+    changed << line << "\n";
+    while (std::getline(original, line)) {
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream cells(line);
+      double value = 0;
+      for (std::size_t c = 0; cells >> value; ++c) {
+        const bool wrong = std::find(columns.begin(), columns.end(), c) != columns.end();
+        changed << (c > 0 ? "," : "") << (wrong ? value * factor : value);
+      }
+      changed << "\n";
+    }
+    const std::string file = (folder.path() / "changed.csv").string();
+    write_file(file, changed.str());
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"drag", file}, {"diagnose", published_spec, "--flight", file}}) {
+      const Ran run = run_tethercalc(and_also(command, {"--mass-g", "1550"}));
+      INFO(run.err);
+      CHECK(run.exit_code == 2);
+      CHECK(run.out.empty());
+      CHECK_THAT(run.err, Contains(told));
+    }
+  }
+}
+
+TEST_CASE("one sample of an impossible velocity is left out and told, and moves nothing") {
+  const TemporaryFolder folder;
+  std::istringstream original(file_text(example));
+  std::ostringstream with, without;
+  std::string line;
+  for (int row = 0; std::getline(original, line); ++row) {
+    if (row != 1500) without << line << "\n";
+    if (row == 1500) {
+      std::size_t comma = 0;
+      for (int k = 0; k < 4; ++k) comma = line.find(',', comma) + 1;
+      line.replace(comma, line.find(',', comma) - comma, "499");
+    }
+    with << line << "\n";
+  }
+  const std::string bad = (folder.path() / "bad.csv").string();
+  const std::string good = (folder.path() / "good.csv").string();
+  write_file(bad, with.str());
+  write_file(good, without.str());
+  const Ran run = drag({bad}, known);
+  CHECK_THAT(run.err, Contains("1 samples left out: values that no flight can have"));
+  CHECK(drag_of({bad}, known) == drag_of({good}, known));
+}
+
 TEST_CASE("a drag command that cannot work says why, and prints nothing else") {
   const TemporaryFolder folder;
   const std::string empty = (folder.path() / "empty.bin").string();

@@ -194,7 +194,9 @@ struct DragIdentification {
 };
 
 /// The observations that `identify_drag` makes of one log: the samples chosen by `options`, or the
-/// moving part. Throws UnsuitableFlight where the log is invalid or has no such part.
+/// moving part. Throws UnsuitableFlight where the log is invalid or has no such part, and where its
+/// numbers cannot be in the units that they should have (pitch in radians or upside down, speeds in
+/// km/h, time in milliseconds): drag and diagnosis refuse the same.
 [[nodiscard]] Observations observe_part(const FlightLog& log,
                                         const DragIdentificationOptions& options);
 

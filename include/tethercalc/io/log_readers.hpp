@@ -28,7 +28,8 @@ struct FlightLogReading {
   /// Samples left out because their time does not increase; as few as make the rest increase.
   std::size_t samples_out_of_order = 0;
   /// Samples left out because a value is not finite, or cannot be: |pitch| above 90°, |roll| above
-  /// 360°, a velocity above 500 m/s, which flipped bits produce.
+  /// 360°, a velocity above 500 m/s, which flipped bits produce; and one that leaps there and back,
+  /// by more than 20 g for the time between and 10 m/s.
   std::size_t samples_implausible = 0;
   /// Sentences for the user about these and about damage to the log; empty where nothing was amiss.
   std::vector<std::string> notes;

@@ -1,0 +1,68 @@
+#include "identify/flight_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tethercalc {
+
+std::vector<double> turn_acceleration(const Observations& flight) {
+  std::vector<double> turn(flight.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
+    const double yaw_rate =
+        (flight.yaw[i + 1] - flight.yaw[i - 1]) / (flight.time[i + 1] - flight.time[i - 1]);
+    turn[i] = yaw_rate * flight.right_speed[i];
+  }
+  return turn;
+}
+
+std::optional<Leaning> leaning_over_a_second(const Observations& flight, double gravity) {
+  if (flight.size() < 3) return std::nullopt;
+  const double step = median_step(flight.time);
+  const auto lag = static_cast<std::size_t>(std::max(1.0, std::round(1 / step)));
+  if (flight.size() < 10 * lag) return std::nullopt;
+  const std::vector<double> turn = turn_acceleration(flight);
+  const auto by_force = [&](std::size_t i) { return flight.forward_acceleration[i] - turn[i]; };
+  double both = 0, leaning = 0, measured = 0;
+  for (std::size_t i = lag; i < flight.size(); ++i) {
+    const double expected = gravity * (std::tan(flight.tilt[i]) - std::tan(flight.tilt[i - lag]));
+    const double seen = by_force(i) - by_force(i - lag);
+    both += expected * seen;
+    leaning += expected * expected;
+    measured += seen * seen;
+  }
+  if (!(leaning > 0 && measured > 0)) return std::nullopt;
+  return Leaning{both / std::sqrt(leaning * measured), both / leaning,
+                 std::sqrt(leaning / measured)};
+}
+
+void check_flight_units(const Observations& flight, double gravity) {
+  const auto stuck = [&flight](double tilt) { return tilt == flight.tilt.front(); };
+  if (std::all_of(flight.tilt.begin(), flight.tilt.end(), stuck)) {
+    throw UnsuitableFlight(
+        "the pitch never moves, as if its sensor were stuck: nothing can be predicted from it");
+  }
+  const std::optional<Leaning> found = leaning_over_a_second(flight, gravity);
+  if (!found) return;  // too short to judge, which is told elsewhere
+  const auto [correlation, slope, size] = *found;
+  constexpr double level = 0.1;
+  if (size < level) {
+    throw UnsuitableFlight(
+        "the pitch is far too level for the logged accelerations; are the angles in radians?");
+  }
+  constexpr double clear = 0.5;  // real flights have correlations of 0.8 to 0.95
+  if (correlation < -clear) {
+    throw UnsuitableFlight(
+        "the drone speeds up when its pitch rises: pitch must be positive nose-up");
+  }
+  if (correlation > clear && (slope > 1.6 || slope < 0.1)) {
+    const char* hint = slope < 0.1  ? "is the time in milliseconds?"
+                       : slope < 10 ? "are the velocities in km/h, or knots?"
+                                    : "are the angles in radians?";
+    throw UnsuitableFlight(fmt::format(
+        "the forward acceleration is {:.2g} times what the pitch makes expect; {}", slope, hint));
+  }
+}
+
+}  // namespace tethercalc
