@@ -1,5 +1,7 @@
 #include "cli/commands.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -55,7 +57,12 @@ std::string record_path(fs::path spec) {
 std::vector<fs::path> specs_of_folder(const fs::path& folder) {
   std::vector<fs::path> specs;
   std::vector<InputProblem> problems;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error) {
+    throw InputError(folder.string(), fmt::format("cannot be read: {}", error.message()));
+  }
+  for (const fs::directory_entry& entry : entries) {
     const fs::path& path = entry.path();
     const std::string name = path.filename().string();
     if (name.ends_with(record_suffix)) {

@@ -246,7 +246,14 @@ double pitch_offset(const FlightOptions& options) {
 
 std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
-  check_range("--mass-g", *options.mass_g, 1, 1000000, "g");
+  constexpr double lightest = 10;  // no drone that flies outdoors weighs less
+  const double in_grams = 1000 * *options.mass_g;
+  if (*options.mass_g > 0 && *options.mass_g < lightest && in_grams >= lightest) {
+    throw InputError("--mass-g", fmt::format("{:g} g is no drone; did you mean {:g}? The unit is "
+                                             "the gram",
+                                             *options.mass_g, in_grams));
+  }
+  check_range("--mass-g", *options.mass_g, lightest, 1000000, "g");
   return *options.mass_g * unit::gram;
 }
 

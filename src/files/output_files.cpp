@@ -53,18 +53,27 @@ int open_or_refuse(const std::string& path, int flags, const char* purpose) {
   return file;
 }
 
+/// Where the links end that `path` may be, whether there is something or not.
+std::filesystem::path end_of_links(std::filesystem::path path) {
+  constexpr int most_links = 40;  // as Linux follows
+  std::error_code ignored;
+  for (int k = 0; k < most_links && std::filesystem::is_symlink(path, ignored); ++k) {
+    path = path.parent_path() / std::filesystem::read_symlink(path, ignored);
+  }
+  return path;
+}
+
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content) {
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status)) refuse(path, EISDIR);
-  if (std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status)) {
-    return write_directly(path, content);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    return write_directly(path, content);  // devices, pipes, sockets
   }
-  // Through a symbolic link, the file it points to is replaced, not the link.
-  const std::filesystem::path target =
-      std::filesystem::exists(status) ? std::filesystem::canonical(path) : path;
+  // Through a symbolic link, the file it points to is replaced or made, not the link.
+  const std::filesystem::path target = end_of_links(path);
   std::string temporary = target.string() + ".XXXXXX";
   const int file = ::mkstemp(temporary.data());
   if (file < 0) refuse(path, errno);
@@ -73,8 +82,9 @@ void write_whole_file(const std::filesystem::path& path, std::string_view conten
   // of any new file.
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  const mode_t permissions =
-      std::filesystem::exists(status) ? static_cast<mode_t>(status.permissions()) : (0666 & ~mask);
+  const mode_t permissions = std::filesystem::exists(status)
+                                 ? static_cast<mode_t>(status.permissions()) & 0777
+                                 : 0666 & ~mask;
   if (error == 0 && ::fchmod(file, permissions) != 0) error = errno;
   if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
   if (::close(file) != 0 && error == 0) error = errno;

@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <limits>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -44,8 +43,7 @@ struct Descriptor {
 };
 
 /// What can be read of an open file, but no more than a little beyond `most` bytes.
-std::string read_to_end(int descriptor, const std::string& name,
-                        std::size_t most = std::numeric_limits<std::size_t>::max()) {
+std::string read_to_end(int descriptor, const std::string& name, std::size_t most) {
   std::string all;
   std::array<char, 1 << 16> part;
   while (all.size() <= most) {
@@ -108,7 +106,13 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     }
   }
   // Pipes, devices, and files whose size is not known beforehand (those under /proc say 0).
-  copy_ = read_to_end(file.number, path.string());
+  constexpr std::size_t most = std::size_t{256} << 20;
+  copy_ = read_to_end(file.number, path.string(), most);
+  if (copy_.size() > most) {
+    throw InputError(path.string(), fmt::format("goes on beyond {} MiB, and is no regular file; a "
+                                                "log as large is read from a file of its own",
+                                                most >> 20));
+  }
   bytes_ = std::as_bytes(std::span(copy_));
 }
 

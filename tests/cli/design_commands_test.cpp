@@ -183,6 +183,29 @@ TEST_CASE("validate names the problems of every file at once") {
   CHECK_THAT(run.err, Contains("a.json") && Contains("b.json"));
 }
 
+TEST_CASE("an --output that is a link makes or replaces what it points to, and stays a link") {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "link.json";
+  const auto target = folder.path() / "target.json";
+  std::filesystem::create_symlink("target.json", link);
+  for (int round = 0; round < 2; ++round) {
+    CHECK(run_tethercalc({"optimize", published, "--format", "json", "--output", link.string()})
+              .exit_code == 0);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(json::accept(file_text(target)));
+  }
+}
+
+TEST_CASE("a folder that cannot be read is refused by check, and is no internal error") {
+  if (::geteuid() == 0) return;  // nothing is closed to the administrator
+  const TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::none);
+  const Ran run = run_tethercalc({"check", folder.path().string()});
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("cannot be read"));
+}
+
 TEST_CASE("an --output file gets the whole answer or keeps what it held") {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "answer.json").string();
