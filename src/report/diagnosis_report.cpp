@@ -357,6 +357,23 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   return out;
 }
 
+std::string impact_headline(const DesignImpact& impact) {
+  const BeforeAfter& area = impact.cross_section_mm2;
+  const BeforeAfter& power = impact.total_power_W;
+  if (!area.after) {
+    return area.before ? "By what the logs show, no cross-section meets the requirements any more."
+                       : "";
+  }
+  const auto shown = [](const BeforeAfter& pair, bool after, int decimals) {
+    return fixed((after ? pair.after : pair.before).value_or(0), decimals);
+  };
+  const bool moves = !area.before || shown(area, true, 3) != shown(area, false, 3) ||
+                     shown(power, true, 1) != shown(power, false, 1);
+  if (!moves) return "";
+  return fmt::format("By what the logs show: fly {} mm², at {} W.", shown(area, true, 3),
+                     shown(power, true, 1));
+}
+
 std::vector<StoryPart> diagnosis_story(const Diagnosis& diagnosis, const TextStyle& style) {
   return Story(diagnosis, style).tell();
 }

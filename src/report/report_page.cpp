@@ -138,9 +138,28 @@ std::string section_markup(const Section& section) {
 Section answer_section(const PageContent& content) {
   const Answer told = answer(content.file, content.optimum);
   const bool feasible = content.optimum.result.feasible;
-  std::string body = html::element(
-      "p", told.headline, feasible ? " class=\"headline good\"" : " class=\"headline bad\"");
-  body += "\n" + html::paragraphs(told.sentences);
+  const auto headline = [](const std::string& words, bool good) {
+    return html::element("p", words,
+                         good ? " class=\"headline good\"" : " class=\"headline bad\"") +
+           "\n";
+  };
+  // What the logs show outranks what the spec says of the same drone.
+  const DesignImpact impact =
+      content.diagnoses.empty()
+          ? DesignImpact{}
+          : content.diagnoses.back().diagnosis.design_impact.value_or(DesignImpact{});
+  const std::string flown = impact_headline(impact);
+  std::string body;
+  if (flown.empty()) {
+    body = headline(told.headline, feasible);
+  } else {
+    body = headline(flown, impact.cross_section_mm2.after.has_value());
+    body += html::element("p",
+                          "By the spec as it stands, of which the figures and tables of designs "
+                          "below are:");
+    body += "\n" + html::element("p", told.headline) + "\n";
+  }
+  body += html::paragraphs(told.sentences);
   if (!told.remedies.empty()) body += html::list(told.remedies);
   if (feasible) body += html::table(condition_table(content.optimum.result), "table-conditions");
   for (const std::string& warning : all_warnings(content.file)) {

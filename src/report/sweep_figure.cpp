@@ -157,8 +157,8 @@ std::vector<const SweepColumn*> varying(const SweepTable& table) {
     throw InputError(table.file, "has nothing to draw over: no field has two values");
   }
   // Numbers first, so that they become the axes.
-  std::ranges::stable_partition(out,
-                                [](const SweepColumn* column) { return column->names.empty(); });
+  std::stable_partition(out.begin(), out.end(),
+                        [](const SweepColumn* column) { return column->names.empty(); });
   return out;
 }
 

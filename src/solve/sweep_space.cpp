@@ -47,8 +47,9 @@ double normal_quantile(const Normal& normal, double u) {
 std::vector<std::size_t> order_of_application(std::span<const SweepAxis> axes) {
   std::vector<std::size_t> order(axes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_partition(
-      order, [&](std::size_t i) { return std::holds_alternative<NamedChoices>(axes[i].values); });
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
+    return std::holds_alternative<NamedChoices>(axes[i].values);
+  });
   return order;
 }
 

@@ -20,6 +20,10 @@ namespace tethercalc {
 struct StoryHeading {
   std::string text;  ///< one line
 };
+/// What to fly by a design with the findings of its logs, in one sentence; empty where nothing
+/// moves in the digits that are printed.
+[[nodiscard]] std::string impact_headline(const DesignImpact& impact);
+
 /// Lines to be copied as they are.
 struct StoryLines {
   std::string text;  ///< each ends in a line break
