@@ -57,6 +57,12 @@ struct FlightCondition {
   void (*set)(HiddenFlight&);
 };
 
+void flown_to_the_side(HiddenFlight& h) {
+  h.steepest_roll = 20;
+  h.crosswind = 1;
+  h.roll_trim = 1;
+}
+
 std::vector<FlightCondition> conditions() {
   using truth::Pattern;
   return {{"real", [](HiddenFlight&) {}},
@@ -92,7 +98,9 @@ std::vector<FlightCondition> conditions() {
           {"speed_0.1", [](HiddenFlight& h) { h.speed_digit = 0.1; }},
           {"gentle", [](HiddenFlight& h) { h.steepest_pitch = 15; }},
           {"climbs", [](HiddenFlight& h) { h.climb = 20; }},
-          {"rolling", [](HiddenFlight& h) { h.roll_std = 5; }}};
+          {"rolling", [](HiddenFlight& h) { h.roll_std = 5; }},
+          {"both_axes", flown_to_the_side},
+          {"both_axes_turning", [](HiddenFlight& h) { flown_to_the_side(h), h.yaw_turns = true; }}};
 }
 
 HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, const FlightCondition& condition) {
@@ -115,6 +123,7 @@ HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, const FlightCondit
   if (row.hidden == "turning_wind") {
     hidden.yaw_turns = hidden.pattern != truth::Pattern::circles;
     hidden.wind = 0;
+    hidden.crosswind = 0;
     hidden.wind_east = uniform(-2, 2);
   }
   return hidden;

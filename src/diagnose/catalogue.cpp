@@ -16,13 +16,12 @@ namespace {
 
 using Values = std::span<const double>;
 
-/// The tilt `delay` s later than each sample, by Lagrange's cubic through the four nearest samples:
-/// a straight line between two would average their noise and so seem to explain something.
-void shift_tilt(FlightPrediction& p, double delay) {
-  const std::vector<double>& time = p.record.time;
+/// The readings `delay` s later than each sample, by Lagrange's cubic through the four nearest
+/// samples: a straight line between two would average their noise and so seem to explain something.
+void shift(const std::vector<double>& time, double delay, std::vector<double>& readings) {
   const std::size_t size = time.size();
   if (size < 4) return;
-  const std::vector<double> logged = p.tilt;
+  const std::vector<double> logged = readings;
   std::size_t k = 0;  // time[k] is the last at or before the wanted time, as far as there is one
   for (std::size_t i = 0; i < size; ++i) {
     const double wanted = std::clamp(time[i] + delay, time.front(), time.back());
@@ -36,17 +35,8 @@ void shift_tilt(FlightPrediction& p, double delay) {
       }
       value += basis * logged[a];
     }
-    p.tilt[i] = value;
+    readings[i] = value;
   }
-}
-
-/// The forward part, in sample i, of what points along the mean heading and to its right.
-double ahead(const FlightRecord& record, std::size_t i, double along, double right) {
-  return along * record.along_heading[i] + right * record.right_of_heading[i];
-}
-
-double law_drag(const FlightPrediction& p, double along, double across, double tan_tilt) {
-  return airframe_drag_along(p.law, p.record.air_density, along, across, tan_tilt);
 }
 
 /// The log's heading is `angle` to the right of the airframe's.
@@ -56,17 +46,18 @@ void misalign(FlightPrediction& p, double angle) {
   for (std::size_t i = 0; i < p.airspeed.size(); ++i) {
     const double ahead = p.airspeed[i];
     const double aside = p.aside[i];
-    const double tan_tilt = p.tan_tilt[i];
+    const DragForces logged = law_drag(p, i, ahead, aside);
+    const DragForces own = law_drag(p, i, ahead * c - aside * s, ahead * s + aside * c);
+    const auto acceleration = [&](double thrust, double drag) {
+      return p.lift[i] * thrust - drag / p.record.mass;
+    };
     // Along the drone's own axes. What effects did to the drag stays as it was.
-    const double own_ahead = ahead * c - aside * s;
-    const double own_aside = ahead * s + aside * c;
-    const double forward_drag = p.drag[i] + law_drag(p, own_ahead, own_aside, tan_tilt) -
-                                law_drag(p, ahead, aside, tan_tilt);
-    const double sideward_drag = law_drag(p, own_aside, own_ahead, 0);
-    const double forward = p.lift[i] * tan_tilt - forward_drag / p.record.mass;
-    const double sideward = p.lift[i] * p.record.sideward_thrust[i] - sideward_drag / p.record.mass;
-    const double aligned = p.lift[i] * tan_tilt - p.drag[i] / p.record.mass;
-    p.acceleration[i] += forward * c + sideward * s - aligned;
+    const double forward = acceleration(p.tan_tilt[i], p.drag[i] + own.forward - logged.forward);
+    const double sideward =
+        acceleration(p.sideward_thrust[i], p.side_drag[i] + own.right - logged.right);
+    p.acceleration[i] += forward * c + sideward * s - acceleration(p.tan_tilt[i], p.drag[i]);
+    p.side_acceleration[i] +=
+        sideward * c - forward * s - acceleration(p.sideward_thrust[i], p.side_drag[i]);
   }
 }
 
@@ -90,25 +81,28 @@ std::vector<double> lagging(const std::vector<double>& time, double constant,
 void lag(FlightPrediction& p, double constant) {
   const std::vector<double>& time = p.record.time;
   // The true speed is ahead by what the logged one gains in a time constant.
-  const std::vector<double> logged = lagging(time, constant, p.acceleration);
+  const std::vector<double> ahead = lagging(time, constant, p.acceleration);
+  const std::vector<double> aside = lagging(time, constant, p.side_acceleration);
+  const double sideways = p.record.both_axes ? constant : 0;
   for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
-    const double aside = p.aside[i];
-    const double tan_tilt = p.tan_tilt[i];
-    p.acceleration[i] -= (law_drag(p, p.airspeed[i] + constant * logged[i], aside, tan_tilt) -
-                          law_drag(p, p.airspeed[i], aside, tan_tilt)) /
-                         p.record.mass;
+    const DragForces logged = law_drag(p, i, p.airspeed[i], p.aside[i]);
+    const DragForces truly =
+        law_drag(p, i, p.airspeed[i] + constant * ahead[i], p.aside[i] + sideways * aside[i]);
+    p.acceleration[i] -= (truly.forward - logged.forward) / p.record.mass;
+    p.side_acceleration[i] -= (truly.right - logged.right) / p.record.mass;
   }
   p.acceleration = lagging(time, constant, std::move(p.acceleration));
+  p.side_acceleration = lagging(time, constant, std::move(p.side_acceleration));
 }
 
-/// A size of a wind; `across` the mean heading, which only a flight that turns can show.
-EffectParameter wind_part(std::string name, bool across = false) {
+/// A size of a wind.
+EffectParameter wind_part(std::string name, Shown shown = Shown::always) {
   return {.name = std::move(name),
           .unit = "m/s",
           .lower = -40,
           .upper = 40,
           .scale = 0.5,
-          .only_if_turning = across};
+          .shown = shown};
 }
 
 std::vector<Effect> flight_effects() {
@@ -126,7 +120,9 @@ std::vector<Effect> flight_effects() {
        .flight_phase = FlightPhase::attitude,
        .on_flight =
            [](FlightPrediction& p, Values x) {
-             if (x[0] != 0) shift_tilt(p, x[0]);
+             if (x[0] == 0) return;
+             shift(p.record.time, x[0], p.tilt);
+             shift(p.record.time, x[0], p.sideward_thrust);
            }},
 
       {.id = "pitch_trim",
@@ -172,7 +168,8 @@ std::vector<Effect> flight_effects() {
        .title = "Steady wind along the flight axis",
        .mechanism = "The air moves along the forward axis, so airspeed differs from the logged "
                     "speed over ground.",
-       .parameters = {wind_part("wind_m_s")},
+       .parameters = {wind_part("wind_m_s"), wind_part("crosswind_m_s", Shown::to_the_side)},
+       .sizes = 2,
        .to_separate = "fly the same passes at the opposite heading: a wind changes its sign, what "
                       "belongs to the drone does not",
        .change = "u = v − w",
@@ -181,7 +178,7 @@ std::vector<Effect> flight_effects() {
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
-             for (double& headwind : p.headwind) headwind += x[0];
+             for (std::size_t i = 0; i < p.headwind.size(); ++i) blow_at_drone(p, i, x[0], x[1]);
            }},
 
       {.id = "turning_wind",
@@ -202,8 +199,9 @@ std::vector<Effect> flight_effects() {
            [](FlightPrediction& p, Values x) {
              if (x[0] == 0 && x[1] == 0) return;
              for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-               const double yaw = p.record.yaw[i];
-               p.headwind[i] += x[0] * std::cos(yaw) + x[1] * std::sin(yaw);
+               const double c = std::cos(p.record.yaw[i]);
+               const double s = std::sin(p.record.yaw[i]);
+               blow_at_drone(p, i, x[0] * c + x[1] * s, x[1] * c - x[0] * s);
              }
            }},
 
@@ -259,6 +257,8 @@ std::vector<Effect> flight_effects() {
              for (std::size_t i = 0; i < p.drag.size(); ++i) {
                const double against = -p.airspeed[i] * p.tilt[i];
                if (against > 0) p.drag[i] -= x[0] * p.airspeed[i] * std::abs(p.tilt[i]);
+               const double roll = std::atan(p.sideward_thrust[i]);
+               if (p.aside[i] * roll < 0) p.side_drag[i] -= x[0] * p.aside[i] * std::abs(roll);
              }
            }},
 
@@ -280,6 +280,7 @@ std::vector<Effect> flight_effects() {
            [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.drag.size(); ++i) {
                p.drag[i] += x[0] * p.airspeed[i] * p.record.down_speed[i];
+               p.side_drag[i] += x[0] * p.aside[i] * p.record.down_speed[i];
              }
            }},
 
@@ -294,7 +295,7 @@ std::vector<Effect> flight_effects() {
              .lower = -200,
              .upper = 200,
              .scale = 0.1,
-             .only_if_turning = true}},
+             .shown = Shown::turning_or_to_the_side}},
        .sizes = 2,
        .to_separate = "lean more and less at the same speed, and fly the passes at the opposite "
                       "heading: the pull keeps its size and its side, what belongs to the drone "
@@ -306,7 +307,10 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.drag.size(); ++i) {
-               p.drag[i] -= ahead(p.record, i, x[0], x[1]);
+               const double c = p.record.along_heading[i];
+               const double s = p.record.right_of_heading[i];
+               p.drag[i] -= x[0] * c + x[1] * s;
+               p.side_drag[i] -= x[1] * c - x[0] * s;
              }
            }},
 
@@ -316,7 +320,7 @@ std::vector<Effect> flight_effects() {
            "From one moment on another wind blows: a front passes, or the drone leaves the "
            "lee of something.",
        .parameters = {wind_part("wind_step_ahead_m_s"),
-                      wind_part("wind_step_right_m_s", true),
+                      wind_part("wind_step_right_m_s", Shown::turning_or_to_the_side),
                       {.name = "wind_step_time_s",
                        .unit = "s",
                        .look_through = LookThrough::moments}},
@@ -331,7 +335,7 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-               if (p.record.time[i] >= x[2]) p.headwind[i] += ahead(p.record, i, x[0], x[1]);
+               if (p.record.time[i] >= x[2]) blow(p, i, x[0], x[1]);
              }
            }},
 
@@ -341,8 +345,8 @@ std::vector<Effect> flight_effects() {
                     "thermals or behind hills.",
        .parameters = {wind_part("wind_wave_cos_m_s"),
                       wind_part("wind_wave_sin_m_s"),
-                      wind_part("wind_wave_right_cos_m_s", true),
-                      wind_part("wind_wave_right_sin_m_s", true),
+                      wind_part("wind_wave_right_cos_m_s", Shown::turning_or_to_the_side),
+                      wind_part("wind_wave_right_sin_m_s", Shown::turning_or_to_the_side),
                       {.name = "wind_wave_period_s",
                        .unit = "s",
                        .neutral = 40,
@@ -363,8 +367,7 @@ std::vector<Effect> flight_effects() {
                    2 * std::numbers::pi * (p.record.time[i] - p.record.middle_time) / x[4];
                const double cosine = std::cos(phase);
                const double sine = std::sin(phase);
-               p.headwind[i] +=
-                   ahead(p.record, i, x[0] * cosine + x[1] * sine, x[2] * cosine + x[3] * sine);
+               blow(p, i, x[0] * cosine + x[1] * sine, x[2] * cosine + x[3] * sine);
              }
            }},
 
@@ -391,7 +394,9 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.drag.size(); ++i) {
-               if (p.record.time[i] >= x[1]) p.drag[i] /= 1 - x[0];
+               if (p.record.time[i] < x[1]) continue;
+               p.drag[i] /= 1 - x[0];
+               p.side_drag[i] /= 1 - x[0];
              }
            }},
 
@@ -446,12 +451,12 @@ std::vector<Effect> flight_effects() {
        .flight_phase = FlightPhase::reading,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
-           const double ahead = p.airspeed[i];
-           const double aside = p.aside[i];
-           const double tan_tilt = p.tan_tilt[i];
-           const double too_much = law_drag(p, ahead, aside, tan_tilt) -
-                                   law_drag(p, ahead / x[0], aside / x[0], tan_tilt);
-           p.acceleration[i] = x[0] * (p.acceleration[i] + too_much / p.record.mass);
+           const DragForces logged = law_drag(p, i, p.airspeed[i], p.aside[i]);
+           const DragForces own = law_drag(p, i, p.airspeed[i] / x[0], p.aside[i] / x[0]);
+           p.acceleration[i] =
+               x[0] * (p.acceleration[i] + (logged.forward - own.forward) / p.record.mass);
+           p.side_acceleration[i] =
+               x[0] * (p.side_acceleration[i] + (logged.right - own.right) / p.record.mass);
          }
        }}};
 }

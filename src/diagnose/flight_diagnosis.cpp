@@ -25,7 +25,6 @@ namespace {
 constexpr double time_stamp_uncertainty = 0.05;
 
 constexpr const char* unit_of_flights = "m/s²";
-constexpr const char* quantity_of_flights = "forward acceleration";
 /// What a fit with linear drag and wind tells before the search: good enough for the airspeed in
 /// regressors and for what an error of the time stamps does.
 struct Preliminary {
@@ -54,9 +53,12 @@ Preliminary preliminary_fit(const Design& design, const std::vector<FlightData>&
     problem.predict(values, early);
     values[delay] = 0;
     std::vector<double>& error = result.time_stamp_error.emplace_back(early.size(), 0.0);
-    const auto rows = model.rows_of(k, error);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      rows[i] = (model.rows_of(k, late)[i] - model.rows_of(k, early)[i]) / 2;
+    for (const FlightModel::Readings& readings : model.readings()) {
+      if (readings.flight != k) continue;
+      const auto rows = model.rows_of(readings, error);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i] = (model.rows_of(readings, late)[i] - model.rows_of(readings, early)[i]) / 2;
+      }
     }
   }
   return result;
@@ -77,7 +79,8 @@ std::vector<UnnamedRegressor> shapes_of(const std::vector<FlightData>& flights,
         shape = shapes.insert(shapes.end(), own);
         shape->column.assign(model.problem.measured.size(), 0.0);
       }
-      std::copy(own.column.begin(), own.column.end(), model.rows_of(k, shape->column).begin());
+      std::copy(own.column.begin(), own.column.end(),
+                model.rows_of(model.readings()[k], shape->column).begin());
     }
   }
   return shapes;
@@ -139,29 +142,30 @@ double speed_rmse(const std::vector<FlightData>& flights, const FlightModel& mod
 double effective_samples(const std::vector<FlightData>& flights, const FlightModel& model,
                          const ModelFit& fit) {
   double sum = 0;
-  for (std::size_t k = 0; k < flights.size(); ++k) {
-    const auto left = model.rows_of(k, fit.holdout_residual);
+  for (const FlightModel::Readings& readings : model.readings()) {
+    const auto left = model.rows_of(readings, fit.holdout_residual);
     std::vector<double> residuals;
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (flights[k].block[i] >= 0) residuals.push_back(left[i]);
+      if (flights[readings.flight].block[i] >= 0) residuals.push_back(left[i]);
     }
     sum += effective_sample_size(residuals);
   }
   return sum;
 }
 
-ComparedSeries compared(const FlightData& data, const FlightModel& model, std::size_t flight,
-                        const Selection& selection) {
-  ComparedSeries series{quantity_of_flights,
-                        unit_of_flights,
-                        std::string(to_string(Stage::airframe)),
-                        data.record.time,
-                        data.observations.forward_acceleration,
-                        {},
-                        {}};
-  if (model.logs() > 1) series.quantity += fmt::format(" of flight {}", flight + 1);
-  const auto base = model.rows_of(flight, selection.base.holdout_residual);
-  const auto extended = model.rows_of(flight, selection.extended.holdout_residual);
+ComparedSeries compared(const FlightData& data, const FlightModel& model,
+                        const FlightModel::Readings& readings, const Selection& selection) {
+  ComparedSeries series{
+      readings.axis == Axis::forward ? "forward acceleration" : "acceleration to the right",
+      unit_of_flights,
+      std::string(to_string(Stage::airframe)),
+      data.record.time,
+      {readings.acceleration.begin(), readings.acceleration.end()},
+      {},
+      {}};
+  if (model.logs() > 1) series.quantity += fmt::format(" of flight {}", readings.flight + 1);
+  const auto base = model.rows_of(readings, selection.base.holdout_residual);
+  const auto extended = model.rows_of(readings, selection.extended.holdout_residual);
   for (std::size_t i = 0; i < series.time.size(); ++i) {
     const double used = data.block[i] < 0 ? nan : series.measured[i];
     series.before.push_back(used - base[i]);
@@ -181,8 +185,9 @@ void tell_headings(const std::vector<FlightData>& flights, Diagnosis& d) {
     const auto is_directed = [k](const auto& told) {
       const Effect* effect = find_effect(told.effect);
       return effect != nullptr && (told.flight == 0 || told.flight == k + 1) &&
-             std::any_of(effect->parameters.begin(), effect->parameters.end(),
-                         [](const EffectParameter& p) { return p.only_if_turning; });
+             std::any_of(
+                 effect->parameters.begin(), effect->parameters.end(),
+                 [](const EffectParameter& p) { return p.shown == Shown::turning_or_to_the_side; });
     };
     if (std::none_of(d.findings.begin(), d.findings.end(), is_directed) &&
         std::none_of(d.suspected.begin(), d.suspected.end(), is_directed)) {
@@ -209,12 +214,12 @@ void report(const std::vector<FlightData>& flights, const FlightModel& model,
        "a wrong mass only rescales the drag areas, since both enter as force over mass"});
   tell(model, selection, d);
   tell_headings(flights, d);
-  d.samples = selection.rows;
+  for (const FlightData& flight : flights) d.samples += used_samples(flight);
   d.effective_samples = effective_samples(flights, model, selection.complete);
   d.unexplained.undetectable_percent = undetectable_percent(
       d.effective_samples, model.problem.unnamed.size(), options.selection.false_alarm_probability);
-  for (std::size_t k = 0; k < flights.size(); ++k) {
-    d.compared.push_back(compared(flights[k], model, k, selection));
+  for (const FlightModel::Readings& readings : model.readings()) {
+    d.compared.push_back(compared(flights[readings.flight], model, readings, selection));
   }
   size_up(selection, d.unexplained);
   d.spec_changes = spec_changes(model, selection.complete);
@@ -296,7 +301,9 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
   }
   d.kind = "flight";
   d.unit = unit_of_flights;
-  d.quantity = quantity_of_flights;
+  const bool aside =
+      std::any_of(read.begin(), read.end(), [](const FlightData& f) { return f.record.both_axes; });
+  d.quantity = aside ? "forward acceleration and that to the right" : "forward acceleration";
   const std::vector<std::string> notes = notes_of(read);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   for (std::size_t k = 0; k < read.size(); ++k) {

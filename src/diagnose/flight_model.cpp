@@ -76,13 +76,25 @@ void number_blocks(FlightData& data, int first) {
 }
 
 /// What all flights of a drone share beside its effects.
-Effect drag_areas() {
+Effect drag_areas(const std::vector<FlightData>& flights) {
   constexpr double largest = 10;  // m², beyond any drone
   const EffectParameter area{
       .name = "front_area_m2", .unit = "m²", .upper = largest, .scale = 5e-3, .start = 0.015};
   EffectParameter top = area;
   top.name = "top_area_m2";
-  return {.title = "drag areas", .parameters = {area, top}, .sizes = 2};
+  Effect areas{.title = "drag areas", .parameters = {area, top}, .sizes = 2};
+  if (std::any_of(flights.begin(), flights.end(),
+                  [](const FlightData& f) { return f.record.both_axes; })) {
+    // A ratio, since whatever shrinks the front area for a linear drag shrinks this one alike.
+    areas.parameters.push_back({.name = "side_over_front_area",
+                                .unit = "1",
+                                .neutral = 1,
+                                .upper = 20,
+                                .scale = 0.2,
+                                .product_with = "front_area_m2"});
+    ++areas.sizes;
+  }
+  return areas;
 }
 
 /// What each flight fits beside its effects.
@@ -91,6 +103,7 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
   const auto [least, most] = std::minmax_element(data.record.yaw.begin(), data.record.yaw.end());
   const double turns = *most - *least > steady_yaw ? 1 : 0;
   const double measured = data.observations.forward_wind.empty() ? 0 : 1;
+  const double aside = data.record.both_axes ? 1 : 0;
   return {{.title = "vertical acceleration",
            .parameters = {{.name = "vertical_acceleration_gain",
                            .unit = "1",
@@ -104,15 +117,14 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
                            .unit = "1",
                            .neutral = measured,
                            .upper = 1.5 * measured,
-                           .scale = 0.2}}}};
-}
-
-/// Whether headings a good part of a turn apart are flown, each for some time.
-bool turns(const FlightData& data) {
-  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
-  std::vector<double> yaw = data.record.yaw;
-  std::sort(yaw.begin(), yaw.end());
-  return yaw[yaw.size() * 19 / 20] - yaw[yaw.size() / 20] > apart;
+                           .scale = 0.2}}},
+          {.title = "roll trim",
+           .parameters = {{.name = "roll_trim_deg",
+                           .unit = "deg",
+                           .unit_SI = unit::degree,
+                           .lower = -20 * aside,
+                           .upper = 20 * aside,
+                           .scale = 0.5}}}};
 }
 
 /// Mean over the two intervals around each sample of a quantity that is straight between samples,
@@ -183,7 +195,7 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
     : LogModel(spans_of(flights)), flights_(flights) {
   const bool several = flights.size() > 1;
   const auto which = [several](std::size_t k) { return several ? std::optional(k) : std::nullopt; };
-  add(base_.emplace_back(drag_areas()), design, true);
+  add(base_.emplace_back(drag_areas(flights)), design, true);
   for (std::size_t k = 0; k < flights.size(); ++k) {
     base_group_.push_back(effects().size());
     for (Effect& gain : instrument_gains(flights[k])) {
@@ -200,33 +212,50 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
       if (added && !own) continue;
       add(effect, design, fitted, own ? which(k) : std::nullopt);
       added = true;
-      if (!turns(flights[k])) hold_across(effect);
+      hold_hidden(effect, flights[k]);
     }
   }
 
   std::vector<FlightPrediction> predictions;
-  for (const FlightData& data : flights) {
-    first_row_.push_back(problem.measured.size());
-    const auto& acceleration = data.observations.forward_acceleration;
+  const auto add_readings = [this](std::size_t flight, Axis axis,
+                                   const std::vector<double>& acceleration) {
+    readings_.push_back({flight, axis, problem.measured.size(), acceleration});
     problem.measured.insert(problem.measured.end(), acceleration.begin(), acceleration.end());
-    problem.block.insert(problem.block.end(), data.block.begin(), data.block.end());
-    predictions.emplace_back(data.record);
+    const std::vector<int>& block = flights_[flight].block;
+    problem.block.insert(problem.block.end(), block.begin(), block.end());
+  };
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    add_readings(k, Axis::forward, flights[k].observations.forward_acceleration);
+    predictions.emplace_back(flights[k].record);
+  }
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    if (!flights[k].record.both_axes) continue;
+    add_readings(k, Axis::right, flights[k].observations.right_acceleration);
   }
   problem.noise.assign(problem.measured.size(), 1.0);
   problem.predict = [this, predictions = std::move(predictions)](std::span<const double> values,
                                                                  std::span<double> out) mutable {
     for (std::size_t k = 0; k < predictions.size(); ++k) {
       predict_acceleration(predictions[k], this->base(k, values), freed(k, values));
-      average_around(predictions[k].record.time, predictions[k].acceleration, rows_of(k, out));
+    }
+    for (const Readings& r : readings_) {
+      const FlightPrediction& p = predictions[r.flight];
+      average_around(p.record.time, r.axis == Axis::forward ? p.acceleration : p.side_acceleration,
+                     rows_of(r, out));
     }
   };
 }
 
-/// In the group added last.
-void FlightModel::hold_across(const Effect& effect) {
+/// What the flight cannot show of the group added last stays neutral.
+void FlightModel::hold_hidden(const Effect& effect, const FlightData& flight) {
+  const bool aside = flight.record.both_axes;
+  const bool across = aside || turns(flight.record);
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+    const Shown shown = effect.parameters[k].shown;
     ModelParameter& p = problem.groups.back().parameters[k];
-    if (effect.parameters[k].only_if_turning) p.lower = p.upper = p.neutral;
+    if (shown == Shown::always || (shown == Shown::to_the_side ? aside : across)) continue;
+    p.lower = p.upper = p.neutral;
+    if (shown == Shown::to_the_side) --problem.groups.back().numbers;
   }
 }
 
@@ -234,9 +263,11 @@ FlightBase FlightModel::base(std::size_t flight, std::span<const double> values)
   const std::size_t gains = first_parameter(base_group_[flight]);
   return {.front_area = values[0],
           .top_area = values[1],
+          .side_area = values[0] * (base_[0].parameters.size() > 2 ? values[2] : 1),
           .vertical_acceleration_gain = values[gains],
           .turn_gain = values[gains + 1],
-          .wind_gain = values[gains + 2]};
+          .wind_gain = values[gains + 2],
+          .roll_trim = values[gains + 3]};
 }
 
 std::vector<EffectValues> FlightModel::freed(std::size_t flight,
@@ -261,14 +292,15 @@ std::optional<std::size_t> FlightModel::index_in(std::size_t flight,
   return std::nullopt;
 }
 
-std::vector<double> FlightModel::left_by(std::size_t flight, std::span<const double> values) const {
+std::vector<double> FlightModel::left_by(std::size_t series, std::span<const double> values) const {
+  const Readings& readings = readings_[series];
   std::vector<double> predicted(problem.measured.size());
   problem.predict(values, predicted);
-  const auto measured = rows_of(flight, problem.measured);
-  const auto rows = rows_of(flight, predicted);
+  const auto measured = readings.acceleration;
+  const auto rows = rows_of(readings, predicted);
   std::vector<double> left;
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    left.push_back(flights_[flight].block[i] < 0 ? nan : measured[i] - rows[i]);
+    left.push_back(flights_[readings.flight].block[i] < 0 ? nan : measured[i] - rows[i]);
   }
   return left;
 }

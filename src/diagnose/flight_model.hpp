@@ -9,6 +9,7 @@
 #include "diagnose/flight_log_faults.hpp"
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/log_model.hpp"
+#include "identify/flight_units.hpp"
 #include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 namespace tethercalc {
@@ -42,8 +43,9 @@ struct FlightData {
 /// Whether the samples of a flight can show the effect.
 [[nodiscard]] bool testable(const Effect& effect, const LogFaults& faults);
 
-/// Rows are the samples of the first flight, then those of the second, and so on. Drag, and what
-/// else belongs to the drone, is shared; what belongs to a flight is a group of each.
+/// Rows are the forward accelerations of the first flight, then those to the right where the flight
+/// shows them, then those of the second, and so on. Drag, and what else belongs to the drone, is
+/// shared; what belongs to a flight is a group of each.
 class FlightModel : public LogModel {
  public:
   /// With these effects, of which some are always fitted. `flights` and effects must outlive it.
@@ -59,10 +61,20 @@ class FlightModel : public LogModel {
   /// there is none.
   [[nodiscard]] std::optional<std::size_t> index_in(std::size_t flight,
                                                     std::string_view parameter) const;
-  /// The rows of a flight in a column over all.
+  /// What is compared: an acceleration of a flight along an axis.
+  struct Readings {
+    std::size_t flight = 0;
+    Axis axis = Axis::forward;
+    std::size_t first_row = 0;
+    /// m/s², measured.
+    std::span<const double> acceleration{};
+  };
+  /// Forward in every flight, then to the right in those that show it.
+  [[nodiscard]] std::span<const Readings> readings() const { return readings_; }
+  /// The rows of `readings` in a column over all.
   template <typename Values>
-  [[nodiscard]] auto rows_of(std::size_t flight, Values& column) const {
-    return std::span(column).subspan(first_row_[flight], flights_[flight].record.size());
+  [[nodiscard]] auto rows_of(const Readings& readings, Values& column) const {
+    return std::span(column).subspan(readings.first_row, readings.acceleration.size());
   }
 
   [[nodiscard]] std::size_t series(std::size_t group) const override {
@@ -71,14 +83,14 @@ class FlightModel : public LogModel {
   [[nodiscard]] Channel channel(std::size_t group) const override {
     return flight_channel(effect(group).channel, flights_[series(group)].record);
   }
-  [[nodiscard]] std::vector<double> left_by(std::size_t flight,
+  [[nodiscard]] std::vector<double> left_by(std::size_t series,
                                             std::span<const double> values) const override;
 
  private:
-  void hold_across(const Effect& effect);
+  void hold_hidden(const Effect& effect, const FlightData& flight);
 
   const std::vector<FlightData>& flights_;
-  std::vector<std::size_t> first_row_;
+  std::vector<Readings> readings_;
   std::deque<Effect> base_;              ///< areas, then what each flight fits
   std::vector<std::size_t> base_group_;  ///< of each flight, its first one
 };

@@ -3,8 +3,10 @@
 #include "diagnose/flight_prediction.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "identify/flight_units.hpp"
+#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
@@ -19,7 +21,20 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
+/// m/s: as of the forward speed, below which a fit takes drag and wind for each other.
+constexpr double flown_to_the_side = 3;
+
+/// Of nine tenths of the values.
+double spread(const std::vector<double>& values) {
+  return values.empty() ? 0 : quantile(values, 0.95) - quantile(values, 0.05);
+}
+
 }  // namespace
+
+bool turns(const FlightRecord& record) {
+  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
+  return spread(record.yaw) > apart;
+}
 
 FlightRecord flight_record(const Observations& observations, double mass, double air_density,
                            double gravity) {
@@ -51,7 +66,10 @@ FlightRecord flight_record(const Observations& observations, double mass, double
     record.along_heading.push_back(std::cos(yaw - record.mean_heading));
     record.right_of_heading.push_back(std::sin(yaw - record.mean_heading));
   }
-  record.turn_acceleration = turn_acceleration(observations);
+  record.yaw_rate = yaw_rate(observations);
+  const std::optional<Leaning> aside = leaning_over_a_second(observations, gravity, Axis::right);
+  record.both_axes = aside && aside->correlation > leans_to_speed_up &&
+                     (turns(record) || spread(record.right_speed) > flown_to_the_side);
   record.mass = mass;
   record.air_density = air_density;
   record.gravity = gravity;
@@ -69,7 +87,7 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
         &FlightRecord::along_heading, &FlightRecord::right_of_heading, &FlightRecord::forward_speed,
         &FlightRecord::right_speed, &FlightRecord::headwind, &FlightRecord::crosswind,
         &FlightRecord::down_speed, &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
-        &FlightRecord::turn_acceleration}) {
+        &FlightRecord::yaw_rate}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -86,8 +104,30 @@ FlightPrediction::FlightPrediction(const FlightRecord& flight)
       tan_tilt(flight.size()),
       airspeed(flight.size()),
       drag(flight.size()),
+      sideward_thrust(flight.size()),
+      side_drag(flight.size()),
       lift(flight.size()),
-      acceleration(flight.size()) {}
+      acceleration(flight.size()),
+      side_acceleration(flight.size()) {}
+
+void blow_at_drone(FlightPrediction& p, std::size_t i, double forward, double right) {
+  p.headwind[i] += forward;
+  if (p.record.both_axes) p.aside[i] -= right;
+}
+
+void blow(FlightPrediction& p, std::size_t i, double along, double right) {
+  const double c = p.record.along_heading[i];
+  const double s = p.record.right_of_heading[i];
+  blow_at_drone(p, i, along * c + right * s, right * c - along * s);
+}
+
+DragForces law_drag(const FlightPrediction& p, std::size_t i, double forward, double right) {
+  const double density = p.record.air_density;
+  // To both sides alike.
+  const AirframeDrag sideward{p.side_area, p.law.top_area, p.law.linear_speed, 0};
+  return {airframe_drag_along(p.law, density, forward, right, p.tan_tilt[i]),
+          airframe_drag_along(sideward, density, right, forward, p.sideward_thrust[i])};
+}
 
 void predict_acceleration(FlightPrediction& p, const FlightBase& base,
                           std::span<const EffectValues> effects) {
@@ -98,7 +138,9 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
     p.headwind[i] = base.wind_gain * record.headwind[i];
     p.aside[i] = record.right_speed[i] - base.wind_gain * record.crosswind[i];
   }
+  p.sideward_thrust = record.sideward_thrust;
   p.law = {base.front_area, base.top_area, 0, 0};
+  p.side_area = base.side_area;
   act(p, effects, FlightPhase::attitude);
   act(p, effects, FlightPhase::air);
 
@@ -108,15 +150,20 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
-    p.drag[i] =
-        airframe_drag_along(p.law, record.air_density, p.airspeed[i], p.aside[i], p.tan_tilt[i]);
+    p.sideward_thrust[i] -= base.roll_trim;
+    const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
+    p.drag[i] = drag.forward;
+    p.side_drag[i] = drag.right;
     p.lift[i] = record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
   }
   act(p, effects, FlightPhase::force);
 
   for (std::size_t i = 0; i < size; ++i) {
-    p.acceleration[i] = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass +
-                        base.turn_gain * record.turn_acceleration[i];
+    const double turning = base.turn_gain * record.yaw_rate[i];
+    p.acceleration[i] =
+        p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass + turning * record.right_speed[i];
+    p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass -
+                             turning * record.forward_speed[i];
   }
   act(p, effects, FlightPhase::reading);
 }

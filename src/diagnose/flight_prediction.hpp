@@ -1,4 +1,4 @@
-// The forward acceleration that attitude, speed and drag make us expect, effect by effect.
+// The horizontal acceleration that attitude, speed and drag make us expect, effect by effect.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace tethercalc {
 
-/// What a prediction of a flight may use: attitude, speed over ground, and time. The forward
+/// What a prediction of a flight may use: attitude, speed over ground, and time. The horizontal
 /// acceleration is not here, so no effect can be built from what it should explain. One element a
 /// sample, in the stabilised frame of `Observations`, SI units.
 struct FlightRecord {
@@ -30,15 +30,18 @@ struct FlightRecord {
   std::vector<double> down_speed;  ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
   std::vector<double> sideward_thrust;  ///< tan φ/cos θ: of what the thrust carries, to the right
-  /// m/s²: yaw rate times speed to the right. A frame that turns carries the one into the forward
-  /// speed, force or no force.
-  std::vector<double> turn_acceleration;
+  /// rad/s. A frame that turns carries one speed into the other, force or no force.
+  std::vector<double> yaw_rate;
   double mean_heading = 0;  ///< rad in (−π, π], of the whole flight
   double mass = 0;          ///< kg
   double air_density = 0;   ///< kg/m³
   double gravity = 0;       ///< m/s²
   double middle_time = 0;   ///< s, halfway through the whole flight
   double duration = 0;      ///< s, of the whole flight
+  /// Whether the acceleration to the right is predicted too: it follows the roll, and the flight
+  /// turns or is flown to the side, so that it tells more than the roll's own errors. Then a wind
+  /// from the side shows there; else none is told.
+  bool both_axes = false;
 
   /// Number of samples.
   [[nodiscard]] std::size_t size() const { return time.size(); }
@@ -48,10 +51,14 @@ struct FlightRecord {
 [[nodiscard]] FlightRecord flight_record(const Observations& observations, double mass,
                                          double air_density, double gravity);
 
+/// Whether headings a good part of a turn apart are flown, each for some time.
+[[nodiscard]] bool turns(const FlightRecord& record);
+
 /// Parameters that every drag flight needs and that are no effects.
 struct FlightBase {
   double front_area = 0;  ///< A_f, m²
   double top_area = 0;    ///< A_t, m²
+  double side_area = 0;   ///< A_s, m²: what the front area is forward, to the side
   /// Part of the logged vertical acceleration that the flight follows. The derivative of a logged
   /// velocity is noisy; the least-squares slope of a noisy regressor is its reliability, below 1
   /// (Fuller, Measurement Error Models, 1987, section 1.1). Left at 1, its noise times tan θ would
@@ -63,6 +70,9 @@ struct FlightBase {
   /// Part of the measured wind's changes that the drag follows. The sensor is beside the
   /// propellers, and noisy; of its mean the effect `wind` tells how wrong it is.
   double wind_gain = 0;
+  /// rad, what the roll reads while the thrust points neither left nor right: of no interest, but
+  /// always there a little.
+  double roll_trim = 0;
 };
 
 /// A prediction in the making. The catalogue's effects work on it in the phases of `FlightPhase`;
@@ -73,11 +83,16 @@ struct FlightPrediction {
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
   std::vector<double> aside;     ///< m/s, the airspeed to the right
   AirframeDrag law;              ///< of the drag
+  double side_area = 0;          ///< m², in place of the law's front area to the side
   std::vector<double> tan_tilt;  ///< of `tilt`; known in the force phase
   std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
   std::vector<double> drag;      ///< N against the motion; known in the force phase
-  std::vector<double> lift;      ///< m/s², what the thrust carries; known in the force phase
-  std::vector<double> acceleration;  ///< m/s² forward at each sample: the result
+  /// tan φ/cos θ as the thrust had it, from which attitude effects start.
+  std::vector<double> sideward_thrust;
+  std::vector<double> side_drag;  ///< N against the motion to the right; known in the force phase
+  std::vector<double> lift;       ///< m/s², what the thrust carries; known in the force phase
+  std::vector<double> acceleration;       ///< m/s² forward at each sample: the result
+  std::vector<double> side_acceleration;  ///< m/s² to the right, likewise; 0 without both axes
 
   /// Sized for `flight`, which must outlive it.
   explicit FlightPrediction(const FlightRecord& flight);
@@ -90,15 +105,30 @@ struct EffectValues {
 };
 
 /// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the forward part of the drag
-/// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`. To the right the
-/// airspeed is taken as the speed over ground, less a measured wind: a crosswind that is fitted
-/// mimics linear drag, since both drag in proportion to a small speed forward, and most flights
-/// turn too little to tell them apart. A thrust along the body's z-axis turned by yaw, pitch and
-/// roll in this order points forward by tan θ of what it carries, whatever the roll; the published
-/// 1/cos φ is not in it. Effects act in the order given within each phase; those at their neutral
-/// values change nothing.
+/// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`, and with both axes
+/// `prediction.side_acceleration` = (g − κ·a_D)·tanφ/cosθ − F_S/m alike, both with what the turning
+/// of the frame adds. A thrust along the body's z-axis turned by yaw, pitch and roll in this order
+/// points so, exactly; the published 1/cos φ is not in it. Where the acceleration to the right is
+/// not predicted, the airspeed there is the speed over ground, less a measured wind: a crosswind
+/// that is fitted mimics linear drag, since both drag in proportion to a small speed forward.
+/// Effects act in the order given within each phase; those at their neutral values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
+
+/// The air in sample `i` moves by `along` m/s in the direction of the mean heading and by `right`
+/// to its right, beside what it does already.
+void blow(FlightPrediction& prediction, std::size_t i, double along, double right);
+/// The same by axes that turn with the drone.
+void blow_at_drone(FlightPrediction& prediction, std::size_t i, double forward, double right);
+
+/// N on the airframe alone, forward and to the right, against an airspeed in m/s so split.
+struct DragForces {
+  double forward = 0;
+  double right = 0;
+};
+/// In sample `i`, by the law of the prediction.
+[[nodiscard]] DragForces law_drag(const FlightPrediction& prediction, std::size_t i, double forward,
+                                  double right);
 
 /// Samples first ≤ i < last of a flight.
 [[nodiscard]] FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last);

@@ -24,9 +24,6 @@ constexpr double too_fast = 20;  // 1/s
 
 /// A shorter further part of a log, s, holds no independent stretch.
 constexpr double shortest_further_flight = 12;
-/// Correlation over a second of speeding up and leaning: 0.8 to 0.95 in flights, about zero in a
-/// car or a hand.
-constexpr double leans_to_speed_up = 0.5;
 
 /// A drone that keeps its attitude to so much for so long, and hardly moves, stands: on the ground
 /// an estimator wanders by 0.01 to 0.07° in three seconds, in the calmest hover by 0.06 to 0.24°.

@@ -59,6 +59,8 @@ void look_through(const EffectParameter& effect, double begin, double end, Model
 
 /// Chance of an open effect's size below which it is suspected.
 constexpr double suspicious = 0.05;
+/// A gain that is printed as 0.0 % would not help.
+constexpr double least_worth_telling = 0.05;
 /// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
 /// enough to be judged does not gain a tenth of the error.
 constexpr double much = 5;
@@ -240,7 +242,8 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
   // Of what is always there a little, or looked for at many moments, chance shows some.
   const double least = effect.least_gain_factor > 1 ? selection.least_gain_percent : 0;
   const bool hardly_chance = open.p_value <= suspicious && open.gain_percent >= least &&
-                             open.gain_percent > open.gain_se_percent;
+                             open.gain_percent > open.gain_se_percent &&
+                             open.gain_percent >= least_worth_telling;
   const bool helps_much = open.gain_percent >= much * selection.least_gain_percent &&
                           open.gain_percent > 2 * open.gain_se_percent;
   if (hardly_chance || helps_much) {
@@ -307,10 +310,13 @@ std::vector<double> braking(const FlightRecord& record) {
 void LogModel::add(const Effect& effect, const Design& design, bool fitted,
                    std::optional<std::size_t> log) {
   first_.push_back(effects_.empty() ? 0 : first_.back() + effects_.back()->parameters.size());
+  effects_.push_back(&effect);
+  in_log_.push_back(log);
   ParameterGroup group;
   group.id = effect.id.empty() ? effect.title : effect.id;
   if (log) group.id += fmt::format(" (flight {})", *log + 1);
   group.fitted = fitted;
+  group.numbers = effect.parameters.size();
   group.least_gain_factor = effect.least_gain_factor;
   if (log) group.blocks = logs_[*log].blocks;
   for (const EffectParameter& p : effect.parameters) {
@@ -325,8 +331,6 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted,
     if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) group.replaces = g;
     if (!effect.twin_of.empty() && effects_[g]->id == effect.twin_of) group.twin_of = g;
   }
-  effects_.push_back(&effect);
-  in_log_.push_back(log);
   problem.groups.push_back(std::move(group));
 }
 

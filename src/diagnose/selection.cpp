@@ -249,8 +249,8 @@ class Search {
     const Trial* chosen = &*best;
     for (const Trial& trial : worthy) {
       const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
-      const std::size_t count = group(trial.group).parameters.size();
-      const std::size_t chosen_count = group(chosen->group).parameters.size();
+      const std::size_t count = group(trial.group).numbers;
+      const std::size_t chosen_count = group(chosen->group).numbers;
       const bool simpler =
           count < chosen_count ||
           (count == chosen_count && trial.fit.squared_error() < chosen->fit.squared_error());

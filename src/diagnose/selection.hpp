@@ -45,7 +45,9 @@ struct ParameterGroup {
   /// at its neutral values until the record demands otherwise.
   bool fitted = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
-  double least_gain_factor = 1;              ///< as in `Effect`
+  /// That describe it: of two groups that explain alike, the one with fewer is taken.
+  std::size_t numbers = 1;
+  double least_gain_factor = 1;  ///< as in `Effect`
   /// So many blocks it acts in, where it belongs to one of several records; 0 for all.
   std::size_t blocks = 0;
   /// Index of a group that goes back to neutral when this one is freed, since this one describes

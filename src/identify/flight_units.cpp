@@ -7,26 +7,34 @@
 
 namespace tethercalc {
 
-std::vector<double> turn_acceleration(const Observations& flight) {
-  std::vector<double> turn(flight.size(), 0.0);
+std::vector<double> yaw_rate(const Observations& flight) {
+  std::vector<double> rate(flight.size(), 0.0);
   for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
-    const double yaw_rate =
-        (flight.yaw[i + 1] - flight.yaw[i - 1]) / (flight.time[i + 1] - flight.time[i - 1]);
-    turn[i] = yaw_rate * flight.right_speed[i];
+    rate[i] = (flight.yaw[i + 1] - flight.yaw[i - 1]) / (flight.time[i + 1] - flight.time[i - 1]);
   }
-  return turn;
+  return rate;
 }
 
-std::optional<Leaning> leaning_over_a_second(const Observations& flight, double gravity) {
+std::optional<Leaning> leaning_over_a_second(const Observations& flight, double gravity,
+                                             Axis axis) {
   if (flight.size() < 3) return std::nullopt;
   const double step = median_step(flight.time);
   const auto lag = static_cast<std::size_t>(std::max(1.0, std::round(1 / step)));
   if (flight.size() < 10 * lag) return std::nullopt;
-  const std::vector<double> turn = turn_acceleration(flight);
-  const auto by_force = [&](std::size_t i) { return flight.forward_acceleration[i] - turn[i]; };
+  const std::vector<double> turning = yaw_rate(flight);
+  const bool forward = axis == Axis::forward;
+  if (!forward && flight.right_acceleration.size() != flight.size()) return std::nullopt;
+  const auto by_force = [&](std::size_t i) {
+    return forward ? flight.forward_acceleration[i] - turning[i] * flight.right_speed[i]
+                   : flight.right_acceleration[i] + turning[i] * flight.forward_speed[i];
+  };
+  const auto by_leaning = [&](std::size_t i) {
+    return gravity * (forward ? std::tan(flight.tilt[i])
+                              : std::tan(flight.roll[i]) / std::cos(flight.tilt[i]));
+  };
   double both = 0, leaning = 0, measured = 0;
   for (std::size_t i = lag; i < flight.size(); ++i) {
-    const double expected = gravity * (std::tan(flight.tilt[i]) - std::tan(flight.tilt[i - lag]));
+    const double expected = by_leaning(i) - by_leaning(i - lag);
     const double seen = by_force(i) - by_force(i - lag);
     both += expected * seen;
     leaning += expected * expected;

@@ -9,22 +9,28 @@
 
 namespace tethercalc {
 
-/// m/s², one element a sample: yaw rate times speed to the right, which a frame that turns carries
-/// into the forward speed, force or no force. 0 at both ends.
-[[nodiscard]] std::vector<double> turn_acceleration(const Observations& flight);
+/// A horizontal axis of the stabilised frame.
+enum class Axis { forward, right };
 
-/// How the changes over one second of the forward acceleration go with those of g·tan θ.
+/// rad/s, one element a sample; 0 at both ends.
+[[nodiscard]] std::vector<double> yaw_rate(const Observations& flight);
+
+/// How the changes over one second of the acceleration along an axis go with those of g·tan θ, or
+/// g·tan φ/cos θ to the right.
 struct Leaning {
-  double correlation = 0;  ///< of both
-  double slope = 0;        ///< of the acceleration over g·tan θ
-  double size = 0;         ///< of g·tan θ over that of the acceleration, root mean squares
+  double correlation = 0;  ///< of both; 0.8 to 0.95 in flights, about zero in a car or a hand
+  double slope = 0;        ///< of the acceleration over what leaning gives
+  double size = 0;         ///< of what leaning gives over the acceleration, root mean squares
 };
+/// Correlation above which a drone speeds up as it leans.
+inline constexpr double leans_to_speed_up = 0.5;
 
-/// What the turning of the frame does to the forward speed is no force and is taken off first.
-/// `gravity` in m/s². Nothing where the flight is shorter than ten seconds, or one of the two never
-/// changes.
+/// What the turning of the frame does to the speeds is no force and is taken off first. `gravity`
+/// in m/s². Nothing where the flight is shorter than ten seconds, or one of the two never changes
+/// or is not known.
 [[nodiscard]] std::optional<Leaning> leaning_over_a_second(const Observations& flight,
-                                                           double gravity);
+                                                           double gravity,
+                                                           Axis axis = Axis::forward);
 
 /// A drone that leans forward by θ gains about g·tan θ of forward acceleration, less what drag
 /// takes of it within a second: of the changes over one second (`leaning_over_a_second`) the slope

@@ -280,6 +280,7 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
       out.right_wind.push_back(aside);
     }
     out.forward_acceleration.push_back(derivative(log.time, forward, i, use));
+    out.right_acceleration.push_back(derivative(log.time, right, i, use));
     out.down_acceleration.push_back(down_acceleration);
     out.expected_acceleration.push_back((gravity - down_acceleration) * std::tan(tilt) /
                                         std::cos(log.roll[i]));

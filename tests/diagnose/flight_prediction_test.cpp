@@ -128,6 +128,44 @@ TEST_CASE("a frame that turns carries the speed to the right into the forward on
   }
 }
 
+TEST_CASE("what happens ahead happens to the side alike") {
+  FlightRecord ahead = swinging_flight();
+  ahead.both_axes = true;
+  ahead.sideward_thrust.assign(ahead.size(), 0.0);
+  FlightRecord aside = ahead;
+  std::swap(aside.forward_speed, aside.right_speed);
+  std::swap(aside.tan_tilt, aside.sideward_thrust);
+  aside.tilt.assign(aside.size(), 0.0);
+  FlightBase alike = base;
+  alike.side_area = alike.front_area;
+  alike.turn_gain = 0;
+  const auto both = [&](const char* id, const std::vector<double>& values_ahead,
+                        const std::vector<double>& values_aside) {
+    INFO(id);
+    const Effect* effect = find_effect(id);
+    REQUIRE(effect != nullptr);
+    const EffectValues in_front{effect, values_ahead};
+    const EffectValues at_side{effect, values_aside};
+    FlightPrediction one(ahead);
+    FlightPrediction other(aside);
+    predict_acceleration(one, alike, {&in_front, 1});
+    predict_acceleration(other, alike, {&at_side, 1});
+    for (std::size_t i = 0; i < ahead.size(); i += 7) {
+      CHECK(other.side_acceleration[i] == Approx(one.acceleration[i]).margin(1e-4));
+      CHECK(other.acceleration[i] == Approx(one.side_acceleration[i]).margin(1e-4));
+    }
+  };
+  // A delay is taken of the tilt here and of its tangent there: 1e-4 m/s² apart at most.
+  both("attitude_delay", {0.08}, {0.08});
+  both("linear_drag", {19}, {19});
+  both("wind", {-1.2, 0}, {0, -1.2});
+  both("propwash", {0.4}, {0.4});
+  both("vertical_coupling", {0.1}, {0.1});
+  both("velocity_lag", {0.2}, {0.2});
+  both("velocity_scale", {1.2}, {1.2});
+  both("mass_drop", {0.3, 20}, {0.3, 20});
+}
+
 TEST_CASE("propwash acts only while speed and tilt oppose each other") {
   const FlightRecord record = swinging_flight();
   const std::vector<double> plain = predicted(record, nullptr, {});

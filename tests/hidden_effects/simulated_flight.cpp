@@ -71,10 +71,11 @@ class Pilot {
   double actual_ = 0;
 };
 
-double drag(const HiddenFlight& h, double u, double tilt, double down, double roll, double height,
-            bool late) {
+/// Forward; `aside` is the airspeed to the right, which makes the force along the airspeed larger.
+double drag(const HiddenFlight& h, double u, double aside, double tilt, double down, double roll,
+            double height, bool late) {
   const double area = h.front_area * std::cos(tilt) + h.top_area * std::abs(std::sin(tilt));
-  double force = 0.5 * h.air_density * area * (u * std::abs(u) + h.linear * u);
+  double force = 0.5 * h.air_density * area * (std::hypot(u, aside) + h.linear) * u;
   force *= u > 0 ? 1 + h.fore_aft_asymmetry : 1 - h.fore_aft_asymmetry;
   if (u * tilt < 0) force -= h.propwash * u * std::abs(tilt);
   force += h.vertical_coupling * u * down;
@@ -83,21 +84,50 @@ double drag(const HiddenFlight& h, double u, double tilt, double down, double ro
   return force - (late ? h.step_force : 0);
 }
 
+double side_drag(const HiddenFlight& h, double u, double ahead, double roll, double down) {
+  const double area = h.side_area * std::cos(roll) + h.top_area * std::abs(std::sin(roll));
+  double force = 0.5 * h.air_density * area * (std::hypot(u, ahead) + h.linear) * u;
+  if (u * roll < 0) force -= h.propwash * u * std::abs(roll);
+  return force + h.vertical_coupling * u * down;
+}
+
+/// An angle that is logged late. Each tilt acts from one step to the next: at a step it is between
+/// the two. The front two that are kept lie on either side of the delay.
+class LoggedLate {
+ public:
+  explicit LoggedLate(double delay) : steps_(std::max(0.0, delay / step)) {}
+  double next(double angle) {
+    on_its_way_.push_back((angle + last_) / 2);
+    last_ = angle;
+    if (static_cast<double>(on_its_way_.size()) > steps_ + 2) on_its_way_.pop_front();
+    const double part = steps_ - std::floor(steps_);
+    return on_its_way_.size() < 2 ? on_its_way_.front()
+                                  : part * on_its_way_[0] + (1 - part) * on_its_way_[1];
+  }
+
+ private:
+  double steps_;
+  double last_ = 0;
+  std::deque<double> on_its_way_;
+};
+
 }  // namespace
 
 FlightLog fly(const HiddenFlight& h) {
   Random random(h.seed);
   FlightLog log;
   Pilot pilot(h.pattern, h.steepest_pitch, h.duration);
+  Pilot pilot_aside(h.pattern, h.steepest_roll, h.duration);
   Wander gust(h.gust_std, h.gust_time);
+  Wander gust_aside(h.gust_std, h.gust_time);
+  const bool both_axes = h.steepest_roll > 0;
   Wander rolling(h.roll_std * degree, 1.0);
   Wander sideways(h.lateral_std, 4.5);
   Wander sinking(0.4, 1.5);
-  std::deque<double> pitch_on_its_way;
-  const double delay_steps = std::max(0.0, h.attitude_delay / step);
+  LoggedLate logged_tilt(h.attitude_delay);
+  LoggedLate logged_roll(h.attitude_delay);
 
   double speed = 0;
-  double last_tilt = 0;
   double down = 0;
   double height = 10;
   double yaw = uniform(random, 0, 2 * std::numbers::pi);
@@ -124,8 +154,12 @@ FlightLog fly(const HiddenFlight& h) {
     if (h.yaw_misalign != 0) {
       roll -= 0.04 * drifting;  // the pilot's hand
       drifting += (gravity * std::tan(roll) / std::cos(tilt) -
-                   drag(h, drifting, 0, 0, 0, height - 10, false) / h.mass) *
+                   drag(h, drifting, 0, 0, 0, 0, height - 10, false) / h.mass) *
                   step;
+      right = drifting;
+    }
+    if (both_axes) {
+      roll = pilot_aside.tilt(time, random);
       right = drifting;
     }
     const double old_down = down;
@@ -141,26 +175,34 @@ FlightLog fly(const HiddenFlight& h) {
                          h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw) +
                          (time > 0.6 * h.duration ? h.wind_step : 0) * ahead +
                          h.wind_wave * wave * ahead;
+    const double to_the_left = std::sin(yaw - first_heading);
+    const double across = h.crosswind + h.wind_east * std::cos(yaw) - h.wind_north * std::sin(yaw) -
+                          (time > 0.6 * h.duration ? h.wind_step : 0) * to_the_left -
+                          h.wind_wave * wave * to_the_left;
     const double mass = h.mass * (late ? 1 - h.mass_drop / 100 : 1);
     // A frame that turns carries the speed to the right into the forward one.
     const double push = (gravity - down_acceleration) * std::tan(tilt) +
                         gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) +
                         turn / step * right + h.tether_pull * ahead / mass;
     const auto acceleration = [&](double v) {
-      return push - drag(h, v - along, tilt, down, roll, height - 10, late) / mass;
+      return push - drag(h, v - along, both_axes ? right - across : 0, tilt, down, roll,
+                         height - 10, late) /
+                        mass;
     };
     const double halfway = speed + acceleration(speed) * step / 2;
+    if (both_axes) {
+      const double push_aside = (gravity - down_acceleration) * std::tan(roll) / std::cos(tilt) +
+                                gust_aside.next(random) - turn / step * speed -
+                                h.tether_pull * to_the_left / mass;
+      const auto acceleration_aside = [&](double v) {
+        return push_aside - side_drag(h, v - across, speed - along, roll, down) / mass;
+      };
+      const double half_aside = drifting + acceleration_aside(drifting) * step / 2;
+      drifting += acceleration_aside(half_aside) * step;
+    }
 
-    // Each tilt acts from one step to the next: at a step it is between the two. The front two lie
-    // on either side of the delay.
-    pitch_on_its_way.push_back(-(tilt + last_tilt) / 2);
-    last_tilt = tilt;
-    if (static_cast<double>(pitch_on_its_way.size()) > delay_steps + 2)
-      pitch_on_its_way.pop_front();
-    const double part = delay_steps - std::floor(delay_steps);
-    const double late_pitch = pitch_on_its_way.size() < 2
-                                  ? pitch_on_its_way.front()
-                                  : part * pitch_on_its_way[0] + (1 - part) * pitch_on_its_way[1];
+    const double late_tilt = logged_tilt.next(tilt);
+    const double late_roll = both_axes ? logged_roll.next(roll) : roll;
     const double follow = h.velocity_lag > 0 ? 1 - std::exp(-step / h.velocity_lag) : 1;
     lagging_forward += follow * (speed - lagging_forward);
     lagging_right += follow * (right - lagging_right);
@@ -169,9 +211,10 @@ FlightLog fly(const HiddenFlight& h) {
         return std::round(angle / degree * 100) / 100 * degree;
       };
       log.time.push_back(10 + time);
-      log.roll.push_back(hundredth(roll + h.angle_noise * degree * normal(random)));
+      log.roll.push_back(
+          hundredth(late_roll + (h.roll_trim + h.angle_noise * normal(random)) * degree));
       log.pitch.push_back(
-          hundredth(late_pitch + h.pitch_trim * degree +
+          hundredth(-late_tilt + h.pitch_trim * degree +
                     h.pitch_drift * degree * std::sin(2 * std::numbers::pi * time / 200) +
                     h.angle_noise * degree * normal(random)));
       log.yaw.push_back(hundredth(yaw + h.yaw_misalign * degree));

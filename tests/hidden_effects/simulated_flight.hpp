@@ -25,8 +25,16 @@ struct HiddenFlight {
   double air_density = 1.225;
   double front_area = 0.017;  ///< m²
   double top_area = 0.016;
-  double linear = 15;  ///< m/s
-  double wind = -1;    ///< m/s along the forward axis
+  double linear = 15;    ///< m/s
+  double wind = -1;      ///< m/s along the forward axis
+  double crosswind = 0;  ///< m/s to the right of it, felt where the roll moves the drone
+
+  /// deg, > 0: the pilot also flies passes to the side with rolls up to this, and the drone moves
+  /// there as forward: thrust, gusts, and drag along the airspeed vector. Else the roll wanders
+  /// and moves nothing.
+  double steepest_roll = 0;
+  double side_area = 0.02;  ///< m², of the drag to the side
+  double roll_trim = 0;     ///< deg, logged minus true roll
 
   /// Gusts: acceleration of a first-order process. These values leave residuals with a standard
   /// deviation of 0.17 m/s² and a lag-1 correlation of 0.86 at 10 Hz, as the real flight does.

@@ -31,6 +31,14 @@ enum class LookThrough {
   periods,  ///< from one and a half durations of the log down to the parameter's lower bound; s
 };
 
+/// What a flight must have to show a parameter. Across the heading a force or a wind does nothing
+/// that the forward acceleration shows.
+enum class Shown {
+  always,
+  to_the_side,             ///< an acceleration to the right that follows the roll
+  turning_or_to_the_side,  ///< that, or a heading that turns
+};
+
 /// The log that can show an effect.
 enum class LogKind { flight, power };
 
@@ -52,9 +60,7 @@ struct EffectParameter {
   /// is tested against chance. Empty: this one enters by itself.
   std::string product_with{};
   LookThrough look_through = LookThrough::nothing;  ///< moments have the bounds of the log only
-  /// Stays neutral in a flight whose heading hardly turns: across the heading a force or a wind
-  /// does nothing that the forward acceleration shows.
-  bool only_if_turning = false;
+  Shown shown = Shown::always;                      ///< stays neutral in a flight that is not so
 };
 
 /// One entry.

@@ -60,6 +60,7 @@ struct Observations {
   std::vector<double> forward_wind{};         ///< m/s over ground; empty where not measured
   std::vector<double> right_wind{};           ///< likewise
   std::vector<double> forward_acceleration;   ///< m/s², rate of change of forward_speed
+  std::vector<double> right_acceleration;     ///< m/s², rate of change of right_speed
   std::vector<double> down_acceleration;      ///< m/s²
   std::vector<double> expected_acceleration;  ///< m/s² forward if there were no drag
 
