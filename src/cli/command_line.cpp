@@ -242,6 +242,8 @@ class CommandLine {
         [this] { return run_drag(files_, flight_, what_, output_); })
         .argument("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")
         .flight(flight_)
+        .flag("--published-kinematics", flight_.published_kinematics,
+              "The forward axis alone, by the paper's formulas: reproduces its digits")
         .option("--into", what_, "Print this spec with its drag replaced, instead of the fit")
         .output(output_);
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",

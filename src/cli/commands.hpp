@@ -128,6 +128,7 @@ struct FlightOptions {
   std::optional<double> air_density_kg_m3;
   std::optional<double> pressure_hPa;
   std::optional<double> temperature_C;
+  bool published_kinematics = false;
 };
 
 /// Where the part of the log begins or ends that `text`, as given to `option`, names: percent of

@@ -310,6 +310,7 @@ DragIdentificationOptions identification_options(const FlightOptions& flight) {
   options.from = log_position("--from", flight.from);
   options.to = log_position("--to", flight.to);
   options.pitch_offset = pitch_offset(flight);
+  if (flight.published_kinematics) options.kinematics = Kinematics::published;
   return options;
 }
 

@@ -249,7 +249,7 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
 /// What the flight cannot show of the group added last stays neutral.
 void FlightModel::hold_hidden(const Effect& effect, const FlightData& flight) {
   const bool aside = flight.record.both_axes;
-  const bool across = aside || turns(flight.record);
+  const bool across = aside || turns(flight.observations);
   for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
     const Shown shown = effect.parameters[k].shown;
     ModelParameter& p = problem.groups.back().parameters[k];

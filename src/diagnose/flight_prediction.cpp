@@ -3,10 +3,8 @@
 #include "diagnose/flight_prediction.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include "identify/flight_units.hpp"
-#include "identify/statistics.hpp"
 
 namespace tethercalc {
 namespace {
@@ -21,20 +19,7 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
-/// m/s: as of the forward speed, below which a fit takes drag and wind for each other.
-constexpr double flown_to_the_side = 3;
-
-/// Of nine tenths of the values.
-double spread(const std::vector<double>& values) {
-  return values.empty() ? 0 : quantile(values, 0.95) - quantile(values, 0.05);
-}
-
 }  // namespace
-
-bool turns(const FlightRecord& record) {
-  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
-  return spread(record.yaw) > apart;
-}
 
 FlightRecord flight_record(const Observations& observations, double mass, double air_density,
                            double gravity) {
@@ -52,24 +37,18 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.down_acceleration = observations.down_acceleration;
   record.tan_tilt.reserve(observations.size());
   for (const double tilt : observations.tilt) record.tan_tilt.push_back(std::tan(tilt));
-  double north = 0;
-  double east = 0;
   record.sideward_thrust.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     record.sideward_thrust.push_back(std::tan(observations.roll[i]) /
                                      std::cos(observations.tilt[i]));
-    north += std::cos(observations.yaw[i]);
-    east += std::sin(observations.yaw[i]);
   }
-  record.mean_heading = std::atan2(east, north);
+  record.mean_heading = mean_heading(observations);
   for (const double yaw : observations.yaw) {
     record.along_heading.push_back(std::cos(yaw - record.mean_heading));
     record.right_of_heading.push_back(std::sin(yaw - record.mean_heading));
   }
   record.yaw_rate = yaw_rate(observations);
-  const std::optional<Leaning> aside = leaning_over_a_second(observations, gravity, Axis::right);
-  record.both_axes = aside && aside->correlation > leans_to_speed_up &&
-                     (turns(record) || spread(record.right_speed) > flown_to_the_side);
+  record.both_axes = shows_both_axes(observations, gravity);
   record.mass = mass;
   record.air_density = air_density;
   record.gravity = gravity;

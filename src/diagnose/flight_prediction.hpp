@@ -38,9 +38,8 @@ struct FlightRecord {
   double gravity = 0;       ///< m/s²
   double middle_time = 0;   ///< s, halfway through the whole flight
   double duration = 0;      ///< s, of the whole flight
-  /// Whether the acceleration to the right is predicted too: it follows the roll, and the flight
-  /// turns or is flown to the side, so that it tells more than the roll's own errors. Then a wind
-  /// from the side shows there; else none is told.
+  /// Whether the acceleration to the right is predicted too (`shows_both_axes`). Then a wind from
+  /// the side shows there; else none is told.
   bool both_axes = false;
 
   /// Number of samples.
@@ -50,9 +49,6 @@ struct FlightRecord {
 /// `mass` kg > 0, `air_density` kg/m³ > 0, `gravity` m/s² > 0.
 [[nodiscard]] FlightRecord flight_record(const Observations& observations, double mass,
                                          double air_density, double gravity);
-
-/// Whether headings a good part of a turn apart are flown, each for some time.
-[[nodiscard]] bool turns(const FlightRecord& record);
 
 /// Parameters that every drag flight needs and that are no effects.
 struct FlightBase {

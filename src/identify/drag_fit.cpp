@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 
 #include "identify/flight_units.hpp"
@@ -17,8 +17,9 @@
 
 // Notation, after the paper's section III-B: θ tilt, v forward speed over ground, w wind, u = v −
 // w, A_f, A_t effective areas, j linear speed, ρ air density, m mass, k = ρ/(2m). y = expected −
-// observed acceleration = F_D/m = k·(A_f cosθ + A_t |sinθ|)(u|u| + j·u). H = JᵀJ, g = Jᵀr with the
-// Jacobian J of the model and the residual r = y − model.
+// observed acceleration = F_D/m = k·(A_f cosθ + A_t |sinθ|)(U + j)·u with U the magnitude of the
+// airspeed; to the right alike with A_s, the crosswind c and the roll's trim. H = JᵀJ, g = Jᵀr with
+// the Jacobian J of the model and the residual r = y − model.
 
 namespace tethercalc {
 namespace {
@@ -31,20 +32,55 @@ constexpr Index front = 0;
 constexpr Index top = 1;
 constexpr Index linear = 2;
 
-struct Sample {
-  double cosine;    // cosθ
+/// One axis of one sample.
+struct Reading {
+  double cosine;    // cosθ, to the right of the roll's part
   double sine;      // |sinθ|
   double speed;     // v
   double observed;  // y
 };
-using Samples = std::vector<Sample>;
 
-Samples to_samples(const Observations& flight) {
-  Samples samples(flight.size());
+struct Sample {
+  double ahead;             // how far forward is along the mean heading,
+  double right_of_heading;  // and how far to its right; 1 and 0 in a flight that hardly turns
+  Reading forward;
+  double right_speed;  // 0 in the published kinematics
+  Reading right;       // of both axes
+  double lift;         // m/s² that the thrust carries
+};
+
+/// Of one flight.
+struct Samples {
+  std::vector<Sample> all;
+  bool both_axes = false;
+  std::optional<double> wind_heading{};  // as in `DragFit`
+
+  [[nodiscard]] std::size_t size() const { return all.size(); }
+  [[nodiscard]] std::size_t rows() const { return all.size() * (both_axes ? 2 : 1); }
+};
+
+Samples to_samples(const Observations& flight, double gravity) {
+  const bool exact = flight.kinematics == Kinematics::exact;
+  Samples samples{
+      std::vector<Sample>(flight.size()), exact && shows_both_axes(flight, gravity), {}};
+  const std::vector<double> drag = forward_drag_over_mass(flight);
+  const std::vector<double> turning = yaw_rate(flight);
+  if (samples.both_axes && turns(flight)) samples.wind_heading = mean_heading(flight);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i] = {std::cos(flight.tilt[i]), std::abs(std::sin(flight.tilt[i])),
-                  flight.forward_speed[i],
-                  flight.expected_acceleration[i] - flight.forward_acceleration[i]};
+    Sample& s = samples.all[i];
+    const double off = samples.wind_heading ? flight.yaw[i] - *samples.wind_heading : 0;
+    s.ahead = std::cos(off);
+    s.right_of_heading = std::sin(off);
+    const double cosine = std::cos(flight.tilt[i]);
+    s.forward = {cosine, std::abs(std::sin(flight.tilt[i])), flight.forward_speed[i], drag[i]};
+    s.right_speed = exact ? flight.right_speed[i] : 0;
+    if (!samples.both_axes) continue;
+    s.lift = gravity - flight.down_acceleration[i];
+    const double thrust = std::tan(flight.roll[i]) / cosine;  // of what it carries
+    const double level = 1 / std::sqrt(1 + thrust * thrust);
+    s.right = {
+        level, std::abs(thrust) * level, flight.right_speed[i],
+        s.lift * thrust - flight.right_acceleration[i] - turning[i] * flight.forward_speed[i]};
   }
   return samples;
 }
@@ -108,27 +144,49 @@ void demand_speed_spread(std::span<const Observations> flights) {
 // drag at V. Drag is linear in q and in the first two.
 constexpr double reference_speed = 10;  // m/s, amid the speeds that are flown
 
-VectorXd straightened(VectorXd x) {
+/// Where parameters stand. Those of the forward axis come first, then what flights of both axes
+/// add: the side area, a crosswind and a roll trim for each of them.
+struct Places {
+  explicit Places(const std::vector<Samples>& flights) : size(shared + Index(flights.size())) {
+    areas = {front, top};
+    for (std::size_t f = 0; f < flights.size(); ++f) {
+      of_flight.push_back({front, top, linear, shared + Index(f)});
+    }
+    for (std::size_t f = 0; f < flights.size(); ++f) {
+      if (!flights[f].both_axes) continue;
+      if (areas.size() == 2) areas.push_back(size++);
+      for (const Index further : {areas[2], size, size + 1}) of_flight[f].push_back(further);
+      size += 2;
+    }
+  }
+  Index size = 0;
+  std::vector<Index> areas;
+  /// A_f, A_t, j, w and, of both axes, A_s, c and the trim.
+  std::vector<std::vector<Index>> of_flight;
+};
+
+VectorXd straightened(VectorXd x, const Places& places) {
   const double growth = 1 + x(linear) / reference_speed;
-  x.head<2>() *= growth;
+  x(places.areas) *= growth;
   x(linear) = x(linear) / (reference_speed * growth);
   return x;
 }
 
-VectorXd unstraightened(VectorXd y) {
+VectorXd unstraightened(VectorXd y, const Places& places) {
   const double rest = 1 - y(linear);
-  y.head<2>() *= rest;
+  y(places.areas) *= rest;
   y(linear) = reference_speed * y(linear) / rest;
   return y;
 }
 
 /// dx/dy, the identity but for the shared parameters.
-MatrixXd straightening_jacobian(const VectorXd& y) {
+MatrixXd straightening_jacobian(const VectorXd& y, const Places& places) {
   const double rest = 1 - y(linear);
   MatrixXd t = MatrixXd::Identity(y.size(), y.size());
-  t(front, front) = t(top, top) = rest;
-  t(front, linear) = -y(front);
-  t(top, linear) = -y(top);
+  for (const Index area : places.areas) {
+    t(area, area) = rest;
+    t(area, linear) = -y(area);
+  }
   t(linear, linear) = reference_speed / (rest * rest);
   return t;
 }
@@ -139,40 +197,80 @@ struct Box {
   VectorXd upper;
 };
 
-Box box(const DragBounds& bounds, Index flights) {
-  Box out{VectorXd::Constant(shared + flights, -bounds.max_wind),
-          VectorXd::Constant(shared + flights, bounds.max_wind)};
-  out.lower.head<shared>().setZero();
-  out.upper.head<2>().setConstant(infinity);
+constexpr double largest_roll_trim = 0.35;  // rad, beyond any autopilot that flies
+
+Box box(const DragBounds& bounds, const Places& places) {
+  Box out{VectorXd::Constant(places.size, -bounds.max_wind),
+          VectorXd::Constant(places.size, bounds.max_wind)};
+  out.lower(places.areas).setZero();
+  out.upper(places.areas).setConstant(infinity);
+  out.lower(linear) = 0;
   out.upper(linear) = bounds.max_linear_speed / (reference_speed + bounds.max_linear_speed);
+  for (const std::vector<Index>& own : places.of_flight) {
+    if (own.size() <= 4) continue;
+    out.lower(own[6]) = -largest_roll_trim;
+    out.upper(own[6]) = largest_roll_trim;
+  }
   return out;
 }
 
-struct LocalDrag {
-  AirframeDrag law;
-  double wind;
-};
+/// A_f, A_t, j, w, A_s, c and the trim, as far as a flight has them; else neutral.
+using Local = Eigen::Matrix<double, 7, 1>;
 
-LocalDrag local(const VectorXd& x, Index flight) {
-  return {{x(front), x(top), x(linear), 0}, x(shared + flight)};
+Local local(const VectorXd& x, const std::vector<Index>& places) {
+  Local own = Local::Zero();
+  own.head(Index(places.size())) = x(places);
+  return own;
 }
 
-/// One row of J, by A_f, A_t, j and the wind, and the residual.
+/// One row of J by the parameters of a flight, and the residual.
 struct Row {
-  Eigen::Vector4d slopes;
-  double residual;
+  Local slopes = Local::Zero();
+  double residual = 0;
 };
 
-inline Row row_at(const Sample& s, double k, const LocalDrag& drag) {
-  const AirframeDragSlopes d =
-      airframe_drag_slopes(drag.law, 2 * k, s.speed - drag.wind, s.cosine, s.sine);
-  return {{d.by_front_area, d.by_top_area, d.by_linear_speed, -d.by_airspeed},
-          s.observed - d.force};
+/// m/s, by the drone's own axes.
+struct Airspeed {
+  double ahead;
+  double aside;
+};
+
+inline Airspeed airspeed(const Sample& s, const Local& p) {
+  const double c = s.ahead;
+  const double h = s.right_of_heading;
+  return {s.forward.speed - p[3] * c - p[5] * h, s.right_speed - p[5] * c + p[3] * h};
 }
 
-/// Where the columns of a flight's rows stand among all parameters.
-std::array<Index, 4> places(std::size_t flight) {
-  return {front, top, linear, shared + static_cast<Index>(flight)};
+inline Row forward_row(const Sample& s, double k, const Local& p) {
+  const Reading& r = s.forward;
+  const Airspeed u = airspeed(s, p);
+  const double c = s.ahead;
+  const double h = s.right_of_heading;
+  const AirframeDragSlopes d =
+      airframe_drag_slopes({p[0], p[1], p[2], 0}, 2 * k, u.ahead, u.aside, r.cosine, r.sine);
+  return {{d.by_front_area, d.by_top_area, d.by_linear_speed, d.by_across * h - d.by_along * c, 0,
+           -d.by_along * h - d.by_across * c, 0},
+          r.observed - d.force};
+}
+
+/// Of a flight of both axes.
+inline Row right_row(const Sample& s, double k, const Local& p) {
+  const Reading& r = s.right;
+  const Airspeed u = airspeed(s, p);
+  const double c = s.ahead;
+  const double h = s.right_of_heading;
+  const AirframeDragSlopes d =
+      airframe_drag_slopes({p[4], p[1], p[2], 0}, 2 * k, u.aside, u.ahead, r.cosine, r.sine);
+  return {{0, d.by_top_area, d.by_linear_speed, d.by_along * h - d.by_across * c, d.by_front_area,
+           -d.by_along * c - d.by_across * h, s.lift},
+          r.observed - d.force - s.lift * p[6]};
+}
+
+/// The rows of a sample, one or two.
+template <typename Use>
+void for_rows(const Samples& flight, std::size_t i, double k, const Local& p, const Use& use) {
+  use(forward_row(flight.all[i], k, p));
+  if (flight.both_axes) use(right_row(flight.all[i], k, p));
 }
 
 struct NormalEquations {
@@ -181,20 +279,33 @@ struct NormalEquations {
   double sse = 0;
 };
 
-NormalEquations normal_equations(const std::vector<Samples>& flights, double k, const VectorXd& x) {
+NormalEquations normal_equations(const std::vector<Samples>& flights, double k, const VectorXd& x,
+                                 const Places& places) {
   NormalEquations out{MatrixXd::Zero(x.size(), x.size()), VectorXd::Zero(x.size()), 0};
-  for (std::size_t f = 0; f < flights.size(); ++f) {
-    const LocalDrag drag = local(x, static_cast<Index>(f));
-    Eigen::Matrix4d h = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d g = Eigen::Vector4d::Zero();
-    for (const Sample& s : flights[f]) {
-      const Row r = row_at(s, k, drag);
-      h += r.slopes * r.slopes.transpose();
-      g += r.slopes * r.residual;
-      out.sse += r.residual * r.residual;
+  const auto add = [&out](const std::vector<Samples>& of, std::size_t f, double density_over_mass,
+                          const std::vector<Index>& own, const Local& p, auto columns) {
+    constexpr int size = decltype(columns)::value;
+    Eigen::Matrix<double, size, size> h = Eigen::Matrix<double, size, size>::Zero();
+    Eigen::Matrix<double, size, 1> g = Eigen::Matrix<double, size, 1>::Zero();
+    for (std::size_t i = 0; i < of[f].size(); ++i) {
+      for_rows(of[f], i, density_over_mass, p, [&](const Row& r) {
+        const auto slopes = r.slopes.template head<size>();
+        h += slopes * slopes.transpose();
+        g += slopes * r.residual;
+        out.sse += r.residual * r.residual;
+      });
     }
-    out.h(places(f), places(f)) += h;
-    out.g(places(f)) += g;
+    out.h(own, own) += h;
+    out.g(own) += g;
+  };
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    const std::vector<Index>& own = places.of_flight[f];
+    const Local p = local(x, own);
+    if (flights[f].both_axes) {
+      add(flights, f, k, own, p, std::integral_constant<int, 7>());
+    } else {
+      add(flights, f, k, own, p, std::integral_constant<int, 4>());
+    }
   }
   return out;
 }
@@ -218,10 +329,11 @@ struct Point {
   NormalEquations in_x;
 };
 
-Point point_at(const std::vector<Samples>& flights, double k, const VectorXd& y) {
-  Point p{y, unstraightened(y), {}, {}};
-  p.in_x = normal_equations(flights, k, p.x);
-  const MatrixXd t = straightening_jacobian(y);
+Point point_at(const std::vector<Samples>& flights, double k, const VectorXd& y,
+               const Places& places) {
+  Point p{y, unstraightened(y, places), {}, {}};
+  p.in_x = normal_equations(flights, k, p.x, places);
+  const MatrixXd t = straightening_jacobian(y, places);
   p.in_y = {t.transpose() * p.in_x.h * t, t.transpose() * p.in_x.g, p.in_x.sse};
   return p;
 }
@@ -237,9 +349,9 @@ struct Minimum {
 
 /// Levenberg and Marquardt's damping on the free parameters, each step projected onto the box. Own
 /// code because Eigen's unsupported module knows no bounds and wants the whole Jacobian, whose
-/// decomposition costs more than this problem: three shared parameters and a diagonal block.
+/// decomposition costs more than this problem: a few shared parameters and a diagonal block.
 Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& start,
-                 const Box& within) {
+                 const Places& places, const Box& within) {
   constexpr int most_iterations = 200;  // 5 to 10 are used; the rest is for a start from afar
   // A step this small against every standard error is far below anything printed, and still lowers
   // the sum of squares by more than its rounding error (1e-8/N against 1e-16).
@@ -251,14 +363,15 @@ Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& 
   double count = 0;
   double power = 0;
   for (const auto& flight : flights) {
-    count += static_cast<double>(flight.size());
-    for (const Sample& s : flight) power += s.observed * s.observed;
+    count += static_cast<double>(flight.rows());
+    for (const Sample& s : flight.all) power += s.forward.observed * s.forward.observed;
   }
   const double freedom = count - static_cast<double>(start.size());
 
   Minimum out;
   Point best =
-      point_at(flights, k, straightened(start).cwiseMax(within.lower).cwiseMin(within.upper));
+      point_at(flights, k,
+               straightened(start, places).cwiseMax(within.lower).cwiseMin(within.upper), places);
   double damping = 1e-4;
   while (out.iterations < most_iterations && damping < most_damping) {
     ++out.iterations;
@@ -277,7 +390,7 @@ Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& 
     const bool small =
         moved.dot(best.in_y.h * moved) <=
         std::max(negligible * negligible * best.in_y.sse / freedom, rounding * rounding * power);
-    Point next = point_at(flights, k, y);
+    Point next = point_at(flights, k, y, places);
     if (next.in_y.sse < best.in_y.sse) {
       best = std::move(next);
       damping = std::max(damping / 10, least_damping);
@@ -306,29 +419,31 @@ Minimum minimise(const std::vector<Samples>& flights, double k, const VectorXd& 
 Samples thinned(const Samples& samples, std::size_t count) {
   Samples few;
   const std::size_t stride = 1 + samples.size() / count;
-  for (std::size_t i = 0; i < samples.size(); i += stride) few.push_back(samples[i]);
+  for (std::size_t i = 0; i < samples.size(); i += stride) few.all.push_back(samples.all[i]);
   return few;
 }
 
 /// The best of descents from winds all over their range: in all but the wind the straightened model
-/// is linear or nearly so.
+/// is linear or nearly so. The forward axis is enough for that.
 VectorXd start_of(const Samples& flight, double k, const DragBounds& bounds) {
   constexpr double widest_step = 4;  // m/s, about half of the speeds over which the model bends
   const auto steps = static_cast<int>(std::ceil(bounds.max_wind / widest_step));
   const std::vector<Samples> few{thinned(flight, 200)};
+  const Places places(few);
   Minimum best;
   for (int i = -steps; i <= steps; ++i) {
     const VectorXd start{{0, 0, 1, bounds.max_wind * i / steps}};
-    Minimum found = minimise(few, k, start, box(bounds, 1));
+    Minimum found = minimise(few, k, start, places, box(bounds, places));
     if (best.x.size() == 0 || found.at.sse < best.at.sse) best = std::move(found);
   }
   return best.x;
 }
 
 /// Each flight's own wind, and the mean of what the flights take for what they share.
-VectorXd joint_start(const std::vector<Samples>& flights, double k, const DragBounds& bounds) {
+VectorXd joint_start(const std::vector<Samples>& flights, double k, const DragBounds& bounds,
+                     const Places& places) {
   const auto count = static_cast<Index>(flights.size());
-  VectorXd start = VectorXd::Zero(shared + count);
+  VectorXd start = VectorXd::Zero(places.size);
   for (Index f = 0; f < count; ++f) {
     const VectorXd own = start_of(flights[static_cast<std::size_t>(f)], k, bounds);
     start.head<shared>() += own.head<shared>() / static_cast<double>(count);
@@ -339,11 +454,25 @@ VectorXd joint_start(const std::vector<Samples>& flights, double k, const DragBo
 
 // ---- errors and quality ----
 
-std::vector<std::string> parameter_names(std::size_t flights) {
-  std::vector<std::string> names{"front_area_m2", "top_area_m2", "linear_m_s"};
-  if (flights == 1) names.emplace_back("wind_m_s");
-  for (std::size_t f = 0; flights > 1 && f < flights; ++f) {
-    names.push_back(fmt::format("wind_m_s[{}]", f));
+std::vector<std::string> parameter_names(const Places& places) {
+  const std::size_t flights = places.of_flight.size();
+  const auto of_flight = [flights](const char* name, std::size_t f) {
+    return flights > 1 ? fmt::format("{}[{}]", name, f) : name;
+  };
+  std::vector<std::string> names(static_cast<std::size_t>(places.size));
+  const auto name = [&names](Index place, std::string words) {
+    names[static_cast<std::size_t>(place)] = std::move(words);
+  };
+  name(front, "front_area_m2");
+  name(top, "top_area_m2");
+  name(linear, "linear_m_s");
+  for (std::size_t f = 0; f < flights; ++f) {
+    const std::vector<Index>& own = places.of_flight[f];
+    name(own[3], of_flight("wind_m_s", f));
+    if (own.size() <= 4) continue;
+    name(own[4], "side_area_m2");
+    name(own[5], of_flight("crosswind_m_s", f));
+    name(own[6], of_flight("roll_trim_rad", f));
   }
   return names;
 }
@@ -387,20 +516,28 @@ std::vector<double> flatten(const MatrixXd& symmetric) {
   return {symmetric.data(), symmetric.data() + symmetric.size()};
 }
 
-/// Residuals and scores J_t·r_t of one flight, the latter in rows of four.
+/// Residuals and scores J_t·r_t of one flight, the latter in rows of `columns`, of both axes their
+/// sum.
 struct Scores {
   std::vector<double> residuals;
+  std::vector<double> right_residuals;
   std::vector<double> rows;
 };
 
-Scores scores_of(const Samples& samples, double k, const LocalDrag& drag) {
+Scores scores_of(const Samples& samples, double k, const Local& p, std::size_t columns) {
   Scores out;
   out.residuals.reserve(samples.size());
-  out.rows.reserve(4 * samples.size());
-  for (const Sample& s : samples) {
-    const Row r = row_at(s, k, drag);
+  out.rows.reserve(columns * samples.size());
+  for (const Sample& s : samples.all) {
+    const Row r = forward_row(s, k, p);
+    Local score = r.slopes * r.residual;
     out.residuals.push_back(r.residual);
-    for (const double slope : r.slopes) out.rows.push_back(slope * r.residual);
+    if (samples.both_axes) {
+      const Row right = right_row(s, k, p);
+      score += right.slopes * right.residual;
+      out.right_residuals.push_back(right.residual);
+    }
+    out.rows.insert(out.rows.end(), score.begin(), score.begin() + Index(columns));
   }
   return out;
 }
@@ -412,22 +549,27 @@ Scores scores_of(const Samples& samples, double k, const LocalDrag& drag) {
 /// exact.
 VectorXd differentiation_correction(std::span<const Observations> flights,
                                     const std::vector<Samples>& samples, double k,
-                                    const Minimum& minimum, const MatrixXd& inverse) {
+                                    const Minimum& minimum, const Places& places,
+                                    const MatrixXd& inverse) {
   VectorXd pull = VectorXd::Zero(minimum.x.size());
   for (std::size_t f = 0; f < flights.size(); ++f) {
     const Observations& flight = flights[f];
-    const LocalDrag drag = local(minimum.x, static_cast<Index>(f));
-    std::vector<double> predicted = flight.forward_acceleration;
-    for (std::size_t i = 0; i < flight.size(); ++i) {
-      predicted[i] += row_at(samples[f][i], k, drag).residual;
-    }
-    for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
-      const double before = flight.time[i] - flight.time[i - 1];
-      const double after = flight.time[i + 1] - flight.time[i];
-      if (before > 2 * after || after > 2 * before) continue;
-      const double error = (predicted[i - 1] - 2 * predicted[i] + predicted[i + 1]) / 6;
-      pull(places(f)) += error * row_at(samples[f][i], k, drag).slopes;
-    }
+    const std::vector<Index>& own = places.of_flight[f];
+    const Local p = local(minimum.x, own);
+    const auto add_axis = [&](const auto& row_at, std::vector<double> predicted) {
+      for (std::size_t i = 0; i < flight.size(); ++i) {
+        predicted[i] += row_at(samples[f].all[i], k, p).residual;
+      }
+      for (std::size_t i = 1; i + 1 < flight.size(); ++i) {
+        const double before = flight.time[i] - flight.time[i - 1];
+        const double after = flight.time[i + 1] - flight.time[i];
+        if (before > 2 * after || after > 2 * before) continue;
+        const double error = (predicted[i - 1] - 2 * predicted[i] + predicted[i + 1]) / 6;
+        pull(own) += error * row_at(samples[f].all[i], k, p).slopes.head(Index(own.size()));
+      }
+    };
+    add_axis(forward_row, flight.forward_acceleration);
+    if (samples[f].both_axes) add_axis(right_row, flight.right_acceleration);
   }
   return inverse * pull;
 }
@@ -442,6 +584,15 @@ double quadratic_form(std::span<const double> a, std::span<const double> matrix)
 
 AirframeDrag DragFit::drag() const {
   return {front_area().estimate.value, top_area().estimate.value, linear_speed().estimate.value, 0};
+}
+
+const FittedParameter* DragFit::find(std::string_view name) const {
+  const auto found = std::ranges::find(parameters, name, &FittedParameter::name);
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+const FittedParameter* DragFit::find(std::string_view name, std::size_t flight) const {
+  return find(wind().size() > 1 ? fmt::format("{}[{}]", name, flight) : std::string(name));
 }
 
 double DragFit::correlation(std::size_t i, std::size_t j) const {
@@ -487,22 +638,24 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   demand_speed_spread(flights);
 
   std::vector<Samples> samples;
-  for (const auto& flight : flights) samples.push_back(to_samples(flight));
+  for (const auto& flight : flights) samples.push_back(to_samples(flight, conditions.gravity));
+  const Places places(samples);
   const double k = conditions.air_density / (2 * conditions.mass);
-  const Box within = box(options.bounds, static_cast<Index>(flights.size()));
+  const Box within = box(options.bounds, places);
 
   VectorXd start;
   if (options.start) {
-    start.resize(within.lower.size());
+    start = VectorXd::Zero(places.size);
     start.head<shared>() << options.start->front_area, options.start->top_area,
         options.start->linear_speed;
-    start.tail(static_cast<Index>(flights.size())) =
+    start.segment(shared, static_cast<Index>(flights.size())) =
         Eigen::Map<const VectorXd>(options.start->wind.data(), static_cast<Index>(flights.size()));
   } else {
-    start = joint_start(samples, k, options.bounds);
+    start = joint_start(samples, k, options.bounds, places);
   }
-  const Minimum minimum = minimise(samples, k, start, within);
-  const auto names = parameter_names(flights.size());
+  if (places.areas.size() > 2) start(places.areas[2]) = start(front);
+  const Minimum minimum = minimise(samples, k, start, places, within);
+  const auto names = parameter_names(places);
   demand_drag(minimum.x);
   demand_separate_effects(minimum, names);
 
@@ -512,41 +665,51 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   fit.converged = minimum.converged;
 
   const MatrixXd inverse = free_inverse(minimum);
-  const VectorXd undone = differentiation_correction(flights, samples, k, minimum, inverse);
+  const VectorXd undone = differentiation_correction(flights, samples, k, minimum, places, inverse);
   fit.differentiation_correction.assign(undone.data(), undone.data() + undone.size());
 
   // Residual statistics and the honest covariance, flight by flight.
   const auto size = minimum.x.size();
   FitQuality& quality = fit.quality;
-  double sum = 0;
-  double sum_of_squares = 0;
+  std::vector<double> drags;  // of all rows
   for (const auto& flight : samples) {
     quality.samples += flight.size();
-    for (const Sample& s : flight) sum += s.observed;
+    fit.wind_heading.push_back(flight.wind_heading);
+    for (const Sample& s : flight.all) {
+      drags.push_back(s.forward.observed);
+      if (flight.both_axes) drags.push_back(s.right.observed);
+    }
   }
-  const auto count = static_cast<double>(quality.samples);
+  const auto count = static_cast<double>(drags.size());
   const double correction = count / (count - static_cast<double>(minimum.free.size()));
   for (std::size_t f = 0; f < samples.size(); ++f) {
-    const LocalDrag drag = local(minimum.x, static_cast<Index>(f));
-    const Scores scores = scores_of(samples[f], k, drag);
+    const std::vector<Index>& own = places.of_flight[f];
+    const Local p = local(minimum.x, own);
+    const Scores scores = scores_of(samples[f], k, p, own.size());
     const auto length = static_cast<double>(samples[f].size());
     const double effective = effective_sample_size(scores.residuals);
     const std::size_t terms = cosine_terms(length, effective);
-    const auto omega = long_run_covariance(scores.rows, 4, terms);
+    const auto omega = long_run_covariance(scores.rows, own.size(), terms);
 
     MatrixXd middle = MatrixXd::Zero(size, size);
-    middle(places(f), places(f)) = Eigen::Map<const Eigen::Matrix4d>(omega.data()) * length;
+    const auto columns = static_cast<Index>(own.size());
+    middle(own, own) = Eigen::Map<const MatrixXd>(omega.data(), columns, columns) * length;
     fit.covariance_by_flight.push_back(flatten(inverse * middle * inverse * correction));
     fit.degrees_of_freedom_by_flight.push_back(static_cast<double>(terms));
 
-    quality.effective_samples += effective;
-    quality.residual_lag1_autocorrelation += autocorrelation(scores.residuals, 1) * length / count;
-    for (double r : scores.residuals) quality.mae += std::abs(r) / count;
-    for (const Sample& s : samples[f]) {
-      sum_of_squares += (s.observed - sum / count) * (s.observed - sum / count);
-      fit.max_airspeed = std::max(fit.max_airspeed, std::abs(s.speed - drag.wind));
+    for (const std::vector<double>* residuals : {&scores.residuals, &scores.right_residuals}) {
+      if (residuals->empty()) continue;
+      quality.effective_samples += effective_sample_size(*residuals);
+      quality.residual_lag1_autocorrelation += autocorrelation(*residuals, 1) * length / count;
+      for (double r : *residuals) quality.mae += std::abs(r) / count;
+    }
+    for (const Sample& s : samples[f].all) {
+      fit.max_airspeed = std::max(fit.max_airspeed, std::abs(airspeed(s, p).ahead));
     }
   }
+  const double mean = std::accumulate(drags.begin(), drags.end(), 0.0) / count;
+  double sum_of_squares = 0;
+  for (const double drag : drags) sum_of_squares += (drag - mean) * (drag - mean);
   quality.rmse = std::sqrt(minimum.at.sse / count);
   quality.r_squared = sum_of_squares > 0 ? 1 - minimum.at.sse / sum_of_squares : 0;
   fit.covariance_independent = flatten(inverse * (minimum.at.sse / count * correction));
@@ -577,7 +740,7 @@ std::optional<SteadyDrag> steady_drag(const DragFit& fit, double airspeed) {
   // Implicit derivative of weight·t = factor·(A_f + A_t·t)/√(1 + t²).
   const double secant = std::sqrt(1 + t * t);
   const AirframeDragSlopes d =
-      airframe_drag_slopes(drag, density, airspeed, 1 / secant, t / secant);
+      airframe_drag_slopes(drag, density, airspeed, 0, 1 / secant, t / secant);
   const double stiffness =
       weight - factor * (drag.top_area - drag.front_area * t) / (secant * secant * secant);
   std::vector<double> gradient(fit.parameters.size(), 0.0);
@@ -618,7 +781,7 @@ Observations observe_part(const FlightLog& log, const DragIdentificationOptions&
   const bool chosen = options.from || options.to;
   const SampleRange range = chosen ? select_range(log, options.from, options.to) : moving_part(log);
   const double gravity = options.conditions.gravity;
-  Observations flight = observe(log, range, options.pitch_offset, gravity);
+  Observations flight = observe(log, range, options.pitch_offset, gravity, options.kinematics);
   check_flight_units(flight, gravity);
   return flight;
 }

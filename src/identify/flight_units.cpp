@@ -5,7 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identify/statistics.hpp"
+
 namespace tethercalc {
+namespace {
+
+/// Of nine tenths of the values.
+double spread(const std::vector<double>& values) {
+  return values.empty() ? 0 : quantile(values, 0.95) - quantile(values, 0.05);
+}
+
+}  // namespace
 
 std::vector<double> yaw_rate(const Observations& flight) {
   std::vector<double> rate(flight.size(), 0.0);
@@ -43,6 +53,29 @@ std::optional<Leaning> leaning_over_a_second(const Observations& flight, double 
   if (!(leaning > 0 && measured > 0)) return std::nullopt;
   return Leaning{both / std::sqrt(leaning * measured), both / leaning,
                  std::sqrt(leaning / measured)};
+}
+
+double mean_heading(const Observations& flight) {
+  double north = 0;
+  double east = 0;
+  for (const double yaw : flight.yaw) {
+    north += std::cos(yaw);
+    east += std::sin(yaw);
+  }
+  return std::atan2(east, north);
+}
+
+bool turns(const Observations& flight) {
+  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
+  return spread(flight.yaw) > apart;
+}
+
+bool shows_both_axes(const Observations& flight, double gravity) {
+  // m/s: as of the forward speed, below which a fit takes drag and wind for each other.
+  constexpr double flown_to_the_side = 3;
+  const std::optional<Leaning> aside = leaning_over_a_second(flight, gravity, Axis::right);
+  return aside && aside->correlation > leans_to_speed_up &&
+         (turns(flight) || spread(flight.right_speed) > flown_to_the_side);
 }
 
 void check_flight_units(const Observations& flight, double gravity) {

@@ -32,6 +32,16 @@ inline constexpr double leans_to_speed_up = 0.5;
                                                            double gravity,
                                                            Axis axis = Axis::forward);
 
+/// rad in (−π, π], of the whole flight.
+[[nodiscard]] double mean_heading(const Observations& flight);
+
+/// Whether headings a good part of a turn apart are flown, each for some time.
+[[nodiscard]] bool turns(const Observations& flight);
+
+/// Whether the acceleration to the right tells of drag: it follows the roll, and the flight turns
+/// or is flown to the side, so that it holds more than the roll's own errors.
+[[nodiscard]] bool shows_both_axes(const Observations& flight, double gravity);
+
 /// A drone that leans forward by θ gains about g·tan θ of forward acceleration, less what drag
 /// takes of it within a second: of the changes over one second (`leaning_over_a_second`) the slope
 /// is 0.6 to 0.9 in real and in simulated flights.

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "identify/flight_units.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
@@ -236,7 +237,7 @@ double pitch_offset_from_hover(const FlightLog& hover) {
 }
 
 Observations observe(const FlightLog& log, const SampleRange& range, double pitch_offset,
-                     double gravity) {
+                     double gravity, Kinematics kinematics) {
   validate(log);
   const std::size_t size = log.time.size();
   if (range.first >= range.last || range.last > size) {
@@ -261,6 +262,7 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
   };
 
   Observations out;
+  out.kinematics = kinematics;
   for (std::size_t i = range.first; i < range.last; ++i) {
     const Neighbours use{i > 0 && connected(i - 1), i + 1 < size && connected(i)};
     if (!use.before && !use.after) continue;
@@ -282,10 +284,21 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
     out.forward_acceleration.push_back(derivative(log.time, forward, i, use));
     out.right_acceleration.push_back(derivative(log.time, right, i, use));
     out.down_acceleration.push_back(down_acceleration);
-    out.expected_acceleration.push_back((gravity - down_acceleration) * std::tan(tilt) /
-                                        std::cos(log.roll[i]));
+    const double published = kinematics == Kinematics::published ? std::cos(log.roll[i]) : 1;
+    out.expected_acceleration.push_back((gravity - down_acceleration) * std::tan(tilt) / published);
   }
   return out;
+}
+
+std::vector<double> forward_drag_over_mass(const Observations& flight) {
+  const double turned = flight.kinematics == Kinematics::exact ? 1 : 0;
+  const std::vector<double> turning = yaw_rate(flight);
+  std::vector<double> drag(flight.size());
+  for (std::size_t i = 0; i < drag.size(); ++i) {
+    drag[i] = flight.expected_acceleration[i] - flight.forward_acceleration[i] +
+              turned * turning[i] * flight.right_speed[i];
+  }
+  return drag;
 }
 
 }  // namespace tethercalc

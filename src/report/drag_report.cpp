@@ -1,6 +1,7 @@
 #include "tethercalc/report/drag_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +24,19 @@ ordered_json estimate_json(const Estimate& e, double unit = 1) {
 
 std::string_view bound_name(Bound bound) { return bound == Bound::lower ? "lower" : "upper"; }
 
-ordered_json parameter_json(const FittedParameter& parameter) {
-  ordered_json out = estimate_json(parameter.estimate);
+ordered_json parameter_json(const FittedParameter& parameter, double unit = 1) {
+  ordered_json out = estimate_json(parameter.estimate, unit);
   if (parameter.at_bound != Bound::none) out["at_bound"] = bound_name(parameter.at_bound);
+  return out;
+}
+
+/// Of each flight, null where it does not show it.
+ordered_json own_json(const DragFit& fit, std::string_view name, double unit) {
+  ordered_json out = ordered_json::array();
+  for (std::size_t f = 0; f < fit.wind().size(); ++f) {
+    const FittedParameter* own = fit.find(name, f);
+    out.push_back(own == nullptr ? ordered_json(nullptr) : parameter_json(*own, unit));
+  }
   return out;
 }
 
@@ -45,9 +56,12 @@ bool automatic(const DragIdentification& result) {
   return !result.options.from && !result.options.to;
 }
 
+constexpr std::string_view angle = "roll_trim_rad";  ///< the only one, for people in degrees
+
 /// Areas as they are written in print, such as "1.492e-02"; the rest plainly.
 std::string parameter_number(const FittedParameter& parameter, double value) {
   if (!std::isfinite(value)) return "–";
+  if (parameter.name.starts_with(angle)) value /= unit::degree;
   const bool area = parameter.name.ends_with("area_m2");
   return area && value != 0 ? fmt::format("{:.3e}", value) : significant(value, 4);
 }
@@ -59,9 +73,11 @@ std::string percent_of(double error, double value) {
 /// "wind_m_s[1]", as results name the second log's wind, for readers who count from one.
 std::string title_of(const FittedParameter& parameter) {
   const std::size_t bracket = parameter.name.find('[');
-  if (bracket == std::string::npos) return parameter.name;
+  const std::string name = parameter.name.substr(0, bracket);
+  const std::string title = name == angle ? "roll_trim_deg" : name;
+  if (bracket == std::string::npos) return title;
   const int index = std::stoi(parameter.name.substr(bracket + 1));
-  return fmt::format("{}, log {}", parameter.name.substr(0, bracket), index + 1);
+  return fmt::format("{}, log {}", title, index + 1);
 }
 
 std::string range_sentence(const DragIdentification& result) {
@@ -87,6 +103,27 @@ const SteadyDrag* best_known(const std::vector<SteadyDrag>& table) {
 
 /// Force that is known this well, relative, may be called well determined.
 constexpr double well_determined = 0.05;
+
+/// deg in [0, 360).
+double compass(double heading) {
+  const double degrees = heading / unit::degree;
+  return degrees < 0 ? degrees + 360 : degrees;
+}
+
+std::string wind_sentence(const DragFit& fit) {
+  std::vector<std::string> headings;
+  for (std::size_t f = 0; f < fit.wind_heading.size(); ++f) {
+    if (!fit.wind_heading[f]) continue;
+    headings.push_back(fmt::format(
+        "{:.0f}°{}", compass(*fit.wind_heading[f]),
+        fit.wind_heading.size() > 1 ? fmt::format(" in log {}", f + 1) : std::string()));
+  }
+  if (headings.empty()) return "";
+  return fmt::format(
+      "The wind blows over ground: wind_m_s along the mean heading ({} from north over east), "
+      "crosswind_m_s to the right of it.",
+      fmt::join(headings, ", "));
+}
 
 std::string entangled_sentence(const DragFit& fit) {
   const std::vector<EntangledPair> pairs = entangled_pairs(fit);
@@ -171,7 +208,13 @@ ordered_json drag_json(const DragIdentification& result) {
   out["front_area_m2"] = parameter_json(fit.front_area());
   out["top_area_m2"] = parameter_json(fit.top_area());
   out["linear_m_s"] = parameter_json(fit.linear_speed());
-  out["wind_m_s"] = json_list(fit.wind(), parameter_json);
+  out["wind_m_s"] =
+      json_list(fit.wind(), [](const FittedParameter& wind) { return parameter_json(wind); });
+  if (const FittedParameter* side = fit.find("side_area_m2")) {
+    out["side_area_m2"] = parameter_json(*side);
+    out["crosswind_m_s"] = own_json(fit, "crosswind_m_s", 1);
+    out["roll_trim_deg"] = own_json(fit, "roll_trim_rad", unit::degree);
+  }
   out["rmse_m_s2"] = quality.rmse;
   out["mae_m_s2"] = quality.mae;
   out["r_squared"] = quality.r_squared;
@@ -190,11 +233,15 @@ ordered_json drag_json(const DragIdentification& result) {
   out["air_density_kg_m3"] = fit.conditions.air_density;
   out["gravity_m_s2"] = fit.conditions.gravity;
   out["pitch_offset_deg"] = result.options.pitch_offset / unit::degree;
+  out["kinematics"] = result.options.kinematics == Kinematics::published ? "published" : "exact";
   out["range"] = automatic(result) ? "automatic" : "given";
   out["flights"] = json_list(result.flights, [](const Observations& flight) {
     return ordered_json{
         {"from_s", flight.time.front()}, {"to_s", flight.time.back()}, {"samples", flight.size()}};
   });
+  for (std::size_t f = 0; f < fit.wind_heading.size(); ++f) {
+    if (fit.wind_heading[f]) out["flights"][f]["wind_heading_deg"] = compass(*fit.wind_heading[f]);
+  }
   out["table"] = json_list(steady_drag_table(fit), [](const SteadyDrag& row) {
     return ordered_json{{"airspeed_m_s", row.airspeed},
                         {"drag_force_N", estimate_json(row.force)},
@@ -242,7 +289,11 @@ DragSentences drag_sentences(const DragIdentification& result) {
                              significant(fit.conditions.mass / unit::gram, 4),
                              significant(fit.conditions.air_density, 4),
                              fixed(result.options.pitch_offset / unit::degree, 3))};
-  out.quality = {entangled_sentence(fit), force_sentence(steady_drag_table(fit))};
+  if (result.options.kinematics == Kinematics::published) {
+    out.made_of.emplace_back("Fitted as published: one axis, expected acceleration over cos φ.");
+  }
+  out.quality = {wind_sentence(fit), entangled_sentence(fit),
+                 force_sentence(steady_drag_table(fit))};
   std::erase(out.quality, "");
   for (std::string& warning : drag_warnings(fit)) out.quality.push_back(std::move(warning));
   out.quality.push_back(residual_sentence(fit.quality));

@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t most_samples = 700;
 
-std::vector<double> difference(std::span<const double> a, std::span<const double> b) {
-  std::vector<double> out(a.size());
-  std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
-  return out;
-}
-
 std::string outline_block(std::string_view name, std::span<const double> time,
                           std::span<const double> values) {
   const gp::Series drawn = gp::outline(time, values);
@@ -45,12 +39,16 @@ std::vector<DragSample> samples_of(const DragStudy& drag) {
   for (std::size_t f = 0; f < drag.identified.flights.size(); ++f) {
     const Observations& flight = drag.identified.flights[f];
     const double wind = drag.identified.fit.wind()[f].estimate.value;
+    const FittedParameter* crosswind = drag.identified.fit.find("crosswind_m_s", f);
+    const double blown = crosswind == nullptr ? 0 : crosswind->estimate.value;
+    const bool exact = flight.kinematics == Kinematics::exact;
+    const std::vector<double> over_mass = forward_drag_over_mass(flight);
     for (std::size_t i = 0; i < flight.size(); ++i) {
       const double airspeed = flight.forward_speed[i] - wind;
-      const double measured =
-          known.mass * (flight.expected_acceleration[i] - flight.forward_acceleration[i]);
-      const double fitted =
-          airframe_drag_force(parameters, known.air_density, airspeed, std::tan(flight.tilt[i]));
+      const double aside = exact ? flight.right_speed[i] - blown : 0;
+      const double measured = known.mass * over_mass[i];
+      const double fitted = airframe_drag_along(parameters, known.air_density, airspeed, aside,
+                                                std::tan(flight.tilt[i]));
       out.push_back({airspeed, flight.tilt[i] / unit::degree, measured, fitted, measured - fitted});
     }
   }
@@ -118,8 +116,7 @@ std::string samples_words(std::size_t step) {
 
 Figure log_figure(const std::string& name, const Observations& flight) {
   Figure figure{.id = "log", .title = "Accelerations of " + name, .description = {}, .lines = 43};
-  const std::vector<double> drag =
-      difference(flight.expected_acceleration, flight.forward_acceleration);
+  const std::vector<double> drag = forward_drag_over_mass(flight);
   const gp::Range drags = gp::extent(drag);
   const gp::Range speeds = gp::extent(flight.forward_speed);
   figure.description = fmt::format(

@@ -516,9 +516,9 @@ TEST_CASE("the published fit comes out of the published log, DataFlash or CSV") 
   for (const char* name : {"data/x500-flight.bin", "data/x500-flight.csv"}) {
     const auto log = reference_file(name);
     if (!log) return;
-    const Ran run =
-        drag({log->string()}, {"--mass-g", "1549", "--from", "25%", "--to", "90%", "--air-density",
-                               "1.293", "--pitch-offset-deg", "1.4955439766569403"});
+    const Ran run = drag({log->string()}, {"--mass-g", "1549", "--from", "25%", "--to", "90%",
+                                           "--air-density", "1.293", "--pitch-offset-deg",
+                                           "1.4955439766569403", "--published-kinematics"});
     CHECK(run.exit_code == 0);
     // Beffert and Zell, Cable Optimization and Drag Estimation, section V-B.
     for (const char* printed : {"1.492e-02", "3.07 %", "1.368e-02", "3.18 %", "19.43", "4.35 %",

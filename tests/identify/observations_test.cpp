@@ -46,7 +46,7 @@ TEST_CASE("a nose-down drone is expected to accelerate forward") {
   CHECK(o.expected_acceleration[7] == Approx(9.81 * std::tan(0.2)));
 }
 
-TEST_CASE("climbing harder and rolling raise the thrust and with it the expected acceleration") {
+TEST_CASE("climbing harder raises the thrust and with it the expected acceleration, rolling not") {
   FlightLog log = still_log(20);
   for (std::size_t i = 0; i < 20; ++i) {
     log.pitch[i] = 0.1;
@@ -55,7 +55,26 @@ TEST_CASE("climbing harder and rolling raise the thrust and with it the expected
   }
   const Observations o = observe(log, whole(log), 0, 9.81);
   CHECK(o.down_acceleration[3] == Approx(-2));
-  CHECK(o.expected_acceleration[3] == Approx(-(9.81 + 2) * std::tan(0.1) / std::cos(0.3)));
+  // For yaw, pitch, roll in this order the thrust's direction is (tan θ, tan φ/cos θ, 1) up to its
+  // size; the published formula has 1/cos φ beside.
+  CHECK(o.expected_acceleration[3] == Approx(-(9.81 + 2) * std::tan(0.1)));
+  const Observations published = observe(log, whole(log), 0, 9.81, Kinematics::published);
+  CHECK(published.expected_acceleration[3] == Approx(-(9.81 + 2) * std::tan(0.1) / std::cos(0.3)));
+}
+
+TEST_CASE("what a turning frame carries from one speed into the other is no drag") {
+  // Straight north at 5 m/s while the yaw turns: no force acts.
+  FlightLog log = still_log(40);
+  for (std::size_t i = 0; i < 40; ++i) {
+    log.yaw[i] = 0.4 * (log.time[i] - log.time[0]);
+    log.north_velocity[i] = 5;
+  }
+  const Observations exact = observe(log, whole(log), 0);
+  const std::vector<double> drag = forward_drag_over_mass(exact);
+  // Second differences of a sine at 0.1 s: (0.04)²/6 of the 2 m/s² of the turn, 5e-4.
+  for (std::size_t i = 1; i + 1 < drag.size(); ++i) CHECK(drag[i] == Approx(0).margin(1e-3));
+  const Observations published = observe(log, whole(log), 0, 9.81, Kinematics::published);
+  CHECK(std::abs(forward_drag_over_mass(published)[30]) > 0.5);
 }
 
 TEST_CASE("the pitch offset is what a level drone reads") {

@@ -22,7 +22,8 @@ std::optional<FlightLog> published_log() {
 }
 
 Observations published_observations(const FlightLog& log) {
-  return observe(log, range_in_percent(log, 25, 90), 1.4955439766569403 * unit::degree);
+  return observe(log, range_in_percent(log, 25, 90), 1.4955439766569403 * unit::degree,
+                 standard_gravity, Kinematics::published);
 }
 
 constexpr DragFitConditions published_conditions{1.549, 1.293, standard_gravity};

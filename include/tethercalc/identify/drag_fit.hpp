@@ -63,9 +63,10 @@ enum class Bound { none, lower, upper };
 
 /// One fitted parameter.
 struct FittedParameter {
-  std::string name;   ///< "front_area_m2", "top_area_m2", "linear_m_s", "wind_m_s" or, of several
-                      ///< flights, "wind_m_s[0]", "wind_m_s[1]", …
-  Estimate estimate;  ///< SI
+  /// "front_area_m2", "top_area_m2", "linear_m_s", "side_area_m2"; "wind_m_s", "crosswind_m_s",
+  /// "roll_trim_rad" or, of several flights, "wind_m_s[0]", "wind_m_s[1]", …
+  std::string name;
+  Estimate estimate;             ///< SI
   Bound at_bound = Bound::none;  ///< not none: held there, without an error of its own
 };
 
@@ -83,7 +84,12 @@ struct FitQuality {
 /// The outcome of `fit_drag`.
 struct DragFit {
   DragFitConditions conditions;  ///< as given
-  /// A_f, A_t, j, then one wind a flight.
+  /// rad in (−π, π], from north over east, one a flight: where one of both axes turns, its wind
+  /// blows over ground, along this mean heading and to its right. Empty where the wind is told by
+  /// the axes of the drone.
+  std::vector<std::optional<double>> wind_heading;
+  /// A_f, A_t, j, then one wind a flight; where flights show both axes then A_s, and for each of
+  /// them the crosswind and the roll's trim.
   std::vector<FittedParameter> parameters;
   /// Covariance of the parameters (SI units, order of `parameters`), one matrix a flight, row after
   /// row: the part of the total that this flight's residuals cause. Zero for parameters at a bound.
@@ -110,8 +116,14 @@ struct DragFit {
   [[nodiscard]] const FittedParameter& linear_speed() const { return parameters[2]; }
   /// w, m/s, one a flight.
   [[nodiscard]] std::span<const FittedParameter> wind() const {
-    return std::span(parameters).subspan(3);
+    return std::span(parameters).subspan(3, covariance_by_flight.size());
   }
+  /// The parameter of this name, such as "side_area_m2" (A_s, m²) or "crosswind_m_s[1]"; null where
+  /// the flights do not show it.
+  [[nodiscard]] const FittedParameter* find(std::string_view name) const;
+  /// Of several flights the one of `flight`, from 0 on, such as its "crosswind_m_s"; of one flight
+  /// its own.
+  [[nodiscard]] const FittedParameter* find(std::string_view name, std::size_t flight) const;
 
   /// Correlation in [−1, 1] of parameters `i` and `j` under the honest covariance; 0 where either
   /// is at a bound.
@@ -119,7 +131,13 @@ struct DragFit {
 };
 
 /// Fits A_f, A_t, j, shared by all `flights`, and one wind a flight, by nonlinear least squares on
-/// forward acceleration: a = expected_acceleration − F_D/m.
+/// the drag over mass, `forward_drag_over_mass` = F_D/m, with the drag along the airspeed vector
+/// (`airframe_drag_along`). Flights that show both axes (they turn by 20° or more, or nine tenths
+/// of their speeds to the right span 3 m/s, and there they speed up as they roll) are fitted in
+/// both, and give the side area A_s in place of the front area to the side, a crosswind (m/s,
+/// motion of the air to the right of the heading) and the roll's trim (rad, what it reads in level
+/// flight). Observations of the published kinematics are fitted as published: one axis, and the
+/// airspeed along it alone.
 ///
 /// The start is deterministic: for each flight the best of short descents, on a few of its samples,
 /// from winds all over their range. From there a damped Gauss–Newton iteration within the bounds
@@ -180,10 +198,11 @@ struct EntangledPair {
 
 /// What the logs do not say.
 struct DragIdentificationOptions {
-  DragFitConditions conditions;     ///< mass, air density, gravity
-  double pitch_offset = 0;          ///< rad, what the log's pitch reads in level flight
-  std::optional<LogPosition> from;  ///< first of the samples to use, in every log
-  std::optional<LogPosition> to;    ///< last of them; with neither, the moving part is used
+  DragFitConditions conditions;               ///< mass, air density, gravity
+  double pitch_offset = 0;                    ///< rad, what the log's pitch reads in level flight
+  Kinematics kinematics = Kinematics::exact;  ///< published: reproduces the paper's digits
+  std::optional<LogPosition> from;            ///< first of the samples to use, in every log
+  std::optional<LogPosition> to;  ///< last of them; with neither, the moving part is used
 };
 
 /// A fit together with what it was made of.

@@ -47,6 +47,12 @@ struct SampleRange {
   bool operator==(const SampleRange&) const = default;
 };
 
+/// How attitude and speeds are turned into accelerations.
+enum class Kinematics {
+  exact,
+  published,  ///< as in the paper: see `observe` and `fit_drag`
+};
+
 /// Time series in the stabilised frame, which turns with the yaw but neither pitches nor rolls: its
 /// forward and right axes are horizontal, down is down. One element a sample in every vector.
 struct Observations {
@@ -63,6 +69,7 @@ struct Observations {
   std::vector<double> right_acceleration;     ///< m/s², rate of change of right_speed
   std::vector<double> down_acceleration;      ///< m/s²
   std::vector<double> expected_acceleration;  ///< m/s² forward if there were no drag
+  Kinematics kinematics = Kinematics::exact;  ///< of `expected_acceleration`
 
   /// Number of samples.
   [[nodiscard]] std::size_t size() const { return time.size(); }
@@ -119,10 +126,10 @@ struct LogPosition {
 ///   central differences of second order for the given, not necessarily even, times (the
 ///   three-point formula exact for parabolas), taken over the whole log, so that a bound of the
 ///   range is not an edge. No smoothing (paper section IV).
-/// - expected_acceleration = (g − a_D)·tanθ/cosφ with the roll φ: the thrust that carries the drone
-///   in height, leaning forward (paper eq. for a_ef, whose a_od is positive upward). For Euler
-///   angles in the order yaw, pitch, roll the factor 1/cosφ should not be there; it is kept as
-///   published. Within ±5° of roll it is 1 to 0.4 %.
+/// - expected_acceleration = (g − a_D)·tanθ: the thrust that carries the drone in height, leaning
+///   forward. So it is for Euler angles in the order yaw, pitch, roll, whatever the roll φ; the
+///   published one (paper eq. for a_ef, whose a_od is positive upward) divides by cosφ, within ±5°
+///   of roll at most 0.4 %.
 ///
 /// A step of more than three times the median one is a gap. Nothing is differentiated across it:
 /// the neighbours of a gap, like the ends of the log, get one-sided differences, and a sample alone
@@ -133,6 +140,12 @@ struct LogPosition {
 /// longer carries it, and where more than 1 % of the range is faster than 200 m/s: there the
 /// estimator has diverged.
 [[nodiscard]] Observations observe(const FlightLog& log, const SampleRange& range,
-                                   double pitch_offset, double gravity = standard_gravity);
+                                   double pitch_offset, double gravity = standard_gravity,
+                                   Kinematics kinematics = Kinematics::exact);
+
+/// Drag over mass, m/s², one element a sample: what leaning would give, `expected_acceleration`,
+/// less what forces give. A frame that turns carries the speed to the right into the forward one,
+/// which is no force and is taken off; not so in the published kinematics.
+[[nodiscard]] std::vector<double> forward_drag_over_mass(const Observations& flight);
 
 }  // namespace tethercalc

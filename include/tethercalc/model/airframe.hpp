@@ -47,26 +47,33 @@ struct AirframeDrag {
          effective_area(drag, tan_pitch);
 }
 
-/// `airframe_drag_force` with its derivatives.
+/// `airframe_drag_along` with its derivatives.
 struct AirframeDragSlopes {
   double force = 0;            ///< N
   double by_front_area = 0;    ///< N/m²
   double by_top_area = 0;      ///< N/m²
   double by_linear_speed = 0;  ///< N·s/m
-  double by_airspeed = 0;      ///< N·s/m
+  double by_along = 0;         ///< N·s/m
+  double by_across = 0;        ///< N·s/m
 };
 
 /// At a tilt with `cosine` = cos θ and `sine` = |sin θ|.
 [[nodiscard]] inline AirframeDragSlopes airframe_drag_slopes(const AirframeDrag& drag,
-                                                             double air_density, double airspeed,
-                                                             double cosine, double sine) {
-  const double speed = std::abs(airspeed);
-  const double asymmetry = airspeed < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
+                                                             double air_density, double along,
+                                                             double across, double cosine,
+                                                             double sine) {
+  const double speed = std::sqrt(along * along + across * across);
+  const double asymmetry = along < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
   const double k = 0.5 * air_density * (1 + asymmetry);
-  const double factor = std::copysign(area_force_factor(drag, air_density, airspeed), airspeed);
+  const double factor = k * (speed + drag.linear_speed) * along;
   const double area = drag.front_area * cosine + drag.top_area * sine;
-  return {area * factor, cosine * factor, sine * factor, k * area * airspeed,
-          k * area * (2 * speed + drag.linear_speed)};
+  const double direction = speed > 0 ? along / speed : 0;  // at rest the quadratic part is flat
+  return {area * factor,
+          cosine * factor,
+          sine * factor,
+          k * area * along,
+          k * area * (speed + drag.linear_speed + along * direction),
+          k * area * across * direction};
 }
 
 /// What `equilibrium_tan_pitch` balances.
