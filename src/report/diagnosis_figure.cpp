@@ -1,5 +1,7 @@
 #include "tethercalc/report/result_figures.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -65,6 +67,18 @@ struct Errors {
   std::string after;
 };
 
+/// Root mean square, without samples that are left out.
+double error_of(const std::vector<double>& measured, const std::vector<double>& predicted) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    if (!std::isfinite(predicted[i])) continue;
+    sum += (measured[i] - predicted[i]) * (measured[i] - predicted[i]);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
 Errors errors_of(const Diagnosis& d, std::size_t series) {
   const auto words = [](double value, const std::string& unit) {
     return significant(value, 3) + " " + unit;
@@ -73,7 +87,9 @@ Errors errors_of(const Diagnosis& d, std::size_t series) {
     const HoldoutComparison& c = d.further[series];
     return {words(c.base_rmse, c.unit), words(c.extended_rmse, c.unit)};
   }
-  return {words(d.base.holdout_rmse, d.unit), words(d.extended.holdout_rmse, d.unit)};
+  const ComparedSeries& s = d.compared[series];
+  return {words(error_of(s.measured, s.before), s.unit),
+          words(error_of(s.measured, s.after), s.unit)};
 }
 
 constexpr double compared_lines = 18;
@@ -187,6 +203,58 @@ std::string budget_panel(const gp::Layout& layout, double top, const Diagnosis& 
   return out + "plot NaN\n";
 }
 
+/// One line an effect, in the order of the five verdicts.
+std::vector<std::string> verdicts(const Diagnosis& d) {
+  std::vector<std::string> out;
+  const auto tell = [&out](const std::string& effect, std::size_t flight,
+                           const std::string& verdict) {
+    const std::string where = flight == 0 ? "" : fmt::format(" (flight {})", flight);
+    out.push_back(effect + where + ": " + verdict);
+  };
+  for (const Finding& f : d.findings) {
+    tell(f.effect, f.flight,
+         fmt::format("found, {} ± {} %", fixed(f.gain_percent, 1), fixed(f.gain_se_percent, 1)));
+    for (const std::string& rival : f.indistinguishable_from) {
+      tell(rival, 0, "would explain as well as " + f.effect);
+    }
+  }
+  for (const Suspected& s : d.suspected) {
+    tell(
+        s.effect, s.flight,
+        fmt::format("suspected, {} ± {} %", fixed(s.gain_percent, 1), fixed(s.gain_se_percent, 1)));
+  }
+  const RuledOut* before = nullptr;  // of several sizes the first is told
+  for (const RuledOut& r : d.ruled_out) {
+    const bool same = before && before->effect == r.effect && before->flight == r.flight;
+    before = &r;
+    if (same) continue;
+    tell(r.effect, r.flight,
+         fmt::format("ruled out beyond {}{}", significant(r.bound, 2),
+                     r.unit == "1" ? "" : " " + r.unit));
+  }
+  for (const NotTestable& n : d.not_testable) tell(n.effect, n.flight, "not testable");
+  for (const NotIdentifiable& n : d.not_identifiable) {
+    tell(n.effect, n.flight, "not identifiable");
+  }
+  return out;
+}
+
+constexpr double lines_of_a_verdict = 1.1;
+
+std::string verdict_panel(const gp::Layout& layout, double top,
+                          const std::vector<std::string>& lines) {
+  const auto count = double(lines.size());
+  std::string out = layout.panel(top + 1, top + 1 + lines_of_a_verdict * count);
+  out += layout.legend(0, 1, {}) + layout.title(top, "Verdicts");
+  out += gp::set_range("x", {0, 1}) + gp::set_range("y", {-count, 0});
+  out += "unset xtics\nunset border\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    out += fmt::format("set label {} {} at 0,{} left\n", 5000 + i, gnuplot_text(lines[i], 54),
+                       gp::number(-double(i) - 0.5));
+  }
+  return out + "plot NaN\n";
+}
+
 std::string description_of(const std::string& name, const Diagnosis& d) {
   std::string out = fmt::format("Diagnosis of {}: predicted over measured ", name);
   for (std::size_t k = 0; k < d.compared.size(); ++k) {
@@ -199,7 +267,7 @@ std::string description_of(const std::string& name, const Diagnosis& d) {
     out += fmt::format("{} {} %, ", origin.words, fixed(origin.percent, 1));
   }
   out.resize(out.size() - 2);
-  return out + ".";
+  return fmt::format("{}. Verdicts: {}.", out, fmt::join(verdicts(d), ", "));
 }
 
 }  // namespace
@@ -210,8 +278,10 @@ Figure diagnosis_figure(const std::string& name, const Diagnosis& diagnosis) {
                                                         : diagnosis.notes.back());
   }
   const double budget_lines = 5 + lines_of_a_bar * double(origins(diagnosis).size());
+  const std::vector<std::string> told = verdicts(diagnosis);
   const double lines = 2.6 + compared_lines * double(diagnosis.compared.size()) +
-                       finding_lines * double(diagnosis.traces.size()) + budget_lines;
+                       finding_lines * double(diagnosis.traces.size()) + budget_lines + 2 +
+                       lines_of_a_verdict * double(told.size());
   Figure figure{.id = "diagnosis",
                 .title = "Diagnosis of " + name,
                 .description = description_of(name, diagnosis),
@@ -228,7 +298,8 @@ Figure diagnosis_figure(const std::string& name, const Diagnosis& diagnosis) {
     top += finding_lines;
   }
   const gp::Layout bars(figure.lines, 0.01);
-  figure.script += budget_panel(bars, top, diagnosis) + "unset multiplot\n";
+  figure.script += budget_panel(bars, top, diagnosis);
+  figure.script += verdict_panel(bars, top + budget_lines, told) + "unset multiplot\n";
   return figure;
 }
 

@@ -79,6 +79,31 @@ TEST_CASE("the error budget names stage and effect, and all shares stand in word
   CHECK_THAT(figure.description, Contains("tether: contact_resistance 88.9 %"));
 }
 
+TEST_CASE("every effect stands in the figure with its verdict") {
+  Diagnosis d = example();
+  d.findings[0].gain_percent = 60.2;
+  d.findings[0].gain_se_percent = 4.1;
+  d.findings[0].indistinguishable_from = {"spooled_length"};
+  d.suspected.push_back({"extra_mass", 3.1, 1.2, {}, "a longer log", 0});
+  d.ruled_out.push_back({"tether_drag", "tether_drag_scale", 0.31, "1", 0});
+  d.ruled_out.push_back({"air_density", "air_density_kg_m3", 0.0412, "kg/m³", 0});
+  d.not_testable.push_back({"converter_efficiency_curve", "bus_voltage_V", 0});
+  d.not_identifiable.push_back({"wind", "it changes nothing", 2});
+  const Figure figure = diagnosis_figure("power.csv", d);
+  for (const char* words :
+       {"contact_resistance: found, 60.2 ± 4.1 %",
+        "spooled_length: would explain as well as contact_resistance",
+        "extra_mass: suspected, 3.1 ± 1.2 %", "tether_drag: ruled out beyond 0.31",
+        "air_density: ruled out beyond 0.041 kg/m³", "converter_efficiency_curve: not testable",
+        "wind (flight 2): not identifiable"}) {
+    CHECK_THAT(figure.description, Contains(words));
+    CHECK_THAT(figure.script, Contains(std::string(words).substr(0, 45)));
+  }
+  if (!gnuplot_is_there()) return;
+  CHECK(layout_problems(render(figure, FigureFormat::svg, run_gnuplot)) ==
+        std::vector<std::string>{});
+}
+
 TEST_CASE("a diagnosis without anything compared has no figure and says why") {
   Diagnosis d;
   d.notes.push_back("the log is too short to judge");
