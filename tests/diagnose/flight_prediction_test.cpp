@@ -97,7 +97,7 @@ TEST_CASE("an effect at its neutral values changes no prediction, beyond it ever
 TEST_CASE("the acceleration follows the published force balance") {
   const FlightRecord record = swinging_flight();
   const std::vector<double> plain = predicted(record, nullptr, {});
-  const std::vector<double> windy = predicted(record, find_effect("wind"), {-1.2});
+  const std::vector<double> windy = predicted(record, find_effect("wind"), {-1.2, 0});
   const std::vector<double> linear = predicted(record, find_effect("linear_drag"), {19.0});
   for (std::size_t i = 0; i < record.size(); i += 13) {
     CHECK(plain[i] == Approx(by_hand(record, i, 0, 0)).epsilon(1e-12));
