@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/published.hpp"
 #include "support/run_program.hpp"
 
 using namespace tethercalc::test;
@@ -10,8 +11,6 @@ using Catch::Contains;
 using nlohmann::json;
 
 namespace {
-
-const std::string published = project_file("examples/holybro-x500.json");
 
 json optimized(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"optimize", "--format", "json"});

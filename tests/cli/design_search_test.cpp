@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/published.hpp"
 #include "support/run_program.hpp"
 
 using namespace tethercalc::test;
@@ -11,8 +12,6 @@ using Catch::Contains;
 using nlohmann::json;
 
 namespace {
-
-const std::string published = project_file("examples/holybro-x500.json");
 
 Ran design(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"design", published});

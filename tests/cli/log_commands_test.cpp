@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/published.hpp"
 #include "support/dataflash_writer.hpp"
 #include "support/flight_csv.hpp"
 #include "support/reference_data.hpp"
@@ -18,11 +19,6 @@ using nlohmann::json;
 namespace {
 
 const std::string example = project_file("examples/simulated-flight.csv");
-const std::string published_spec = project_file("examples/holybro-x500.json");
-
-// What examples/README.md says of the simulated flight.
-const std::vector<std::string> known{"--mass-g",           "1550", "--air-density", "1.225",
-                                     "--pitch-offset-deg", "0.8"};
 
 Ran drag(std::vector<std::string> logs, const std::vector<std::string>& options) {
   logs.insert(logs.begin(), "drag");
@@ -166,10 +162,10 @@ TEST_CASE("learned drag goes into a spec, to a file or down a pipe to optimize")
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "learned.json").string();
   const json learned = drag_of({example}, known).at("drone").at("drag");
-  const auto into = and_also(known, {"--into", published_spec});
+  const auto into = and_also(known, {"--into", published});
   CHECK(drag({example}, and_also(into, {"--output", file})).exit_code == 0);
   json spec = json::parse(file_text(file));
-  const json before = json::parse(file_text(published_spec));
+  const json before = json::parse(file_text(published));
   CHECK(spec.at("drone").at("drag") == learned);
   spec["drone"]["drag"] = before.at("drone").at("drag");
   CHECK(spec == before);
@@ -345,7 +341,7 @@ TEST_CASE("a parameter that the flight lacks the means for is held at its bound,
   CHECK(answer.at("linear_m_s").at("at_bound") == "upper");
   CHECK(answer.at("linear_m_s").at("ci95").is_null());
   REQUIRE(answer.at("warnings").size() == 1);
-  const Ran into = drag({file}, and_also(known, {"--into", published_spec}));
+  const Ran into = drag({file}, and_also(known, {"--into", published}));
   CHECK_THAT(into.err, Contains("drag: linear_m_s wants to leave its upper bound"));
 }
 
@@ -379,7 +375,7 @@ TEST_CASE("drag refuses a flight in other units as diagnose does") {
     const std::string file = (folder.path() / "changed.csv").string();
     write_file(file, changed.str());
     for (const std::vector<std::string>& command :
-         {std::vector<std::string>{"drag", file}, {"diagnose", published_spec, "--flight", file}}) {
+         {std::vector<std::string>{"drag", file}, {"diagnose", published, "--flight", file}}) {
       const Ran run = run_tethercalc(and_also(command, {"--mass-g", "1550"}));
       INFO(run.err);
       CHECK(run.exit_code == 2);

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/published.hpp"
 #include "support/gnuplot.hpp"
 #include "support/reference_data.hpp"
 #include "support/run_program.hpp"
@@ -15,7 +16,6 @@ using Catch::StartsWith;
 
 namespace {
 
-const std::string published = project_file("examples/holybro-x500.json");
 const std::string flight = project_file("examples/simulated-flight.csv");
 
 /// A folder with a sweep's rows, and every kind of figure with what it is drawn from.
@@ -26,8 +26,6 @@ class Kinds {
     REQUIRE(run_tethercalc({"sweep", published, "--vary", "supply.voltage_V=60:100:20", "--vary",
                             "tether.length_m=10:30:10", "--output", rows})
                 .exit_code == 0);
-    const std::vector<std::string> known{"--mass-g",           "1550", "--air-density", "1.225",
-                                         "--pitch-offset-deg", "0.8"};
     arguments_ = {{"optimum", {published}},
                   {"motors", {published}},
                   {"log", {flight}},

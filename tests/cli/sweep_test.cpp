@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/published.hpp"
 #include "support/random.hpp"
 #include "support/run_program.hpp"
 
@@ -17,8 +18,6 @@ using Catch::Contains;
 using nlohmann::json;
 
 namespace {
-
-const std::string published = project_file("examples/holybro-x500.json");
 
 /// A sweep with feasible and infeasible rows, numbers and names.
 std::vector<std::string> mixed_sweep(std::vector<std::string> more = {}) {

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hidden_effects/simulated_flight.hpp"
+#include "hidden_effects/diagnosed.hpp"
 #include "support/random.hpp"
-#include "tethercalc/diagnose/flight_diagnosis.hpp"
 #include "tethercalc/identify/drag_fit.hpp"
 
 using namespace tethercalc;
@@ -24,15 +23,6 @@ HiddenFlight flown_to_the_side(std::uint64_t seed) {
   hidden.crosswind = 0.8;
   hidden.roll_trim = 1;
   return hidden;
-}
-
-Diagnosis diagnosed(const HiddenFlight& hidden, const std::vector<std::string>& base) {
-  Design design;
-  design.drone.mass = hidden.mass;
-  design.flight.air_density = hidden.air_density;
-  FlightDiagnosisOptions options;
-  options.base = base;
-  return diagnose_flight(design, truth::fly(hidden), options);
 }
 
 const ParameterEstimate* parameter(const std::vector<ParameterEstimate>& all,
@@ -54,7 +44,7 @@ TEST_CASE("drag to the side, the wind from there and the roll's trim are told of
   for (int draw = 0; draw < draws; ++draw) {
     HiddenFlight hidden = flown_to_the_side(8100 + static_cast<std::uint64_t>(draw));
     hidden.side_area = 0.012 + 0.002 * draw;
-    const Diagnosis d = diagnosed(hidden, {"linear_drag", "wind"});
+    const Diagnosis d = diagnosed(hidden);
     REQUIRE(d.compared.size() == 2);
     side += holds(parameter(d.base.parameters, "side_over_front_area"),
                   hidden.side_area / hidden.front_area);
@@ -70,7 +60,7 @@ TEST_CASE("drag to the side, the wind from there and the roll's trim are told of
 TEST_CASE("a roll that moves nothing is no second axis") {
   HiddenFlight hidden = flown_to_the_side(8200);
   hidden.steepest_roll = 0;
-  const Diagnosis d = diagnosed(hidden, {"linear_drag", "wind"});
+  const Diagnosis d = diagnosed(hidden);
   CHECK(d.compared.size() == 1);
   CHECK(parameter(d.base.parameters, "side_over_front_area") == nullptr);
   CHECK(parameter(d.base.parameters, "crosswind_m_s") == nullptr);
@@ -95,7 +85,7 @@ TEST_CASE("of two axes a hidden effect is found first, with the truth in its int
     for (int repeat = 0; repeat < 2; ++repeat) {
       HiddenFlight hidden = flown_to_the_side(++seed);
       hidden.*(h.field) = h.size;
-      const Diagnosis d = diagnosed(hidden, {"linear_drag", "wind"});
+      const Diagnosis d = diagnosed(hidden);
       INFO(h.effect << " seed " << seed);
       ++flights;
       CHECK_FALSE(d.findings.empty());
@@ -120,7 +110,7 @@ TEST_CASE("nothing hidden on two axes, nothing found") {
   for (int draw = 0; draw < draws; ++draw) {
     HiddenFlight hidden = flown_to_the_side(8400 + static_cast<std::uint64_t>(draw));
     hidden.yaw_turns = draw % 2 == 1;
-    named += !diagnosed(hidden, {"linear_drag", "wind"}).findings.empty();
+    named += !diagnosed(hidden).findings.empty();
   }
   CHECK(named <= 1);
 }

@@ -6,9 +6,8 @@
 #include <random>
 #include <set>
 
-#include "hidden_effects/simulated_flight.hpp"
+#include "hidden_effects/diagnosed.hpp"
 #include "support/random.hpp"
-#include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;
 using truth::HiddenFlight;
@@ -31,21 +30,6 @@ HiddenFlight drawn_flight(std::uint64_t seed) {
   hidden.linear = uniform(12, 20);
   hidden.wind = uniform(-1.8, 1.8);
   return hidden;
-}
-
-Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log,
-                    const std::vector<std::string>& base) {
-  Design design;
-  design.drone.mass = hidden.mass;
-  design.flight.air_density = hidden.air_density;
-  FlightDiagnosisOptions options;
-  options.base = base;
-  return diagnose_flight(design, log, options);
-}
-
-Diagnosis diagnosed(const HiddenFlight& hidden,
-                    const std::vector<std::string>& base = {"linear_drag", "wind"}) {
-  return diagnosed(hidden, truth::fly(hidden), base);
 }
 
 bool names_first(const Diagnosis& d, const std::string& effect) {
@@ -259,7 +243,7 @@ TEST_CASE("no finding adds nothing and no extended model is worse, whatever the 
     hidden.pattern = i % 2 == 0 ? truth::Pattern::circles : truth::Pattern::long_forward;
     hidden.wind_north = random.uniform(-3, 3);
     hidden.propwash = random.uniform(0, 0.5);
-    const Diagnosis d = diagnosed(hidden, {});
+    const Diagnosis d = diagnosed(hidden, std::vector<std::string>{});
     INFO("flight " << i);
     CHECK(d.extended.holdout_rmse <= d.base.holdout_rmse);
     for (const Finding& f : d.findings) {
@@ -328,7 +312,7 @@ TEST_CASE("linear drag and wind are found where the base has neither") {
     HiddenFlight hidden = drawn_flight(1100 + seed);
     hidden.wind = 1.6;
     std::set<std::string> found;
-    for (const Finding& f : diagnosed(hidden, {}).findings) {
+    for (const Finding& f : diagnosed(hidden, std::vector<std::string>{}).findings) {
       found.insert(f.effect);
       found.insert(f.indistinguishable_from.begin(), f.indistinguishable_from.end());
     }

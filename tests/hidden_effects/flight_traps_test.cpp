@@ -3,31 +3,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "hidden_effects/simulated_flight.hpp"
+#include "hidden_effects/diagnosed.hpp"
 #include "support/random.hpp"
 #include "support/verdicts.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
-#include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;
 using test::lists;
 using truth::HiddenFlight;
 
 namespace {
-
-Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log, double assumed_mass,
-                    std::vector<std::string> base = {"linear_drag", "wind"}) {
-  Design design;
-  design.drone.mass = assumed_mass;
-  design.flight.air_density = hidden.air_density;
-  FlightDiagnosisOptions options;
-  options.base = std::move(base);
-  return diagnose_flight(design, log, options);
-}
-
-Diagnosis diagnosed(const HiddenFlight& hidden, const FlightLog& log) {
-  return diagnosed(hidden, log, hidden.mass);
-}
 
 double area(const Diagnosis& d) { return d.extended.parameters.front().value; }
 
@@ -43,7 +28,7 @@ TEST_CASE("every effect of a flight gets one verdict, and none that is ruled out
     // Of sizes that are found in some flights and not in others.
     hidden.wind_drift = 0.15;
     hidden.pitch_trim = 0.1;
-    const Diagnosis d = diagnosed(hidden, truth::fly(hidden));
+    const Diagnosis d = diagnosed(hidden);
     auto verdicts = test::verdict_counts(d);
     for (const RuledOut& r : d.ruled_out) {
       const bool drift = r.effect == "wind_drift";
@@ -68,7 +53,9 @@ TEST_CASE("a wrong mass in a drag flight is not identifiable and only rescales t
   hidden.seed = 21;
   const FlightLog log = truth::fly(hidden);
   const Diagnosis right = diagnosed(hidden, log);
-  const Diagnosis wrong = diagnosed(hidden, log, 1.25 * hidden.mass);
+  HiddenFlight heavier = hidden;
+  heavier.mass *= 1.25;
+  const Diagnosis wrong = diagnosed(heavier, log);
   CHECK(wrong.findings.empty());
   CHECK(lists(wrong.not_identifiable, "extra_mass"));
   CHECK(wrong.base.holdout_rmse == Approx(right.base.holdout_rmse).epsilon(1e-6));
@@ -78,7 +65,7 @@ TEST_CASE("a wrong mass in a drag flight is not identifiable and only rescales t
 TEST_CASE("at constant yaw a turning wind is not identifiable") {
   HiddenFlight hidden;
   hidden.seed = 22;
-  const Diagnosis d = diagnosed(hidden, truth::fly(hidden));
+  const Diagnosis d = diagnosed(hidden);
   CHECK(lists(d.not_identifiable, "turning_wind"));
 }
 
@@ -89,7 +76,7 @@ TEST_CASE("wind and trim at low speed and constant yaw are reported together") {
   hidden.steepest_pitch = 5;
   hidden.linear = 40;
   hidden.wind = -2.5;
-  const Diagnosis d = diagnosed(hidden, truth::fly(hidden), hidden.mass, {"linear_drag"});
+  const Diagnosis d = diagnosed(hidden, {"linear_drag"});
   REQUIRE_FALSE(d.findings.empty());
   const Finding& first = d.findings.front();
   const auto& rivals = first.indistinguishable_from;
@@ -117,7 +104,7 @@ TEST_CASE("a log too short names nothing and says what it needs") {
   hidden.seed = 25;
   hidden.duration = 40;
   hidden.propwash = 0.8;
-  const Diagnosis d = diagnosed(hidden, truth::fly(hidden));
+  const Diagnosis d = diagnosed(hidden);
   CHECK(d.findings.empty());
   CHECK(lists(d.not_testable, "propwash"));
   REQUIRE_FALSE(d.notes.empty());
@@ -129,7 +116,7 @@ TEST_CASE("the longer a flight, the less structure could hide in it") {
   for (const double duration : {100.0, 300.0, 900.0}) {
     HiddenFlight hidden;
     hidden.duration = duration;
-    const double hideable = diagnosed(hidden, truth::fly(hidden)).unexplained.undetectable_percent;
+    const double hideable = diagnosed(hidden).unexplained.undetectable_percent;
     CHECK(hideable < 0.7 * before);
     CHECK(hideable > 0);
     before = hideable;
@@ -183,7 +170,8 @@ TEST_CASE("outliers in one per cent of the samples hide nothing and invent nothi
 TEST_CASE("an unknown effect in the base is refused by name") {
   HiddenFlight hidden;
   const FlightLog log = truth::fly(hidden);
-  CHECK_THROWS_WITH(diagnosed(hidden, log, hidden.mass, {"wnd"}),
+  CHECK_THROWS_WITH(diagnosed(hidden, log, {"wnd"}),
                     Catch::Contains("wnd") && Catch::Contains("wind_drift"));
-  CHECK_THROWS_AS(diagnosed(hidden, log, 0), std::invalid_argument);
+  hidden.mass = 0;
+  CHECK_THROWS_AS(diagnosed(hidden, log), std::invalid_argument);
 }

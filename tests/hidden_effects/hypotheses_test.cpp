@@ -4,13 +4,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "hidden_effects/diagnosed.hpp"
 #include "hidden_effects/power_scenarios.hpp"
-#include "hidden_effects/simulated_flight.hpp"
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
 #include "support/run_program.hpp"
 #include "support/verdicts.hpp"
-#include "tethercalc/diagnose/flight_diagnosis.hpp"
 #include "tethercalc/diagnose/hypothesis.hpp"
 #include "tethercalc/diagnose/power_diagnosis.hpp"
 #include "tethercalc/files/effect_file.hpp"
@@ -57,14 +56,10 @@ HiddenFlight a_flight(int draw, double roll_drag) {
   return hidden;
 }
 
-Diagnosis diagnosed(const HiddenFlight& hidden, std::vector<Effect> hypotheses) {
-  Design design;
-  design.drone.mass = hidden.mass;
-  design.flight.air_density = hidden.air_density;
-  FlightDiagnosisOptions options;
-  options.base = {"linear_drag", "wind"};
+Diagnosis asked(const HiddenFlight& hidden, std::vector<Effect> hypotheses) {
+  FlightDiagnosisOptions options = truth::beside(truth::usual_base);
   options.hypotheses = std::move(hypotheses);
-  return diagnose_flight(design, truth::fly(hidden), options);
+  return diagnose_flight(truth::design_of(hidden), truth::fly(hidden), options);
 }
 
 std::vector<Effect> read(const std::string& text) {
@@ -99,7 +94,7 @@ TEST_CASE("a true hypothesis is found and sized, a false one beside it is not") 
   const int draws = test::draws(4);
   for (int draw = 0; draw < draws; ++draw) {
     const Diagnosis d =
-        diagnosed(a_flight(draw, 60), {effect_of(rolling_drag()), effect_of(ground_cushion())});
+        asked(a_flight(draw, 60), {effect_of(rolling_drag()), effect_of(ground_cushion())});
     CHECK_FALSE(lists(d.findings, "ground_cushion"));
     for (const Finding& f : d.findings) {
       if (f.effect != "rolling_drag") continue;
@@ -115,7 +110,7 @@ TEST_CASE("hypotheses are ruled out, with a bound, by flights that hide nothing"
   const int draws = test::draws(4);
   for (int draw = 0; draw < draws; ++draw) {
     const Diagnosis d =
-        diagnosed(a_flight(50 + draw, 0), {effect_of(rolling_drag()), effect_of(ground_cushion())});
+        asked(a_flight(50 + draw, 0), {effect_of(rolling_drag()), effect_of(ground_cushion())});
     named += !d.findings.empty();
     CHECK(test::verdict_counts(d)["rolling_drag"] == 1);
     CHECK(test::verdict_counts(d)["ground_cushion"] == 1);
@@ -125,12 +120,12 @@ TEST_CASE("hypotheses are ruled out, with a bound, by flights that hide nothing"
 
 TEST_CASE("structure without a name comes as a file that, read again, is found") {
   const HiddenFlight hidden = a_flight(90, 120);
-  const Diagnosis before = diagnosed(hidden, {});
+  const Diagnosis before = asked(hidden, {});
   REQUIRE(before.unexplained.detected);
   nlohmann::ordered_json file = diagnosis_json(before, nullptr)["unexplained"]["effect"];
   REQUIRE(file.is_object());
   file["id"] = "named_now";
-  const Diagnosis after = diagnosed(hidden, read(file.dump()));
+  const Diagnosis after = asked(hidden, read(file.dump()));
   REQUIRE(lists(after.findings, "named_now"));
   CHECK(after.extended.holdout_rmse < before.extended.holdout_rmse);
 }
@@ -275,6 +270,6 @@ TEST_CASE("a formula that is no number somewhere in the log ends the diagnosis w
   hypothesis.formula = [](std::span<const double> at, std::span<const double> c) {
     return c[0] * (at[0] > 100 && at[0] < 130 ? std::sqrt(-1.0) : at[8]);
   };
-  CHECK_THROWS_WITH(diagnosed(a_flight(91, 0), {effect_of(hypothesis)}),
+  CHECK_THROWS_WITH(asked(a_flight(91, 0), {effect_of(hypothesis)}),
                     Catch::Matchers::Contains("has a formula that is no number at 100."));
 }

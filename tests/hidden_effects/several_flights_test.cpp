@@ -3,10 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "hidden_effects/simulated_flight.hpp"
+#include "hidden_effects/diagnosed.hpp"
 #include "support/random.hpp"
 #include "support/verdicts.hpp"
-#include "tethercalc/diagnose/flight_diagnosis.hpp"
 
 using namespace tethercalc;
 using truth::HiddenFlight;
@@ -29,23 +28,10 @@ std::vector<HiddenFlight> flights_of(int draw, int count) {
   return flights;
 }
 
-FlightDiagnosisOptions usual_base() {
-  FlightDiagnosisOptions options;
-  options.base = {"linear_drag", "wind"};
-  return options;
-}
-
-Design design_of(const HiddenFlight& hidden) {
-  Design design;
-  design.drone.mass = hidden.mass;
-  design.flight.air_density = hidden.air_density;
-  return design;
-}
-
 Diagnosis diagnosed(const std::vector<HiddenFlight>& flights) {
   std::vector<MeasuredFlight> measured;
   for (const HiddenFlight& hidden : flights) measured.push_back({truth::fly(hidden), {}});
-  return diagnose_flights(design_of(flights.front()), measured, usual_base());
+  return diagnose_flights(design_of(flights.front()), measured, truth::beside(truth::usual_base));
 }
 
 void append(FlightLog& log, const FlightLog& more) {
@@ -176,7 +162,7 @@ TEST_CASE("every flight of a log is used, and what is carried, driven or standin
   append(log, truth::fly(flights[1]));
   append(log, not_flown(40, 0, 0));
   append(log, not_flown(120, 15, 0.02));
-  const Diagnosis d = diagnose_flight(design_of(flights[0]), log, usual_base());
+  const Diagnosis d = diagnose_flight(design_of(flights[0]), log, truth::beside(truth::usual_base));
   CHECK(d.findings.empty());
   CHECK(has_note(d, "the log holds 2 flights"));
   REQUIRE(d.compared.size() == 1);
@@ -194,7 +180,7 @@ TEST_CASE("a landing of some seconds is no flight") {
   FlightLog log = truth::fly(flights[0]);
   append(log, not_flown(20, 0, 0));
   append(log, truth::fly(flights[0]));
-  const Diagnosis d = diagnose_flight(design_of(flights[0]), log, usual_base());
+  const Diagnosis d = diagnose_flight(design_of(flights[0]), log, truth::beside(truth::usual_base));
   CHECK(has_note(d, "the drone stands still there"));
   CHECK(d.findings.empty());
 }
@@ -212,7 +198,7 @@ TEST_CASE("a crash in the log is left out, and the flight before it judged") {
     log.east_velocity.push_back(4 * std::sin(log.yaw.back()));
     log.down_velocity.push_back(3);
   }
-  const Diagnosis d = diagnose_flight(design_of(hidden), log, usual_base());
+  const Diagnosis d = diagnose_flight(design_of(hidden), log, truth::beside(truth::usual_base));
   REQUIRE_FALSE(d.findings.empty());
   CHECK(d.findings.front().effect == "propwash");
   CHECK(has_note(d, "it is tilted beyond 75°"));
@@ -229,8 +215,10 @@ TEST_CASE("one flight is judged alike alone and as a list of one") {
   const HiddenFlight hidden = flights_of(4, 1).front();
   const FlightLog log = truth::fly(hidden);
   const MeasuredFlight flight{log, {}};
-  const Diagnosis one = diagnose_flight(design_of(hidden), log, usual_base());
-  const Diagnosis list = diagnose_flights(design_of(hidden), {&flight, 1}, usual_base());
+  const Diagnosis one = diagnose_flight(design_of(hidden), log, truth::beside(truth::usual_base));
+  const Diagnosis list =
+      diagnose_flights(design_of(hidden), {&flight, 1}, truth::beside(truth::usual_base));
   CHECK(one.base.holdout_rmse == list.base.holdout_rmse);
-  CHECK_THROWS_AS(diagnose_flights(design_of(hidden), {}, usual_base()), std::invalid_argument);
+  CHECK_THROWS_AS(diagnose_flights(design_of(hidden), {}, truth::beside(truth::usual_base)),
+                  std::invalid_argument);
 }

@@ -27,7 +27,7 @@ FlightLog still_log(std::size_t size) {
 SampleRange whole(const FlightLog& log) { return {0, log.time.size()}; }
 
 template <typename Call>
-std::string message_of(Call call) {
+std::string refusal_of(Call call) {
   try {
     call();
   } catch (const UnsuitableFlight& error) {
@@ -89,7 +89,7 @@ TEST_CASE("a drag flight is no hover to take the pitch offset from") {
   for (std::size_t i = 0; i < 15; ++i) log.north_velocity[i] = 6;  // on the way to its place
   CHECK(pitch_offset_from_hover(log) == 0);
   for (std::size_t i = 0; i < 30; ++i) log.north_velocity[i] = -6;
-  CHECK(message_of([&] { (void)pitch_offset_from_hover(log); }).find("more than 6.0 m/s") !=
+  CHECK(refusal_of([&] { (void)pitch_offset_from_hover(log); }).find("more than 6.0 m/s") !=
         std::string::npos);
 }
 
@@ -199,21 +199,21 @@ TEST_CASE("a long pause splits the flight and the longer part is taken") {
 }
 
 TEST_CASE("a drone that only hovers has no moving part") {
-  CHECK(message_of([] { (void)moving_part(still_log(500)); }).find("never flies forward") !=
+  CHECK(refusal_of([] { (void)moving_part(still_log(500)); }).find("never flies forward") !=
         std::string::npos);
 }
 
 TEST_CASE("an invalid log is named with its sample") {
   FlightLog log = still_log(20);
   log.time[12] = log.time[11];
-  CHECK(message_of([&] { validate(log); }).find("sample 13") != std::string::npos);
+  CHECK(refusal_of([&] { validate(log); }).find("sample 13") != std::string::npos);
   log = still_log(20);
   log.yaw[4] = std::nan("");
-  CHECK(message_of([&] { validate(log); }) ==
+  CHECK(refusal_of([&] { validate(log); }) ==
         "sample 5 of the flight log has a yaw that is not a number");
   log = still_log(20);
   log.pitch.pop_back();
-  CHECK(message_of([&] { validate(log); }) == "the flight log has 19 values of pitch for 20 times");
+  CHECK(refusal_of([&] { validate(log); }) == "the flight log has 19 values of pitch for 20 times");
   CHECK_THROWS_AS(validate(still_log(2)), UnsuitableFlight);
   CHECK_THROWS_AS(observe(still_log(20), SampleRange{5, 21}, 0), UnsuitableFlight);
   CHECK_THROWS_AS(observe(still_log(20), SampleRange{5, 5}, 0), UnsuitableFlight);
@@ -222,7 +222,7 @@ TEST_CASE("an invalid log is named with its sample") {
 TEST_CASE("a tumbling drone is told apart from flight, with its time") {
   FlightLog log = still_log(20);
   log.roll[10] = 2.8;
-  CHECK(message_of([&] { (void)observe(log, whole(log), 0); }).find("at 101.000 s") !=
+  CHECK(refusal_of([&] { (void)observe(log, whole(log), 0); }).find("at 101.000 s") !=
         std::string::npos);
   CHECK(observe(log, {0, 10}, 0).size() == 10);
 }
@@ -230,7 +230,7 @@ TEST_CASE("a tumbling drone is told apart from flight, with its time") {
 TEST_CASE("a log of something else than a multirotor is refused by its name") {
   FlightLog log = still_log(20);
   log.other_vehicle = "ArduPlane V3.1.2, an aeroplane";
-  CHECK(message_of([&] { validate(log); }).find("ArduPlane V3.1.2, an aeroplane") !=
+  CHECK(refusal_of([&] { validate(log); }).find("ArduPlane V3.1.2, an aeroplane") !=
         std::string::npos);
 }
 
@@ -239,7 +239,7 @@ TEST_CASE("velocities that no multirotor flies are refused, one flipped bit amon
   log.down_velocity[150] = 400;
   CHECK_NOTHROW(observe(log, whole(log), 0));
   for (std::size_t i = 150; i < 200; ++i) log.down_velocity[i] = 201 + static_cast<double>(i);
-  CHECK(message_of([&] { (void)observe(log, whole(log), 0); }).find("400 m/s of it downward") !=
+  CHECK(refusal_of([&] { (void)observe(log, whole(log), 0); }).find("400 m/s of it downward") !=
         std::string::npos);
   CHECK_NOTHROW(observe(log, {0, 149}, 0));
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "io/design_numbers.hpp"
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
 #include "tethercalc/files/read_files.hpp"
@@ -18,6 +19,7 @@
 #include "tethercalc/model/operating_point.hpp"
 
 using namespace tethercalc;
+using test::numbers_of;
 
 namespace {
 
@@ -32,27 +34,6 @@ std::string text_of(const fs::path& path) {
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
-}
-
-/// Everything the physics sees of a design, to be compared exactly.
-std::vector<double> numbers_of(const Design& design) {
-  std::vector<double> numbers;
-  for (const SpecField& field : spec_fields()) {
-    numbers.push_back(field_value(design, field).value_or(-1));
-  }
-  for (const MotorPoint& point : design.drone.motor.vertices()) {
-    numbers.insert(numbers.end(), {point.thrust, point.power});
-  }
-  for (const EfficiencyPoint& point : design.supply.converter.efficiency) {
-    numbers.insert(numbers.end(), {point.output_power, point.efficiency});
-  }
-  const Conductor& conductor = design.tether.conductor;
-  numbers.insert(numbers.end(), {conductor.resistivity_20C, conductor.temperature_coefficient,
-                                 conductor.density, design.tether.insulation.density,
-                                 static_cast<double>(design.requirements.headroom_at),
-                                 static_cast<double>(design.requirements.power_at),
-                                 design.requirements.buffer_battery ? 1.0 : 0.0});
-  return numbers;
 }
 
 Json shuffled(const Json& value, std::mt19937& random) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "io/design_numbers.hpp"
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
 #include "support/run_program.hpp"
@@ -18,36 +19,11 @@
 
 using namespace tethercalc;
 using test::each_random;
+using test::numbers_of;
 using test::Random;
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-/// Every number of a design that a spec can hold, as it holds it.
-std::vector<double> numbers_of(const Design& design) {
-  std::vector<double> numbers;
-  const auto add_fields = [&](std::span<const SpecField> fields) {
-    for (const SpecField& field : fields) {
-      numbers.push_back(field_value_si(design, field).value_or(-1e9));
-      if (!field_words(field.kind).empty()) {
-        numbers.push_back(static_cast<double>(field_word(design, field)));
-      }
-    }
-  };
-  add_fields(spec_fields());
-  add_fields(object_fields(FieldKind::conductor));
-  add_fields(object_fields(FieldKind::insulation_material));
-  for (const MotorPoint& point : design.drone.motor.vertices()) {
-    numbers.insert(numbers.end(), {point.thrust, point.power});
-  }
-  for (const EfficiencyPoint& point : design.supply.converter.efficiency) {
-    numbers.insert(numbers.end(), {point.output_power, point.efficiency});
-  }
-  for (const ConverterMassPoint& point : design.supply.converter.masses) {
-    numbers.insert(numbers.end(), {point.rated_output_power, point.mass});
-  }
-  return numbers;
-}
 
 double random_number(Random& random, const SpecField& field) {
   const FieldRange& range = field.range;

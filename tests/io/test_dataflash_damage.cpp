@@ -24,7 +24,7 @@ using test::DataFlashWriter;
 namespace {
 
 using Bytes = std::vector<std::byte>;
-using Random = std::mt19937_64;
+using Generator = std::mt19937_64;
 
 struct Message {
   std::size_t offset = 0;
@@ -41,14 +41,14 @@ std::vector<Message> messages_of(const Bytes& log) {
   return messages;
 }
 
-std::size_t below(Random& random, std::size_t bound) {
+std::size_t below(Generator& random, std::size_t bound) {
   return std::uniform_int_distribution<std::size_t>(0, bound - 1)(random);
 }
 
-std::byte any_byte(Random& random) { return static_cast<std::byte>(below(random, 256)); }
+std::byte any_byte(Generator& random) { return static_cast<std::byte>(below(random, 256)); }
 
 /// Messages of several lengths with random payloads, in random succession.
-Bytes random_log(Random& random) {
+Bytes random_log(Generator& random) {
   DataFlashWriter log;
   test::define_xkf1(log);
   log.define(10, "BARO", "QffhB", "TimeUS,Alt,Press,Temp,Health");
@@ -89,7 +89,7 @@ std::size_t end_of_definitions(const std::vector<Message>& messages) {
 }
 
 /// Real logs where there are any, beside one of our own.
-std::vector<Bytes> intact_logs(Random& random) {
+std::vector<Bytes> intact_logs(Generator& random) {
   std::vector<Bytes> logs = {random_log(random)};
   const auto folder = std::filesystem::path(TETHERCALC_REFERENCE_DATA) / "data" / "logs";
   for (const std::string name : {"lacondro_v463_log0", "erle_loiter_rtl", "pymavlink_test"}) {
@@ -146,7 +146,7 @@ bool seems_intact(const Bytes& intact, const std::vector<Message>& messages, std
 /// seems intact. Nor are they right at a type number: where a payload byte takes its place, about
 /// one time in ten thousand it fits.
 Bytes with_shifts(const Bytes& intact, const std::vector<Message>& messages, std::size_t from,
-                  std::size_t times, bool insert, Random& random) {
+                  std::size_t times, bool insert, Generator& random) {
   std::size_t longest = 10;
   std::set<std::size_t> type_numbers;
   for (const Message& message : messages) {
@@ -181,7 +181,7 @@ Bytes with_shifts(const Bytes& intact, const std::vector<Message>& messages, std
 TEST_CASE("inserted or removed bytes invent no message and cost at most two each") {
   const auto seed = new_seed();
   INFO("seed " << seed);
-  Random random(seed);
+  Generator random(seed);
   for (const Bytes& intact : intact_logs(random)) {
     const std::vector<Message> before = messages_of(intact);
     std::set<Bytes> known;
@@ -203,7 +203,7 @@ TEST_CASE("inserted or removed bytes invent no message and cost at most two each
 TEST_CASE("flipped bytes move no message and cost at most two each") {
   const auto seed = new_seed();
   INFO("seed " << seed);
-  Random random(seed);
+  Generator random(seed);
   for (const Bytes& intact : intact_logs(random)) {
     const std::vector<Message> before = messages_of(intact);
     std::map<std::size_t, std::size_t> length_at;
@@ -231,7 +231,7 @@ TEST_CASE("flipped bytes move no message and cost at most two each") {
 }
 
 TEST_CASE("one flipped byte in a mark costs that message alone, and it is counted") {
-  Random random(1);
+  Generator random(1);
   const Bytes intact = random_log(random);
   const std::vector<Message> before = messages_of(intact);
   for (std::size_t i = 100; i < 130; ++i) {
@@ -249,7 +249,7 @@ TEST_CASE("one flipped byte in a mark costs that message alone, and it is counte
 }
 
 TEST_CASE("a damaged definition costs its own messages, whichever byte is hit") {
-  Random random(new_seed());
+  Generator random(new_seed());
   const Bytes intact = random_log(random);
   const std::vector<Message> before = messages_of(intact);
   std::set<std::size_t> starts;
@@ -305,7 +305,7 @@ TEST_CASE("a definition whose length is not that of its fields is not used") {
 }
 
 TEST_CASE("a log cut anywhere gives the messages that are whole") {
-  Random random(2);
+  Generator random(2);
   const Bytes intact = random_log(random);
   const std::vector<Message> before = messages_of(intact);
   for (std::size_t size = 0; size < 2000; ++size) {
@@ -340,7 +340,7 @@ TEST_CASE("unwritten memory behind the last message is skipped, and no message i
 TEST_CASE("any bytes at all are read without a crash, and accounted for") {
   const auto seed = new_seed();
   INFO("seed " << seed);
-  Random random(seed);
+  Generator random(seed);
   for (int round = 0; round < 300; ++round) {
     // Few different bytes, so that marks and types come up again and again.
     Bytes bytes(below(random, 3000));

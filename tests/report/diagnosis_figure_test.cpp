@@ -15,7 +15,7 @@ using Catch::Contains;
 namespace {
 
 /// A diagnosis of 2000 samples in which one finding is a straight line over its channel.
-Diagnosis example() {
+Diagnosis power_diagnosis() {
   Random random(run_seed());
   Diagnosis d;
   d.kind = "power";
@@ -52,7 +52,7 @@ Diagnosis example() {
 }  // namespace
 
 TEST_CASE("the means over a channel show the line that a finding explains") {
-  const Figure figure = diagnosis_figure("power.csv", example());
+  const Figure figure = diagnosis_figure("power.csv", power_diagnosis());
   const auto means = block_of(figure.script, "meansfinding1");
   REQUIRE(means.size() > 15);
   for (const auto& row : means) {
@@ -69,7 +69,7 @@ TEST_CASE("the means over a channel show the line that a finding explains") {
 }
 
 TEST_CASE("the error budget names stage and effect, and all shares stand in words") {
-  const Figure figure = diagnosis_figure("power.csv", example());
+  const Figure figure = diagnosis_figure("power.csv", power_diagnosis());
   for (const char* words :
        {"'tether: contact_resistance'", "'88.9 %'", "'unexplained'", "'1.1 %'", "'noise'",
         "'10.0 %'", "'share (%)'", "'supply current (A)'", "'measured less predicted (V)'",
@@ -80,7 +80,7 @@ TEST_CASE("the error budget names stage and effect, and all shares stand in word
 }
 
 TEST_CASE("every effect stands in the figure with its verdict") {
-  Diagnosis d = example();
+  Diagnosis d = power_diagnosis();
   d.findings[0].gain_percent = 60.2;
   d.findings[0].gain_se_percent = 4.1;
   d.findings[0].indistinguishable_from = {"spooled_length"};
@@ -112,7 +112,7 @@ TEST_CASE("a diagnosis without anything compared has no figure and says why") {
 
 TEST_CASE("the texts of a diagnosis with six findings keep apart") {
   if (!gnuplot_is_there()) return;
-  Diagnosis d = example();
+  Diagnosis d = power_diagnosis();
   while (d.compared.size() < 3) d.compared.push_back(d.compared.front());
   while (d.further.size() < 3) d.further.push_back(d.further.front());
   while (d.traces.size() < 6) {

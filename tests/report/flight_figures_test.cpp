@@ -35,8 +35,6 @@ const DragStudy& fitted() {
   return drag;
 }
 
-const std::vector<std::string> nothing;
-
 /// What leaning gives less what is seen, beside what the turning frame carries from one speed into
 /// the other.
 double missing_acceleration(const Observations& o, std::size_t i) {
@@ -144,7 +142,7 @@ TEST_CASE("figures of flights name their axes with units and keep their texts ap
   for (const Figure& figure : {log, drag, surface}) {
     INFO(figure.id);
     const std::string svg = render(figure, FigureFormat::svg, run_gnuplot);
-    CHECK(layout_problems(svg) == nothing);
+    CHECK(layout_problems(svg) == no_problems);
     CHECK(svg.size() < 100000);
   }
 }

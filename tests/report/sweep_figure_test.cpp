@@ -43,8 +43,6 @@ std::vector<InputProblem> problems_of(const std::string& csv, const std::string&
   return {};
 }
 
-const std::vector<std::string> nothing;
-
 }  // namespace
 
 TEST_CASE("a heat map has the sweep's values at their places and gaps where there is none") {
@@ -192,6 +190,6 @@ TEST_CASE("figures of sweeps keep their texts apart") {
   }
   for (const std::string& csv : {grid(), names, sample}) {
     const Figure figure = sweep_figure(parse_sweep_csv(csv, "rows.csv"));
-    CHECK(layout_problems(render(figure, FigureFormat::svg, run_gnuplot)) == nothing);
+    CHECK(layout_problems(render(figure, FigureFormat::svg, run_gnuplot)) == no_problems);
   }
 }

@@ -97,10 +97,10 @@ TEST_CASE("a summary of infeasible draws alone says so instead of inventing numb
   SweepSummary summary = summary_of(space, file.design);
   summary.sensitivity = sweep_sensitivity(space, file.design);
   CHECK(summary.infeasible == 300);
-  const nlohmann::ordered_json json = summary_json(summary, space);
-  CHECK(json["infeasible_share"] == 1);
-  CHECK(json["total_power_W"]["mean"].is_null());
-  CHECK(json["total_power_W"]["quantiles"]["0.5"].is_null());
-  CHECK(json["sensitivity"]["total_power_W"][0]["total"]["value"].is_null());
+  const nlohmann::ordered_json answer = summary_json(summary, space);
+  CHECK(answer["infeasible_share"] == 1);
+  CHECK(answer["total_power_W"]["mean"].is_null());
+  CHECK(answer["total_power_W"]["quantiles"]["0.5"].is_null());
+  CHECK(answer["sensitivity"]["total_power_W"][0]["total"]["value"].is_null());
   CHECK_THAT(summary_text(summary, space, {}), Catch::Contains("300 infeasible (100 %)"));
 }

@@ -54,24 +54,24 @@ TEST_CASE("the JSON summary holds what the log does, and is valid whatever the l
   std::vector<std::byte> bytes = log.bytes();
   bytes.push_back(std::byte{0xA3});
   bytes.push_back(std::byte{0x95});
-  const auto json = nlohmann::json::parse(log_json(summarize_log(bytes), "a.bin").dump());
-  CHECK(json.at("file") == "a.bin");
-  CHECK(json.at("bytes") == bytes.size());
-  CHECK(json.at("messages") == 4);
-  CHECK(json.at("first_s") == 1.0);
-  CHECK(json.at("last_s") == 3.0);
-  CHECK(json.at("duration_s") == 2.0);
-  CHECK(json.at("flying").is_null());
-  CHECK(json.at("gap_count") == 1);
-  CHECK(json.at("gaps").at(0).at("duration_s") == 2.0);
-  CHECK(json.at("skipped").at("bytes") == 2);
-  CHECK(json.at("skipped").at("messages") == 1);
-  CHECK(json.at("skipped").at("stretches").at(0).at("offset") == bytes.size() - 2);
-  REQUIRE(json.at("types").size() == 2);
-  CHECK(json.at("types").at(0).at("name") == "FMT");
-  CHECK(json.at("types").at(0).at("rate_Hz").is_null());
-  CHECK(json.at("types").at(1).at("rate_Hz") == 0.5);
-  CHECK(json.at("types").at(1).at("fields") == nlohmann::json({"TimeUS", "Message"}));
+  const auto answer = nlohmann::json::parse(log_json(summarize_log(bytes), "a.bin").dump());
+  CHECK(answer.at("file") == "a.bin");
+  CHECK(answer.at("bytes") == bytes.size());
+  CHECK(answer.at("messages") == 4);
+  CHECK(answer.at("first_s") == 1.0);
+  CHECK(answer.at("last_s") == 3.0);
+  CHECK(answer.at("duration_s") == 2.0);
+  CHECK(answer.at("flying").is_null());
+  CHECK(answer.at("gap_count") == 1);
+  CHECK(answer.at("gaps").at(0).at("duration_s") == 2.0);
+  CHECK(answer.at("skipped").at("bytes") == 2);
+  CHECK(answer.at("skipped").at("messages") == 1);
+  CHECK(answer.at("skipped").at("stretches").at(0).at("offset") == bytes.size() - 2);
+  REQUIRE(answer.at("types").size() == 2);
+  CHECK(answer.at("types").at(0).at("name") == "FMT");
+  CHECK(answer.at("types").at(0).at("rate_Hz").is_null());
+  CHECK(answer.at("types").at(1).at("rate_Hz") == 0.5);
+  CHECK(answer.at("types").at(1).at("fields") == nlohmann::json({"TimeUS", "Message"}));
 }
 
 TEST_CASE("the text and CSV summaries have a line for every message") {

@@ -5,15 +5,15 @@
 #include <cstdlib>
 #include <limits>
 
+#include "support/plain_physics.hpp"
 #include "support/random_designs.hpp"
 #include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
 using namespace tethercalc;
+using test::plain::infinity;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The best of areas evenly spread over nine decades.
 struct Tried {

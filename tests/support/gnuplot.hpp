@@ -113,6 +113,9 @@ inline std::vector<std::string> overlaps(const std::vector<TextBox>& boxes) {
   return out;
 }
 
+/// What a good figure has.
+inline const std::vector<std::string> no_problems;
+
 /// What is wrong with the places of the texts in an SVG of one column's width: those that cover
 /// each other or reach beyond the edges.
 inline std::vector<std::string> layout_problems(const std::string& svg) {
