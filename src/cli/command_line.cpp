@@ -42,6 +42,11 @@ class Command {
     return *this;
   }
 
+  template <typename Value>
+  Command& optional_argument(const char* name, Value& value, const std::string& help) {
+    return option(name, value, help);
+  }
+
   Command& flag(const char* name, bool& value, const char* help) {
     app_.add_flag(name, value, help);
     return *this;
@@ -213,6 +218,35 @@ class CommandLine {
         .repeatable("--area-mm2", areas_,
                     "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
         .output(output_);
+    add("shape", "How the cable hangs between station and drone, and what that does to the drone",
+        [this] { return run_shape(shape_, output_); })
+        .optional_argument("SPEC", shape_.spec.file, "Design spec (JSON), - for standard input")
+        .repeatable("--set", shape_.spec.overrides, "Change a field of the spec: path=value")
+        .repeatable("--area-mm2", shape_.areas_mm2,
+                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
+        .option("--height", shape_.height,
+                "Of the drone over the station, m (default: tether.length_m)")
+        .option("--offset", shape_.offset, "Of the drone aside, m (default 0)")
+        .option("--wind", shape_.wind, "m/s (default: flight.airspeed_m_s)")
+        .option("--wind-from", shape_.wind_from,
+                "Degrees, clockwise from above, 0 from where the drone stands aside (default 0)")
+        .option("--slack", shape_.slack_percent,
+                "Cable paid out beyond the distance, percent of it (default 1)")
+        .option("--length", shape_.length, "Or: the cable paid out, m")
+        .option("--winch-tension", shape_.winch_tension,
+                "Or: N that a winch holds at the station (default: tether.winch_pull_N)")
+        .option("--stiffness", shape_.axial_stiffness,
+                "EA, N (default: the cable does not stretch)")
+        .option("--station-height", shape_.station_height, "Over ground, m (default 0)")
+        .option("--profile", shape_.profile,
+                "How the wind grows with height: uniform (default), power-law or logarithmic")
+        .option("--reference-height", shape_.reference_height,
+                "m over ground at which --wind blows, with a profile (default 10)")
+        .option("--exponent", shape_.exponent, "Of the power law (default 1/7)")
+        .option("--roughness", shape_.roughness_length,
+                "m, of the logarithmic profile (default 0.03)")
+        .option("--cases", shape_.cases_file, "Solve the bare cables of this file (JSON) instead")
+        .output(output_);
     add("validate", "Check specs without computing anything",
         [this] { return run_validate(files_, spec_.overrides, output_); })
         .argument("SPEC", files_, "Design specs (JSON), - for standard input")
@@ -346,6 +380,7 @@ class CommandLine {
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
   DesignRequest request_;
+  ShapeOptions shape_;
   std::vector<std::string> files_;
   std::string what_;
   FlightOptions flight_;

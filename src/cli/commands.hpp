@@ -81,6 +81,29 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
 int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
+/// The cable as typed: lengths in m, forces in N, speeds in m/s, angles in degrees.
+struct ShapeOptions {
+  SpecOptions spec;
+  std::string cases_file;  ///< empty: the spec's cable
+  std::vector<std::string> areas_mm2;
+  std::optional<double> height;
+  double offset = 0;
+  std::optional<double> wind;
+  double wind_from = 0;
+  std::optional<double> slack_percent;
+  std::optional<double> length;
+  std::optional<double> winch_tension;
+  std::optional<double> axial_stiffness;
+  double station_height = 0;
+  std::string profile = "uniform";
+  double reference_height = 10;
+  double exponent = 1.0 / 7;
+  double roughness_length = 0.03;
+};
+
+/// How the cable hangs; exit code 1 where it cannot, or would lie on the ground.
+int run_shape(const ShapeOptions& options, const Output& output);
+
 struct SweepOptions {
   SpecOptions spec;
   std::vector<std::string> varied;      ///< see read_axes

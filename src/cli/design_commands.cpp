@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string_view>
@@ -10,7 +11,9 @@
 #include "files/input_files.hpp"
 #include "files/output_files.hpp"
 #include "io/checked_values.hpp"
+#include "io/closest_name.hpp"
 #include "tethercalc/files/read_files.hpp"
+#include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/reference_check.hpp"
 
@@ -188,6 +191,110 @@ int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_
       output, [&] { return envelope_text(file, answer, style_for(output)); },
       [&] { return envelope_json(file, answer); }, [&] { return envelope_csv(answer); });
   return answer.any() ? done : answer_is_no;
+}
+
+namespace {
+
+WindProfile parsed_profile(const std::string& text) {
+  const std::vector<std::string> names{"uniform", "power-law", "logarithmic"};  // as in WindProfile
+  const auto found = std::ranges::find(names, text);
+  if (found != names.end()) return static_cast<WindProfile>(found - names.begin());
+  throw InputError("--profile", "\"" + text +
+                                    "\" is not a profile; allowed are uniform, power-law " +
+                                    "and logarithmic" + did_you_mean(text, names));
+}
+
+/// The number in its range; 0, with the reason among the problems, outside.
+double checked(Problems& problems, const char* option, double value, double least, double most,
+               const char* unit) {
+  if (value >= least && value <= most) return value;
+  problems.add(option, fmt::format("{:g} is out of range; allowed is {:g} to {:g} {}", value, least,
+                                   most, unit));
+  return least;
+}
+
+PaidOut parsed_paid_out(const ShapeOptions& options, const Design& design, double distance,
+                        Problems& problems) {
+  PaidOut out;
+  const int given = int(options.slack_percent.has_value()) + int(options.length.has_value()) +
+                    int(options.winch_tension.has_value());
+  if (given > 1) {
+    problems.add("--slack, --length, --winch-tension",
+                 "one of them decides how much cable is out; give no more");
+  } else if (options.length) {
+    out.length = checked(problems, "--length", *options.length, 1e-3, 1e6, "m");
+  } else if (options.winch_tension) {
+    out.winch_tension =
+        checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N");
+  } else if (given == 0 && design.tether.winch_pull > 0) {
+    out.winch_tension = design.tether.winch_pull;
+  } else {
+    const double percent =
+        checked(problems, "--slack", options.slack_percent.value_or(1), 1e-6, 1000, "percent");
+    out.length = distance * (1 + percent / 100);
+  }
+  return out;
+}
+
+ShapeRequest parsed_request(const ShapeOptions& options, const Design& design) {
+  Problems problems;
+  ShapeRequest request;
+  request.height =
+      checked(problems, "--height", options.height.value_or(design.tether.length), 0.01, 1e5, "m");
+  request.offset = checked(problems, "--offset", options.offset, 0, 1e5, "m");
+  request.wind = checked(problems, "--wind",
+                         options.wind.value_or(std::abs(design.flight.airspeed)), 0, 200, "m/s");
+  request.wind_from =
+      checked(problems, "--wind-from", options.wind_from, -360, 360, "degrees") * unit::degree;
+  request.station_height =
+      checked(problems, "--station-height", options.station_height, 0, 1e5, "m");
+  problems.succeeds([&] { request.profile = parsed_profile(options.profile); });
+  request.reference_height =
+      checked(problems, "--reference-height", options.reference_height, 0.1, 1e4, "m");
+  request.exponent = checked(problems, "--exponent", options.exponent, 0, 1, "");
+  request.roughness_length =
+      checked(problems, "--roughness", options.roughness_length, 1e-6, 10, "m");
+  if (request.roughness_length >= request.reference_height) {
+    problems.add("--roughness", "has to be less than --reference-height");
+  }
+  if (options.axial_stiffness) {
+    request.axial_stiffness =
+        checked(problems, "--stiffness", *options.axial_stiffness, 1, 1e12, "N");
+  }
+  request.paid_out =
+      parsed_paid_out(options, design, std::hypot(request.height, request.offset), problems);
+  problems.throw_if_any();
+  return request;
+}
+
+int run_cable_cases(const ShapeOptions& options, const Output& output) {
+  const LoadedText file = read_text_file(options.cases_file);
+  const auto cases = parse_cable_cases(file.text, file.name);
+  emit(output, json_text(cable_cases_json(cases)));
+  return done;
+}
+
+}  // namespace
+
+int run_shape(const ShapeOptions& options, const Output& output) {
+  if (!options.cases_file.empty()) {
+    if (!options.spec.file.empty()) {
+      throw InputError("--cases", "takes the place of the spec; give one of them");
+    }
+    return run_cable_cases(options, output);
+  }
+  if (options.spec.file.empty()) throw InputError("SPEC", "is needed, or --cases FILE");
+  const std::vector<double> areas = parsed_areas(options.areas_mm2);
+  const DesignFile file = read_spec(options.spec);
+  if (areas.size() > 1) throw InputError("--area-mm2", "a shape is that of one cross-section");
+  const double area = chosen_areas(areas, file.design).front();
+  const ShapeRequest request = parsed_request(options, file.design);
+  const ShapeStudy answer = study_cable_shape(file.design, area, request);
+  emit(
+      output, [&] { return cable_shape_text(file, area, request, answer, style_for(output)); },
+      [&] { return cable_shape_json(file, area, answer); },
+      [&] { return cable_shape_csv(answer); });
+  return answer.outcome == CableOutcome::hangs && answer.hangs_free ? done : answer_is_no;
 }
 
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,

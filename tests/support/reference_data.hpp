@@ -3,6 +3,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -14,6 +16,14 @@ inline std::optional<std::filesystem::path> reference_file(const std::string& na
   if (std::filesystem::exists(path)) return path;
   std::printf("SKIPPED: %s is not there\n", path.c_str());
   return std::nullopt;
+}
+
+/// The same, read.
+inline std::optional<nlohmann::json> reference_json(const std::string& name) {
+  const auto path = reference_file(name);
+  if (!path) return std::nullopt;
+  std::ifstream file(*path);
+  return nlohmann::json::parse(file);
 }
 
 }  // namespace tethercalc::test

@@ -62,6 +62,10 @@ class StraightTether {
   [[nodiscard]] double drag(double radius) const { return drag_0_ + drag_1_ * radius; }
   /// Its derivative by the radius, N/m.
   [[nodiscard]] double drag_slope() const { return drag_1_; }
+  /// m, mean width that the wind meets.
+  [[nodiscard]] double width(double radius) const {
+    return 4 * tether_->projection_factor * (radius + width_);
+  }
   /// The drag of a tether without thickness of metal, N.
   [[nodiscard]] double least_drag() const { return drag_0_; }
 

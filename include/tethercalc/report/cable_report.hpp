@@ -1,0 +1,33 @@
+// Words and tables about how a cable hangs.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tethercalc/io/cable_cases.hpp"
+#include "tethercalc/io/design_reader.hpp"
+#include "tethercalc/report/text_table.hpp"
+#include "tethercalc/study/cable_shape.hpp"
+
+namespace tethercalc {
+
+/// For people: loads, tensions, what the straight tether would say, the shape at eleven places,
+/// and notes. `area` in m².
+[[nodiscard]] std::string cable_shape_text(const DesignFile& file, double area,
+                                           const ShapeRequest& request, const ShapeStudy& study,
+                                           const TextStyle& style);
+
+/// The same; `stations` are eleven [s_m, x_m, y_m, z_m, tension_N].
+[[nodiscard]] nlohmann::ordered_json cable_shape_json(const DesignFile& file, double area,
+                                                      const ShapeStudy& study);
+
+/// A row a point: s_m, x_m, y_m, z_m, tension_N.
+[[nodiscard]] std::string cable_shape_csv(const ShapeStudy& study);
+
+/// {"cases": [{"id", "result"}]}: each cable solved, with the keys that collections of exact
+/// solutions use; `outcome` alone where there is no shape. Extremes along a cable in wind are those
+/// of 4001 points.
+[[nodiscard]] nlohmann::ordered_json cable_cases_json(const std::vector<CableCase>& cases);
+
+}  // namespace tethercalc

@@ -1,0 +1,66 @@
+// How a design's cable hangs between its station and the drone, and what that does to the drone.
+#pragma once
+
+#include <optional>
+
+#include "tethercalc/model/design.hpp"
+#include "tethercalc/model/hanging_cable.hpp"
+
+namespace tethercalc {
+
+/// Where the drone hovers and in which air.
+struct ShapeRequest {
+  double height = 0;     ///< m of the drone over the station, > 0
+  double offset = 0;     ///< m aside, ≥ 0: x points there
+  PaidOut paid_out{};    ///< a length in m, or a winch's tension in N
+  double wind = 0;       ///< m/s, ≥ 0, at the drone, or at the profile's reference height
+  double wind_from = 0;  ///< rad, clockwise seen from above: 0 from where the drone stands aside,
+                         ///< so that it blows from there over the station
+  double station_height = 0;                   ///< m of the cable's lower end over ground, ≥ 0
+  WindProfile profile = WindProfile::uniform;  ///< of the wind
+  double reference_height = 10;                ///< m over ground, of the wind with a profile
+  double exponent = 1.0 / 7;                   ///< of the power law
+  double roughness_length = 0.03;              ///< m, of the logarithmic profile
+  std::optional<double> axial_stiffness{};     ///< N, EA; nothing: the cable does not stretch
+};
+
+/// What a load of the cable makes of the drone's hover.
+struct LoadedHover {
+  double down = 0;         ///< N, pull of the cable downwards
+  double against = 0;      ///< N, pull with the wind, which the drone leans against
+  double across = 0;       ///< N, pull across the wind
+  double pitch = 0;        ///< rad, tilt
+  double thrust = 0;       ///< N of one motor
+  double drone_power = 0;  ///< W at the converter's input; +infinity: the motors have it not
+  double total_power = 0;  ///< W of the ground supply; +infinity or NaN: it cannot be delivered
+};
+
+/// How a cable hangs. Of `loads`, `shape` and `hangs_free` only after `CableOutcome::hangs`.
+struct ShapeStudy {
+  Cable cable;                                     ///< weight and width of the design's tether
+  MovingAir air;                                   ///< as asked for
+  Vector3 drone;                                   ///< m
+  CableOutcome outcome = CableOutcome::not_found;  ///< whether there is a shape
+  HangingCable loads;                              ///< forces and tensions
+  CableShape shape;                                ///< in 400 pieces
+  bool hangs_free = true;                          ///< no point lies below the ground
+  double breaking_load = 0;                        ///< N; 0: unknown
+  LoadedHover solved;                              ///< with this cable
+  LoadedHover straight;  ///< with the tether straight below the drone and all its drag on it
+};
+
+/// The design's tether with a conductor of `area` m² as a bare cable: the weight of both conductors
+/// with insulation and strength member, and the mean width that `projection_factor` makes of them.
+[[nodiscard]] Cable cable_of(const Design& design, double area);
+
+/// Length in m of a cable with `slack` (share of the distance, > 0) to a drone there.
+[[nodiscard]] double slack_length(double slack, double height, double offset);
+
+/// Solves the cable, and the drone that hovers on it in the wind of its own height. The resistance
+/// of the loop is that of the length paid out and `tether.spooled_length`, at
+/// `conductor_temperature_C`. `area` in m².
+/// @throws std::invalid_argument as `CableSolver::solve`.
+[[nodiscard]] ShapeStudy study_cable_shape(const Design& design, double area,
+                                           const ShapeRequest& request);
+
+}  // namespace tethercalc

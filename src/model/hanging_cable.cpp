@@ -1,0 +1,819 @@
+// Notation: t direction of the cable, T tension, r position, s length without tension; lengths in
+// units of the cable's (or, where the winch decides it, of the distance), forces in units of the
+// load on that length; σ with ds = T·dσ.
+#include "tethercalc/model/hanging_cable.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <boost/numeric/odeint/algebra/array_algebra.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/constants.hpp"
+#include "tethercalc/model/catenary.hpp"
+
+namespace tethercalc {
+namespace {
+
+/// How long a step along the cable is, in units of the way on which the load can turn it once
+/// round: everywhere alike, but shorter where the wind comes along the cable, because drag by the
+/// square of a speed that goes through zero has a corner there.
+struct Accuracy {
+  double step = 0;
+  double shortest = 0;            ///< to that corner
+  double shortest_to_height = 0;  ///< to a corner in the wind's profile
+};
+constexpr Accuracy coarse{1, 0.1, 1e-3};   ///< while the unknowns are far off
+constexpr Accuracy fine{0.3, 1e-3, 1e-6};  ///< for forces to 1e-9 of the greatest
+constexpr int most_steps_along = 4000;
+
+double dot(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+double norm(const Vector3& a) { return std::sqrt(dot(a, a)); }
+Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Vector3 operator-(const Vector3& a, const Vector3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Vector3 operator*(double k, const Vector3& a) { return {k * a.x, k * a.y, k * a.z}; }
+Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Vector3 unit(const Vector3& a) { return (1 / norm(a)) * a; }
+
+Vector3 axis_direction(std::size_t axis) {
+  return {axis == 0 ? 1.0 : 0, axis == 1 ? 1.0 : 0, axis == 2 ? 1.0 : 0};
+}
+
+/// Two directions across `t` and each other.
+std::array<Vector3, 2> across(const Vector3& t) {
+  const Vector3 other = std::abs(t.z) < 0.7 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
+  const Vector3 first = unit(cross(other, t));
+  return {first, cross(t, first)};
+}
+
+/// Below this share of the reference height a power law, whose slope has no end at the ground, is
+/// taken as a straight line to it.
+constexpr double linear_below = 0.01;
+
+/// Heights in m over the station at which the slope of the wind's profile jumps.
+std::array<double, 2> corner_heights(const MovingAir& air) {
+  if (air.profile == WindProfile::power_law)
+    return {-air.station_height, linear_below * air.reference_height - air.station_height};
+  return {air.roughness_length - air.station_height, air.roughness_length - air.station_height};
+}
+
+double wind_share_slope(const MovingAir& air, double height) {
+  const double over_ground = height + air.station_height;
+  if (over_ground <= 0) return 0;
+  switch (air.profile) {
+    case WindProfile::uniform:
+      return 0;
+    case WindProfile::power_law:
+      return over_ground < linear_below * air.reference_height
+                 ? wind_share(air, height) / over_ground
+                 : air.exponent * wind_share(air, height) / over_ground;
+    case WindProfile::logarithmic:
+      return over_ground > air.roughness_length
+                 ? 1 / (over_ground * std::log(air.reference_height / air.roughness_length))
+                 : 0;
+  }
+  return 0;
+}
+
+/// A point of the cable, and how it changes with something.
+struct Point {
+  Vector3 direction{};
+  double tension = 0;
+  Vector3 position{};
+  double length = 0;
+};
+
+/// A point and `columns` of its derivatives, as numbers one after the other.
+template <std::size_t columns>
+using State = std::array<double, 8 * (1 + columns)>;
+
+Point operator*(double k, const Point& p) {
+  return {k * p.direction, k * p.tension, k * p.position, k * p.length};
+}
+
+Point point_at(const double* n) { return {{n[0], n[1], n[2]}, n[3], {n[4], n[5], n[6]}, n[7]}; }
+
+void put(double* n, const Point& p) {
+  n[0] = p.direction.x;
+  n[1] = p.direction.y;
+  n[2] = p.direction.z;
+  n[3] = p.tension;
+  n[4] = p.position.x;
+  n[5] = p.position.y;
+  n[6] = p.position.z;
+  n[7] = p.length;
+}
+
+/// In steps of order 8 (Fehlberg 1968, NASA TR R-287) from 0 to `end`, each as long as
+/// `longest_step` says of the state. The pair's own estimate of its error is of no use: it is zero
+/// for an integral, and places are integrals of the direction.
+template <class StateType, class System, class LongestStep>
+bool integrate(const System& system, StateType& state, double end,
+               const LongestStep& longest_step) {
+  namespace odeint = boost::numeric::odeint;
+  odeint::runge_kutta_fehlberg78<StateType, double, StateType, double, odeint::array_algebra>
+      stepper;
+  double at = 0;
+  for (int i = 0; i < most_steps_along; ++i) {
+    const double rest = end - at;
+    const double step = longest_step(state);
+    if (!std::isfinite(step)) return false;
+    // Two halves rather than a whole and a scrap.
+    const double taken = step >= rest ? rest : 2 * step > rest ? 0.5 * rest : step;
+    stepper.do_step(system, state, at, taken);
+    if (taken == rest) {
+      return std::all_of(state.begin(), state.end(), [](double n) { return std::isfinite(n); });
+    }
+    at += taken;
+  }
+  return false;
+}
+
+}  // namespace
+
+double wind_share(const MovingAir& air, double height) {
+  const double over_ground = height + air.station_height;
+  switch (air.profile) {
+    case WindProfile::uniform:
+      return 1;
+    case WindProfile::power_law:
+      return over_ground > linear_below * air.reference_height
+                 ? std::pow(over_ground / air.reference_height, air.exponent)
+                 : std::max(over_ground / (linear_below * air.reference_height), 0.0) *
+                       std::pow(linear_below, air.exponent);
+    case WindProfile::logarithmic:
+      return over_ground > air.roughness_length
+                 ? std::log(over_ground / air.roughness_length) /
+                       std::log(air.reference_height / air.roughness_length)
+                 : 0;
+  }
+  return 1;
+}
+
+/// The cable in its own units.
+struct CableSolver::Problem {
+  double metre = 1;   ///< m, the unit of length
+  double newton = 1;  ///< N, the unit of force
+  double weight = 0;
+  double drag = 0;        ///< ½·ρ·C·d
+  double compliance = 0;  ///< 1/EA
+  MovingAir air{};
+  Vector3 drone{};
+  bool moves = false;
+  Vector3 even_wind{};            ///< m/s, the same everywhere
+  double grown = 1;               ///< how far the air is from that, of 1
+  std::optional<double> winch{};  ///< tension at the station, where the winch decides
+
+  [[nodiscard]] bool even() const {
+    return grown == 0 || (air.profile == WindProfile::uniform && !moves);
+  }
+  [[nodiscard]] double chord_share(const Vector3& r) const {
+    return dot(r, drone) / dot(drone, drone);
+  }
+  [[nodiscard]] Vector3 air_velocity(const Vector3& r) const {
+    if (even()) return grown == 0 ? even_wind : air.wind;
+    Vector3 v = wind_share(air, r.z * metre) * air.wind;
+    if (moves) v = v - chord_share(r) * air.drone_velocity;
+    return grown == 1 ? v : (1 - grown) * even_wind + grown * v;
+  }
+  /// What the air does at a point of the cable.
+  struct Wind {
+    Vector3 velocity{};  ///< of the air past the cable
+    double along = 0;
+    Vector3 normal{};
+    double speed = 0;  ///< across the cable
+    Vector3 load{};    ///< weight less drag: N' of the equilibrium
+    double load_along = 0;
+  };
+  [[nodiscard]] Wind wind_at(const Point& p) const {
+    Wind w;
+    w.velocity = air_velocity(p.position);
+    w.along = dot(w.velocity, p.direction);
+    w.normal = w.velocity - w.along * p.direction;
+    w.speed = norm(w.normal);
+    w.load = Vector3{0, 0, weight} - (drag * w.speed) * w.normal;
+    w.load_along = dot(w.load, p.direction);
+    return w;
+  }
+  /// How far a step may go towards the corner in the drag where the wind comes along the cable.
+  [[nodiscard]] double step_before_corner(const Point& p, const Accuracy& accuracy) const {
+    const Wind w = wind_at(p);
+    double step = accuracy.step;
+    if (!even()) {
+      // A level cable, too, may turn towards a height within a step.
+      const double climb = p.tension * (std::abs(p.direction.z) + accuracy.step);
+      for (const double height : corner_heights(air)) {
+        const double way = std::abs(p.position.z - height / metre) / climb;
+        step = std::min(step, std::max(0.5 * way, accuracy.shortest_to_height));
+      }
+    }
+    const double pressure = drag * dot(w.velocity, w.velocity);
+    if (pressure < 1e-9) return step;
+    return std::min(step, std::max(0.3 * w.speed / norm(w.velocity), accuracy.shortest));
+  }
+  /// By σ.
+  [[nodiscard]] Point change(const Point& p, const Wind& w) const {
+    return {w.load - w.load_along * p.direction, p.tension * weight * p.direction.z,
+            (p.tension * (1 + p.tension * compliance)) * p.direction, p.tension};
+  }
+  /// Derivative of the air's velocity at a place by the wind (`parameter` 0 to 2) and by the
+  /// drone's own place (3 to 5).
+  [[nodiscard]] Vector3 air_change(const Vector3& r, std::size_t parameter) const {
+    const std::size_t axis = parameter % 3;
+    const Vector3 e = axis_direction(axis);
+    if (parameter < 3) return wind_share(air, r.z * metre) * e;
+    // The share of the way along the chord, r·d/d², by d.
+    const double share = (dot(r, e) - 2 * chord_share(r) * dot(drone, e)) / dot(drone, drone);
+    return -share * air.drone_velocity;
+  }
+  /// Derivative of `change` by the state, times `d`, and by the air's velocity, times `dv`.
+  [[nodiscard]] Point change_of_change(const Point& p, const Wind& w, const Point& d,
+                                       const Vector3& dv) const {
+    Vector3 velocity = dv;
+    if (!even()) {
+      const double slope = grown * wind_share_slope(air, p.position.z * metre) * metre;
+      velocity = velocity + (slope * d.position.z) * air.wind;
+    }
+    if (moves && !even()) {
+      velocity = velocity - (grown * chord_share(d.position)) * air.drone_velocity;
+    }
+    const Vector3 normal =
+        velocity - (dot(velocity, p.direction) + dot(w.velocity, d.direction)) * p.direction -
+        w.along * d.direction;
+    const double faster = w.speed > 0 ? dot(w.normal, normal) / w.speed : 0.0;
+    const Vector3 load = -drag * (w.speed * normal + faster * w.normal);
+    return {load - (dot(load, p.direction) + dot(w.load, d.direction)) * p.direction -
+                w.load_along * d.direction,
+            weight * (d.tension * p.direction.z + p.tension * d.direction.z),
+            (d.tension * (1 + 2 * p.tension * compliance)) * p.direction +
+                (p.tension * (1 + p.tension * compliance)) * d.direction,
+            d.tension};
+  }
+};
+
+namespace {
+
+/// What Newton's method looks for: both ways of the direction, ln of σ and of the tension, and,
+/// where the air is not the same everywhere, the place (3). All by their change.
+template <int n>
+using Unknowns = Eigen::Matrix<double, n, 1>;
+template <int n>
+using Square = Eigen::Matrix<double, n, n>;
+constexpr int in_even = 4;
+constexpr int in_any = 7;
+
+/// Derivatives that a state carries for that many unknowns: σ's is the change along the cable.
+constexpr std::size_t columns_of(int unknowns) { return static_cast<std::size_t>(unknowns) - 1; }
+
+/// Follows the cable from `start` to one of its ends, with derivatives by the unknowns there and,
+/// of six more, three by the wind and three by the drone's place.
+template <int unknowns, std::size_t columns, class Problem, class Start>
+std::optional<State<columns>> followed(const Problem& problem, const Start& start, double sigma,
+                                       const Accuracy& accuracy) {
+  State<columns> state{};
+  put(state.data(), {start.direction, start.tension, start.position, 0});
+  if constexpr (columns > 0) {
+    const auto sideways = across(start.direction);
+    put(&state[8], {sideways[0], 0, {}, 0});
+    put(&state[16], {sideways[1], 0, {}, 0});
+    put(&state[24], {{}, start.tension, {}, 0});
+    if constexpr (unknowns == in_any) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        put(&state[8 * (4 + axis)], {{}, 0, axis_direction(axis), 0});
+      }
+    }
+  }
+  if (sigma == 0) return state;
+  const double sign = sigma < 0 ? -1 : 1;
+  const auto system = [&problem, sign](const State<columns>& at, State<columns>& change, double) {
+    const Point p = point_at(at.data());
+    const auto wind = problem.wind_at(p);
+    put(change.data(), sign * problem.change(p, wind));
+    for (std::size_t k = 1; k <= columns; ++k) {
+      Vector3 air_change;
+      if (k > columns_of(unknowns)) {
+        air_change = problem.air_change(p.position, k - 1 - columns_of(unknowns));
+      }
+      put(&change[8 * k],
+          sign * problem.change_of_change(p, wind, point_at(&at[8 * k]), air_change));
+    }
+  };
+  const double longest = std::min(accuracy.step, std::abs(sigma) / 3);
+  const auto longest_step = [&](const State<columns>& at) {
+    return std::min(longest, problem.step_before_corner(point_at(at.data()), accuracy));
+  };
+  if (!integrate(system, state, std::abs(sigma), longest_step)) return std::nullopt;
+  return state;
+}
+
+/// Both ends of the cable.
+template <std::size_t columns>
+struct Ends {
+  State<columns> station;
+  State<columns> drone;
+};
+
+template <int unknowns, std::size_t columns, class Problem, class Start>
+std::optional<Ends<columns>> ends_of(const Problem& problem, const Start& start,
+                                     const Accuracy& accuracy) {
+  const double before = start.before * start.sigma;
+  const auto station = followed<unknowns, columns>(problem, start, -before, accuracy);
+  if (!station) return std::nullopt;
+  const auto drone = followed<unknowns, columns>(problem, start, start.sigma - before, accuracy);
+  if (!drone) return std::nullopt;
+  return Ends<columns>{*station, *drone};
+}
+
+/// How far the ends are from where they should be, or how that changes; the length or the tension
+/// at the station is what else is `held`.
+template <int n>
+Unknowns<n> equations(const Vector3& station, const Vector3& drone, double held) {
+  Unknowns<n> out;
+  const Vector3 apart = n == in_even ? drone - station : drone;
+  out.template head<4>() << apart.x, apart.y, apart.z, held;
+  if constexpr (n == in_any) out.template tail<3>() << station.x, station.y, station.z;
+  return out;
+}
+
+template <int n, class Problem>
+Unknowns<n> miss_of(const Problem& problem, const Point& station, const Point& drone) {
+  const double held = problem.winch ? std::log(station.tension / *problem.winch)
+                                    : drone.length - station.length - 1;
+  return equations<n>(station.position, drone.position - problem.drone, held);
+}
+
+template <int n, class Problem, std::size_t columns>
+Unknowns<n> miss_of(const Problem& problem, const Ends<columns>& ends) {
+  return miss_of<n>(problem, point_at(ends.station.data()), point_at(ends.drone.data()));
+}
+
+/// For a change of both ends.
+template <int n, class Problem>
+Unknowns<n> change_of_miss(const Problem& problem, const Point& station_at, const Point& station,
+                           const Point& drone) {
+  const double held =
+      problem.winch ? station.tension / station_at.tension : drone.length - station.length;
+  return equations<n>(station.position, drone.position, held);
+}
+
+/// How `miss_of` changes with the unknowns.
+template <int n, std::size_t columns, class Problem, class Start>
+Square<n> by_unknowns(const Problem& problem, const Ends<columns>& ends, const Start& start) {
+  const Point station = point_at(ends.station.data());
+  const Point drone = point_at(ends.drone.data());
+  const auto derivative = [&](std::size_t k) {
+    return change_of_miss<n>(problem, station, point_at(&ends.station[8 * k]),
+                             point_at(&ends.drone[8 * k]));
+  };
+  const double before = start.before * start.sigma;
+  Square<n> by;
+  by.col(0) = derivative(1);
+  by.col(1) = derivative(2);
+  by.col(2) = change_of_miss<n>(
+      problem, station, -before * problem.change(station, problem.wind_at(station)),
+      (start.sigma - before) * problem.change(drone, problem.wind_at(drone)));
+  for (int k = 3; k < n; ++k) by.col(k) = derivative(static_cast<std::size_t>(k));
+  return by;
+}
+
+/// The largest of the angle by which the direction turns, the changes of logarithms, and the way
+/// of the place.
+template <int n>
+double size_of(const Unknowns<n>& step) {
+  return std::max(std::hypot(step(0), step(1)), step.template tail<n - 2>().cwiseAbs().maxCoeff());
+}
+
+template <int n, class Start>
+Start moved(const Start& from, const Unknowns<n>& step) {
+  Start to = from;
+  const auto sideways = across(from.direction);
+  to.direction = unit(from.direction + step(0) * sideways[0] + step(1) * sideways[1]);
+  to.sigma *= std::exp(step(2));
+  to.tension *= std::exp(step(3));
+  if constexpr (n == in_any) to.position = to.position + Vector3{step(4), step(5), step(6)};
+  return to;
+}
+
+/// Steps with one inverse, as long as each is much smaller than the one before.
+template <int n, class Problem, class Start>
+std::optional<Start> refined(const Problem& problem, Start at) {
+  const Eigen::Map<const Square<n>> inverse(at.inverse.data());
+  double before = 0.3;
+  for (int i = 0; i < 12; ++i) {
+    const auto ends = ends_of<n, 0>(problem, at, fine);
+    if (!ends) return std::nullopt;
+    const Unknowns<n> step = -(inverse * miss_of<n>(problem, *ends));
+    const double size = size_of<n>(step);
+    if (!(size < 0.5 * before)) return std::nullopt;
+    if (size < 1e-10) {
+      const Point station = point_at(ends->station.data());
+      const Point drone = point_at(ends->drone.data());
+      at.at_station = station.tension * unit(station.direction);
+      at.at_drone = drone.tension * unit(drone.direction);
+      at.length = drone.length - station.length;
+      at.position = at.position - station.position;
+      return at;
+    }
+    at = moved<n>(at, step);
+    before = size;
+  }
+  return std::nullopt;
+}
+
+/// Newton's method, halved where it would lead away, until `refined` can take over.
+template <int n, class Problem, class Start>
+std::optional<Start> newton(const Problem& problem, Start at, int most_steps) {
+  constexpr std::size_t columns = columns_of(n);
+  Accuracy accuracy = coarse;
+  auto ends = ends_of<n, columns>(problem, at, accuracy);
+  if (!ends) return std::nullopt;
+  for (int i = 0; i < most_steps; ++i) {
+    const Unknowns<n> miss = miss_of<n>(problem, *ends);
+    const Square<n> inverse = by_unknowns<n>(problem, *ends, at).inverse();
+    const Unknowns<n> step = -(inverse * miss);
+    if (!step.allFinite()) return std::nullopt;
+    Eigen::Map<Square<n>>(at.inverse.data()) = inverse;
+    const double size = size_of<n>(step);
+    if (size < 0.03) {
+      if (const auto found = refined<n>(problem, moved<n>(at, step))) return found;
+      if (accuracy.step > fine.step) {  // whose own error may stand in the way
+        accuracy = fine;
+        ends = ends_of<n, columns>(problem, at, accuracy);
+        if (!ends) return std::nullopt;
+        continue;
+      }
+    }
+    double part = std::min(1.0, 0.7 / size);
+    std::optional<Start> next;
+    for (int halvings = 0; halvings < 7 && !next; ++halvings, part *= 0.4) {
+      const Start tried = moved<n>(at, Unknowns<n>(part * step));
+      ends = ends_of<n, columns>(problem, tried, accuracy);
+      if (ends && miss_of<n>(problem, *ends).norm() < miss.norm()) next = tried;
+    }
+    if (!next) return std::nullopt;
+    at = *next;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+CableSolver::Problem CableSolver::problem() const {
+  Problem p;
+  p.metre = paid_out_.length ? *paid_out_.length : norm(drone_);
+  const double speed = norm(air_.wind) + norm(air_.drone_velocity);
+  const double drag = 0.5 * air_.density * cable_.drag_coefficient * cable_.diameter;
+  p.newton = (cable_.weight + drag * speed * speed) * p.metre;
+  p.weight = cable_.weight * p.metre / p.newton;
+  p.drag = drag * p.metre / p.newton;
+  p.compliance = cable_.axial_stiffness ? p.newton / *cable_.axial_stiffness : 0;
+  p.air = air_;
+  p.moves = !(air_.drone_velocity == Vector3{});
+  p.drone = (1 / p.metre) * drone_;
+  p.even_wind = wind_share(air_, 0.6 * drone_.z) * air_.wind - 0.5 * air_.drone_velocity;
+  if (!paid_out_.length) p.winch = *paid_out_.winch_tension / p.newton;
+  return p;
+}
+
+namespace {
+
+/// The cable under the load that it would have along the chord, which is even: a catenary in the
+/// plane of that load, with (0, 0) at the station and `up` against the load.
+struct EvenLoad {
+  double weight = 0;
+  Vector3 up{};
+  Vector3 ahead{};
+  double x = 0;
+  double z = 0;
+  std::optional<double> stiffness{};
+
+  template <class Problem>
+  explicit EvenLoad(const Problem& p) {
+    const Vector3 load = p.wind_at({unit(p.drone), 1, 0.6 * p.drone, 0}).load;
+    weight = norm(load);
+    up = weight > 0 ? unit(load) : Vector3{0, 0, 1};
+    z = dot(p.drone, up);
+    const Vector3 level = p.drone - z * up;
+    // A cable along its load hangs as a fold, which has no direction to start from.
+    x = std::max(norm(level), 1e-3 * norm(p.drone));
+    ahead = norm(level) > 0 ? unit(level) : across(up)[0];
+    // With a known tension the stretch, a few thousandths, is left to Newton's method.
+    if (p.compliance > 0 && !p.winch) stiffness = 1 / p.compliance;
+  }
+  [[nodiscard]] double distance() const { return std::hypot(x, z); }
+  [[nodiscard]] std::optional<Catenary> hung(double length) const {
+    return catenary(x, z, length, weight, stiffness);
+  }
+  [[nodiscard]] double tension_at_station(double length) const {
+    const auto c = hung(length);
+    return c ? std::hypot(c->horizontal, c->vertical_at_start) : infinity;
+  }
+  /// With this tension at the station; of two lengths the tauter, and the one with the least
+  /// tension where that is more.
+  [[nodiscard]] double length_with_tension(double tension) const {
+    const auto at = [this](double slack) { return tension_at_station(distance() * (1 + slack)); };
+    double taut = 1e-9;
+    double slack = taut;
+    double least = at(slack);
+    // From taut to slack the tension falls and, with much cable out, rises again.
+    while (least > tension && slack < 4) {
+      const double next = at(1.5 * slack);
+      if (next > least) break;
+      taut = slack;
+      slack *= 1.5;
+      least = next;
+    }
+    for (int i = 0; i < 40 && least <= tension; ++i) {
+      const double middle = std::sqrt(taut * slack);
+      (at(middle) < tension ? slack : taut) = middle;
+    }
+    return distance() * (1 + slack);
+  }
+};
+
+template <class Start, class Problem>
+std::optional<Start> under_even_load(const Problem& p) {
+  const EvenLoad even(p);
+  if (!(even.weight > 0)) return std::nullopt;
+  const double known = even.stiffness ? 1 : std::max(1.0, even.distance() * (1 + 1e-9));
+  const auto c = even.hung(p.winch ? even.length_with_tension(*p.winch) : known);
+  if (!c || !(c->horizontal > 0)) return std::nullopt;
+  // From the place with the least tension both ways: from elsewhere, what lies behind it is lost
+  // in the rounding of the start.
+  const double first = std::asinh(c->vertical_at_start / c->horizontal);
+  const double last = std::asinh(c->vertical_at_end / c->horizontal);
+  const double middle = std::clamp(0.0, first, last);
+  const Vector3 tension =
+      c->horizontal * even.ahead + (c->horizontal * std::sinh(middle)) * even.up;
+  Start out;
+  out.direction = unit(tension);
+  out.tension = norm(tension);
+  out.sigma = (last - first) / even.weight;
+  out.before = (middle - first) / (last - first);
+  return out;
+}
+
+/// Follows a solution while `changed` turns the problem from share 0 into share 1, by as much at a
+/// time as leads on.
+template <int n, class Start, class Changed>
+std::optional<Start> led_on(const Changed& changed, std::optional<Start> at, double step) {
+  for (double share = 0; at && share < 1;) {
+    const double next = std::min(1.0, share + step);
+    if (const auto found = newton<n>(changed(next), *at, 8)) {
+      at = found;
+      share = next;
+      step *= 1.5;
+    } else {
+      step *= 0.4;
+      if (step < 1e-3) return std::nullopt;
+    }
+  }
+  return at;
+}
+
+/// Any cable in a wind that is the same everywhere: at once, or from still air with the wind
+/// raised.
+template <class Start, class Problem>
+std::optional<Start> in_even_air(const Problem& problem) {
+  auto at = under_even_load<Start>(problem);
+  if (at) at = newton<in_even>(problem, *at, 30);
+  if (at) return at;
+  const auto changed = [&problem](double share) {
+    Problem p = problem;
+    p.air.wind = share * p.air.wind;
+    p.even_wind = share * p.even_wind;
+    return p;
+  };
+  at = under_even_load<Start>(changed(0));
+  if (at) at = newton<in_even>(changed(0), *at, 30);
+  return led_on<in_even>(changed, at, 0.25);
+}
+
+template <class Start, class Problem>
+std::optional<Start> anew(const Problem& problem) {
+  if (problem.even()) return in_even_air<Start>(problem);
+  const auto changed = [&problem](double share) {
+    Problem p = problem;
+    p.grown = share;
+    return p;
+  };
+  return led_on<in_any>(changed, in_even_air<Start>(changed(0)), 1);
+}
+
+/// Whether no length of cable under an even load has so little tension at the station.
+template <class Problem>
+bool winch_is_too_weak(const Problem& p) {
+  const EvenLoad even(p);
+  return even.tension_at_station(even.length_with_tension(*p.winch)) > 1.0001 * *p.winch;
+}
+
+void check(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+void check(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
+           const Vector3& drone) {
+  check(cable.weight >= 0 && cable.diameter >= 0 && cable.drag_coefficient >= 0 && air.density >= 0,
+        "weight, diameter, drag coefficient and air density of a cable are not negative");
+  check(!cable.axial_stiffness || *cable.axial_stiffness > 0, "an axial stiffness is positive");
+  check(paid_out.length.has_value() != paid_out.winch_tension.has_value(),
+        "either the length or the winch's tension is given");
+  check(paid_out.length.value_or(1) > 0, "a cable has a length");
+  check(paid_out.winch_tension.value_or(1) > 0, "a winch that decides the length pulls");
+  check(norm(drone) > 0, "the drone is not at the station");
+  if (air.profile == WindProfile::logarithmic) {
+    check(air.roughness_length > 0 && air.reference_height > air.roughness_length,
+          "0 < roughness length < reference height");
+  }
+  check(air.profile == WindProfile::uniform || air.reference_height > 0,
+        "a wind profile has a reference height above ground");
+}
+
+}  // namespace
+
+CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
+                                const Vector3& drone) {
+  check(cable, air, paid_out, drone);
+  const bool alike = last_ && paid_out.length.has_value() == paid_out_.length.has_value() &&
+                     air.profile == air_.profile &&
+                     (air.drone_velocity == Vector3{}) == (air_.drone_velocity == Vector3{});
+  cable_ = cable;
+  air_ = air;
+  paid_out_ = paid_out;
+  drone_ = drone;
+  still_.reset();
+  if (!alike) last_.reset();
+  const Problem p = problem();
+  const bool loaded = p.newton > 0;
+  if (!loaded || (paid_out.length && !cable.axial_stiffness && !(*paid_out.length > norm(drone)))) {
+    last_.reset();
+    return loaded ? CableOutcome::too_short : CableOutcome::not_found;
+  }
+  if (paid_out.length &&
+      p.drag * (dot(air.wind, air.wind) + dot(air.drone_velocity, air.drone_velocity)) == 0) {
+    last_.reset();
+    still_ = catenary(std::hypot(drone.x, drone.y), drone.z, *paid_out.length, cable.weight,
+                      cable.axial_stiffness);
+    return still_ ? CableOutcome::hangs : CableOutcome::not_found;
+  }
+  if (last_) last_ = p.even() ? refined<in_even>(p, *last_) : refined<in_any>(p, *last_);
+  if (!last_) last_ = anew<Last>(p);
+  if (last_) return CableOutcome::hangs;
+  return p.winch && winch_is_too_weak(p) ? CableOutcome::tension_too_low : CableOutcome::not_found;
+}
+
+Vector3 CableSolver::ahead() const {
+  const double distance = std::hypot(drone_.x, drone_.y);
+  return distance > 0 ? Vector3{drone_.x / distance, drone_.y / distance, 0} : Vector3{1, 0, 0};
+}
+
+HangingCable CableSolver::result() const {
+  if (still_) {
+    const Vector3 level = still_->horizontal * ahead();
+    return {*paid_out_.length, Vector3{-level.x, -level.y, -still_->vertical_at_end},
+            Vector3{level.x, level.y, still_->vertical_at_start},
+            std::hypot(still_->horizontal, still_->vertical_at_end),
+            std::hypot(still_->horizontal, still_->vertical_at_start)};
+  }
+  const Problem p = problem();
+  return {last_->length * p.metre, -p.newton * last_->at_drone, p.newton * last_->at_station,
+          p.newton * norm(last_->at_drone), p.newton * norm(last_->at_station)};
+}
+
+namespace {
+
+/// Where the cable is, at the lengths `at` from the start (all on one side of it, in order).
+template <class Problem>
+void follow_by_length(const Problem& problem, Point from, const std::vector<double>& at,
+                      std::vector<Point>& out) {
+  State<0> state{};
+  put(state.data(), from);
+  for (const double target : at) {
+    const double way = target - point_at(state.data()).length;
+    const double sign = way < 0 ? -1 : 1;
+    const auto system = [&problem, sign](const State<0>& s, State<0>& change, double) {
+      const Point p = point_at(s.data());
+      put(change.data(), (sign / p.tension) * problem.change(p, problem.wind_at(p)));
+    };
+    const auto longest_step = [&](const State<0>& s) {
+      const Point p = point_at(s.data());
+      return p.tension * std::min(fine.step, problem.step_before_corner(p, fine));
+    };
+    integrate(system, state, std::abs(way), longest_step);
+    out.push_back(point_at(state.data()));
+  }
+}
+
+CableShape with_extremes(std::vector<CablePoint> points) {
+  CableShape shape{std::move(points), {}, {}, {}};
+  const auto by = [&shape](const auto& value) {
+    return *std::min_element(
+        shape.points.begin(), shape.points.end(),
+        [&value](const CablePoint& a, const CablePoint& b) { return value(a) < value(b); });
+  };
+  shape.lowest = by([](const CablePoint& p) { return p.position.z; });
+  shape.slackest = by([](const CablePoint& p) { return p.tension; });
+  shape.tautest = by([](const CablePoint& p) { return -p.tension; });
+  return shape;
+}
+
+}  // namespace
+
+CableShape CableSolver::catenary_shape(int pieces) const {
+  const Vector3 direction = ahead();
+  const double length = *paid_out_.length;
+  const auto point = [&](double s) {
+    const CatenaryPoint at = catenary_point(*still_, s, cable_.weight, cable_.axial_stiffness);
+    return CablePoint{s, {at.x * direction.x, at.x * direction.y, at.z}, at.tension};
+  };
+  std::vector<CablePoint> points;
+  for (int k = 0; k <= pieces; ++k) points.push_back(point(length * k / pieces));
+  CableShape shape = with_extremes(std::move(points));
+  const double bottom = -still_->vertical_at_start / cable_.weight;
+  if (bottom > 0 && bottom < length) shape.lowest = shape.slackest = point(bottom);
+  return shape;
+}
+
+CableShape CableSolver::shape(int pieces) const {
+  check(pieces >= 1, "a shape has at least one piece");
+  if (still_) return catenary_shape(pieces);
+  const Problem p = problem();
+  const auto ends = ends_of<in_any, 0>(p, *last_, fine);
+  const Point station = point_at(ends->station.data());
+  std::vector<double> before;
+  std::vector<double> after;
+  for (int k = 0; k <= pieces; ++k) {
+    const double s = last_->length * k / pieces + station.length;
+    (s < 0 ? before : after).push_back(s);
+  }
+  std::reverse(before.begin(), before.end());
+  const Point place{last_->direction, last_->tension, last_->position, 0};
+  std::vector<Point> found;
+  follow_by_length(p, place, before, found);
+  std::reverse(found.begin(), found.end());
+  follow_by_length(p, place, after, found);
+  std::vector<CablePoint> points;
+  for (int k = 0; k <= pieces; ++k) {
+    const Point& at = found[static_cast<std::size_t>(k)];
+    points.push_back({last_->length * p.metre * k / pieces,
+                      p.metre * (at.position - station.position), at.tension * p.newton});
+  }
+  return with_extremes(std::move(points));
+}
+
+CableSolver::Derivatives CableSolver::catenary_derivatives() const {
+  const CatenaryStiffness k =
+      catenary_stiffness(*still_, *paid_out_.length, cable_.weight, cable_.axial_stiffness);
+  const Vector3 e = ahead();
+  const double distance = std::hypot(drone_.x, drone_.y);
+  // Across its plane the cable turns with it.
+  const double sideways = distance > 0 ? still_->horizontal / distance : k.horizontal_by_x;
+  const double xx = k.horizontal_by_x * e.x * e.x + sideways * e.y * e.y;
+  const double xy = (k.horizontal_by_x - sideways) * e.x * e.y;
+  const double yy = k.horizontal_by_x * e.y * e.y + sideways * e.x * e.x;
+  Derivatives out;
+  out.by_position = {Vector3{-xx, -xy, -k.horizontal_by_z * e.x},
+                     Vector3{-xy, -yy, -k.horizontal_by_z * e.y},
+                     Vector3{-k.horizontal_by_z * e.x, -k.horizontal_by_z * e.y, -k.vertical_by_z}};
+  return out;  // drag goes with the square of the wind: nothing at first
+}
+
+CableSolver::Derivatives CableSolver::derivatives() const {
+  if (still_) return catenary_derivatives();
+  const Problem p = problem();
+  const auto ends = ends_of<in_any, columns_of(in_any) + 6>(p, *last_, fine);
+  const Point station = point_at(ends->station.data());
+  const Point drone = point_at(ends->drone.data());
+  const auto at_station = [&](std::size_t k) { return point_at(&ends->station[8 * k]); };
+  const auto at_drone = [&](std::size_t k) { return point_at(&ends->drone[8 * k]); };
+  const auto pull = [&drone](const Point& d) {
+    return d.tension * drone.direction + drone.tension * d.direction;
+  };
+  const Square<in_any> inverse = by_unknowns<in_any>(p, *ends, *last_).inverse();
+  const double after = (1 - last_->before) * last_->sigma;
+  std::array<Vector3, in_any> by_unknown{pull(at_drone(1)), pull(at_drone(2)),
+                                         pull(after * p.change(drone, p.wind_at(drone)))};
+  for (std::size_t k = 3; k < in_any; ++k) by_unknown[k] = pull(at_drone(k));
+  const auto force = [&](std::size_t column, const Vector3& moved) {
+    const Unknowns<in_any> change =
+        change_of_miss<in_any>(p, station, at_station(column), at_drone(column)) -
+        equations<in_any>({}, moved, 0);
+    const Unknowns<in_any> unknowns = -(inverse * change);
+    Vector3 sum = pull(at_drone(column));
+    for (std::size_t k = 0; k < in_any; ++k) {
+      sum = sum + unknowns(static_cast<Eigen::Index>(k)) * by_unknown[k];
+    }
+    return -p.newton * sum;
+  };
+  Derivatives out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out.by_wind[axis] = force(in_any + axis, {});
+    out.by_position[axis] = (1 / p.metre) * force(in_any + 3 + axis, axis_direction(axis));
+  }
+  return out;
+}
+
+}  // namespace tethercalc

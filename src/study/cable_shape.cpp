@@ -1,0 +1,99 @@
+#include "tethercalc/study/cable_shape.hpp"
+
+#include <cmath>
+
+#include "model/constants.hpp"
+#include "tethercalc/model/airframe.hpp"
+#include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/steady_flight.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr int pieces = 400;
+
+/// The hover in which the cable pulls like this; what it weighs is in `down`.
+LoadedHover hover_under(const SteadyFlight& flight, double radius, double paid_out, double down,
+                        double against, double across) {
+  const Design& design = flight.design();
+  LoadedHover out{down, against, across};
+  const double bare = flight.takeoff_mass(radius) - flight.tether().mass(radius);
+  const double weight = bare * design.flight.gravity + down;
+  const AirframeDrag& drag = design.drone.drag;
+  const double drag_factor =
+      area_force_factor(drag, design.flight.air_density, flight.state().airspeed);
+  // A cable that pulls against the wind more than the drone drags leans it backwards.
+  const double level = drag_factor * drag.front_area + against;
+  const double forward = level >= 0
+                             ? equilibrium_tan_pitch({weight, drag_factor, std::max(against, 0.0),
+                                                      drag.front_area, drag.top_area},
+                                                     infinity)
+                             : level / weight;
+  const double tangent = std::hypot(forward, across / weight);
+  out.pitch = std::atan(tangent);
+  out.thrust = flight.necessary_thrust(weight, tangent);
+  out.drone_power = flight.drone_power(out.thrust);
+  FlightState laid_out = flight.state();
+  laid_out.deployed = paid_out;
+  const double resistance = SteadyFlight(design, laid_out).tether().resistance(radius);
+  out.total_power = out.drone_power < infinity
+                        ? supplied_power(design.supply.voltage, resistance, out.drone_power)
+                        : infinity;
+  return out;
+}
+
+}  // namespace
+
+Cable cable_of(const Design& design, double area) {
+  const StraightTether tether(design.tether,
+                              insulation_wall(design.tether.insulation, design.supply.voltage),
+                              {.deployed = 1}, design.flight.air_density, design.flight.gravity);
+  return {.weight = tether.mass(conductor_radius(area)) * design.flight.gravity,
+          .diameter = tether.width(conductor_radius(area)),
+          .drag_coefficient = design.tether.drag_coefficient};
+}
+
+double slack_length(double slack, double height, double offset) {
+  return (1 + slack) * std::hypot(height, offset);
+}
+
+ShapeStudy study_cable_shape(const Design& design, double area, const ShapeRequest& request) {
+  ShapeStudy out;
+  out.cable = cable_of(design, area);
+  out.cable.axial_stiffness = request.axial_stiffness;
+  out.drone = {request.offset, 0, request.height};
+  out.air.density = design.flight.air_density;
+  out.air.profile = request.profile;
+  out.air.wind = {-request.wind * std::cos(request.wind_from),
+                  request.wind * std::sin(request.wind_from), 0};
+  out.air.station_height = request.station_height;
+  out.air.reference_height = request.reference_height;
+  out.air.exponent = request.exponent;
+  out.air.roughness_length = request.roughness_length;
+  out.breaking_load = breaking_load(design.tether, area);
+
+  CableSolver solver;
+  out.outcome = solver.solve(out.cable, out.air, request.paid_out, out.drone);
+  if (out.outcome != CableOutcome::hangs) return out;
+  out.loads = solver.result();
+  out.shape = solver.shape(pieces);
+  out.hangs_free = out.shape.lowest.position.z >= -request.station_height - 1e-9;
+
+  const double wind = request.wind * wind_share(out.air, request.height);
+  const double radius = conductor_radius(area);
+  const Vector3& pull = out.loads.on_drone;
+  const Vector3 with =
+      request.wind > 0 ? Vector3{out.air.wind.x / request.wind, out.air.wind.y / request.wind, 0}
+                       : Vector3{-1, 0, 0};
+  FlightState state = flight_state(design, Condition::hover);
+  state.airspeed = wind;
+  state.deployed = request.height;
+  const SteadyFlight flight(design, state);
+  out.solved = hover_under(flight, radius, out.loads.length, -pull.z,
+                           pull.x * with.x + pull.y * with.y, pull.x * with.y - pull.y * with.x);
+  const TetherLoad straight = flight.tether().load(radius);
+  out.straight = hover_under(flight, radius, request.height, straight.down, straight.along, 0);
+  return out;
+}
+
+}  // namespace tethercalc
