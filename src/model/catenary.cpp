@@ -120,8 +120,8 @@ Flexibility flexibility(const Catenary& c, double length, double weight,
       h * (1 / t1 - 1 / t0) / weight, (end / t1 - start / t0) / weight + stretch};
 }
 
-/// From the cable that does not stretch, no tauter than a spring without weight would be by much, or
-/// from that spring.
+/// From the cable that does not stretch, no tauter than a spring without weight would be by much,
+/// or from that spring.
 Catenary first_elastic(double x, double z, double length, double weight, double stiffness) {
   const double distance = std::hypot(x, z);
   const double all = weight * length;

@@ -28,6 +28,10 @@ constexpr Accuracy coarse{1, 0.1, 1e-3};   ///< while the unknowns are far off
 constexpr Accuracy fine{0.3, 1e-3, 1e-6};  ///< for forces to 1e-9 of the greatest
 constexpr int most_steps_along = 4000;
 
+/// Steps of one solution in all, after which it counts as not found: a hundred times what a usual
+/// one takes.
+constexpr int most_steps = 100000;
+
 double dot(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(const Vector3& a) { return std::sqrt(dot(a, a)); }
 Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -165,6 +169,7 @@ struct CableSolver::Problem {
   bool moves = false;
   Vector3 even_wind{};            ///< m/s, the same everywhere
   double grown = 1;               ///< how far the air is from that, of 1
+  int* steps_left = nullptr;      ///< of `most_steps`
   std::optional<double> winch{};  ///< tension at the station, where the winch decides
 
   [[nodiscard]] bool even() const {
@@ -303,6 +308,7 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
   };
   const double longest = std::min(accuracy.step, std::abs(sigma) / 3);
   const auto longest_step = [&](const State<columns>& at) {
+    if (problem.steps_left && --*problem.steps_left < 0) return nan;
     return std::min(longest, problem.step_before_corner(point_at(at.data()), accuracy));
   };
   if (!integrate(system, state, std::abs(sigma), longest_step)) return std::nullopt;
@@ -425,12 +431,12 @@ std::optional<Start> refined(const Problem& problem, Start at) {
 
 /// Newton's method, halved where it would lead away, until `refined` can take over.
 template <int n, class Problem, class Start>
-std::optional<Start> newton(const Problem& problem, Start at, int most_steps) {
+std::optional<Start> newton(const Problem& problem, Start at, int most_iterations) {
   constexpr std::size_t columns = columns_of(n);
   Accuracy accuracy = coarse;
   auto ends = ends_of<n, columns>(problem, at, accuracy);
   if (!ends) return std::nullopt;
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < most_iterations; ++i) {
     const Unknowns<n> miss = miss_of<n>(problem, *ends);
     const Square<n> inverse = by_unknowns<n>(problem, *ends, at).inverse();
     const Unknowns<n> step = -(inverse * miss);
@@ -646,7 +652,9 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
   drone_ = drone;
   still_.reset();
   if (!alike) last_.reset();
-  const Problem p = problem();
+  Problem p = problem();
+  int steps_left = most_steps;
+  p.steps_left = &steps_left;
   const bool loaded = p.newton > 0;
   if (!loaded || (paid_out.length && !cable.axial_stiffness && !(*paid_out.length > norm(drone)))) {
     last_.reset();

@@ -38,13 +38,13 @@ enum class WindProfile {
 /// The air that a cable hangs in. Below the ground and, with a logarithmic profile, below the
 /// roughness length, a wind that grows with height is still.
 struct MovingAir {
-  double density = 1.225;  ///< kg/m³
-  Vector3 wind{};          ///< m/s, velocity of the air at the reference height
-  WindProfile profile = WindProfile::uniform;
-  double station_height = 0;       ///< m of the cable's lower end over ground, ≥ 0
-  double reference_height = 10;    ///< m over ground
-  double exponent = 1.0 / 7;       ///< of the power law; 1/7 over open land (Hellmann)
-  double roughness_length = 0.03;  ///< m; 0.03 over grass (WMO-No. 8, annex 1.D)
+  double density = 1.225;                      ///< kg/m³
+  Vector3 wind{};                              ///< m/s, velocity of the air at the reference height
+  WindProfile profile = WindProfile::uniform;  ///< how it grows with height
+  double station_height = 0;                   ///< m of the cable's lower end over ground, ≥ 0
+  double reference_height = 10;                ///< m over ground
+  double exponent = 1.0 / 7;                   ///< of the power law; 1/7 over open land (Hellmann)
+  double roughness_length = 0.03;              ///< m; 0.03 over grass (WMO-No. 8, annex 1.D)
 
   /// m/s, velocity of the drone over ground. The cable follows it in proportion to the way along
   /// the chord.
