@@ -42,11 +42,6 @@ class Command {
     return *this;
   }
 
-  template <typename Value>
-  Command& optional_argument(const char* name, Value& value, const std::string& help) {
-    return option(name, value, help);
-  }
-
   Command& flag(const char* name, bool& value, const char* help) {
     app_.add_flag(name, value, help);
     return *this;
@@ -102,6 +97,33 @@ class Command {
         .repeatable("--effects", logs.effect_files,
                     "Your own effects to try as well (JSON); repeatable")
         .flight(logs.flight);
+  }
+
+  /// The options that say where a drone hangs on its cable, and in which air.
+  Command& shape(ShapeOptions& shape) {
+    return repeatable(
+               "--area-mm2", shape.areas_mm2,
+               "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
+        .option("--height", shape.height,
+                "Of the drone over the station, m (default: tether.length_m)")
+        .option("--offset", shape.offset, "Of the drone aside, m (default 0)")
+        .comma_list("--wind", shape.winds, "m/s (default: flight.airspeed_m_s)")
+        .option("--wind-from", shape.wind_from,
+                "Degrees, clockwise from above, 0 from where the drone stands aside (default 0)")
+        .comma_list("--slack", shape.slacks_percent,
+                    "Cable paid out beyond the distance, percent of it (default 1)")
+        .option("--length", shape.length, "Or: the cable paid out, m")
+        .option("--winch-tension", shape.winch_tension,
+                "Or: N that a winch holds at the station (default: tether.winch_pull_N)")
+        .option("--stiffness", shape.axial_stiffness, "EA, N (default: the cable does not stretch)")
+        .option("--station-height", shape.station_height, "Over ground, m (default 0)")
+        .option("--profile", shape.profile,
+                "How the wind grows with height: uniform (default), power-law or logarithmic")
+        .option("--reference-height", shape.reference_height,
+                "m over ground at which --wind blows, with a profile (default 10)")
+        .option("--exponent", shape.exponent, "Of the power law (default 1/7)")
+        .option("--roughness", shape.roughness_length,
+                "m, of the logarithmic profile (default 0.03)");
   }
 
   Command& output_file(Output& output) {
@@ -220,31 +242,9 @@ class CommandLine {
         .output(output_);
     add("shape", "How the cable hangs between station and drone, and what that does to the drone",
         [this] { return run_shape(shape_, output_); })
-        .optional_argument("SPEC", shape_.spec.file, "Design spec (JSON), - for standard input")
+        .option("SPEC", shape_.spec.file, "Design spec (JSON), - for standard input")
         .repeatable("--set", shape_.spec.overrides, "Change a field of the spec: path=value")
-        .repeatable("--area-mm2", shape_.areas_mm2,
-                    "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
-        .option("--height", shape_.height,
-                "Of the drone over the station, m (default: tether.length_m)")
-        .option("--offset", shape_.offset, "Of the drone aside, m (default 0)")
-        .option("--wind", shape_.wind, "m/s (default: flight.airspeed_m_s)")
-        .option("--wind-from", shape_.wind_from,
-                "Degrees, clockwise from above, 0 from where the drone stands aside (default 0)")
-        .option("--slack", shape_.slack_percent,
-                "Cable paid out beyond the distance, percent of it (default 1)")
-        .option("--length", shape_.length, "Or: the cable paid out, m")
-        .option("--winch-tension", shape_.winch_tension,
-                "Or: N that a winch holds at the station (default: tether.winch_pull_N)")
-        .option("--stiffness", shape_.axial_stiffness,
-                "EA, N (default: the cable does not stretch)")
-        .option("--station-height", shape_.station_height, "Over ground, m (default 0)")
-        .option("--profile", shape_.profile,
-                "How the wind grows with height: uniform (default), power-law or logarithmic")
-        .option("--reference-height", shape_.reference_height,
-                "m over ground at which --wind blows, with a profile (default 10)")
-        .option("--exponent", shape_.exponent, "Of the power law (default 1/7)")
-        .option("--roughness", shape_.roughness_length,
-                "m, of the logarithmic profile (default 0.03)")
+        .shape(shape_)
         .option("--cases", shape_.cases_file, "Solve the bare cables of this file (JSON) instead")
         .output(output_);
     add("validate", "Check specs without computing anything",
@@ -325,7 +325,8 @@ class CommandLine {
         .option("--y", plot_.y, "sweep: the varied field along the vertical axis")
         .option("--value", plot_.value, "sweep: the column shown (default: forward.total_power_W)")
         .logs(plot_.made_of, "diagnosis: the flight log", "diagnosis: the power log",
-              "diagnosis: effects taken as part of the base model");
+              "diagnosis: effects taken as part of the base model")
+        .shape(plot_.shape);
     add("report", "One page with everything about a design, to be mailed or printed",
         [this] { return run_report(diagnose_, shell_command(arguments_), output_); })
         .spec(diagnose_.spec)

@@ -15,6 +15,7 @@
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
 #include "tethercalc/report/text_table.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 #include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
 
@@ -88,9 +89,9 @@ struct ShapeOptions {
   std::vector<std::string> areas_mm2;
   std::optional<double> height;
   double offset = 0;
-  std::optional<double> wind;
+  std::vector<std::string> winds;
   double wind_from = 0;
-  std::optional<double> slack_percent;
+  std::vector<std::string> slacks_percent;
   std::optional<double> length;
   std::optional<double> winch_tension;
   std::optional<double> axial_stiffness;
@@ -100,6 +101,14 @@ struct ShapeOptions {
   double exponent = 1.0 / 7;
   double roughness_length = 0.03;
 };
+
+/// A design's cable and what is asked of it: one request a wind and slack.
+struct AskedShapes {
+  DesignFile file;
+  double area = 0;  ///< m²
+  std::vector<ShapeRequest> requests;
+};
+[[nodiscard]] AskedShapes asked_shapes(const ShapeOptions& options);
 
 /// How the cable hangs; exit code 1 where it cannot, or would lie on the ground.
 int run_shape(const ShapeOptions& options, const Output& output);
@@ -223,6 +232,7 @@ struct PlotOptions {
   std::string x;
   std::string y;
   std::string value;
+  ShapeOptions shape;
 };
 
 /// Names and what they show, for help and messages.

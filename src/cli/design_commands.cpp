@@ -213,37 +213,61 @@ double checked(Problems& problems, const char* option, double value, double leas
   return least;
 }
 
-PaidOut parsed_paid_out(const ShapeOptions& options, const Design& design, double distance,
-                        Problems& problems) {
-  PaidOut out;
-  const int given = int(options.slack_percent.has_value()) + int(options.length.has_value()) +
+/// The numbers of a list, each in its range.
+std::vector<double> checked(Problems& problems, const char* option,
+                            const std::vector<std::string>& texts, double least, double most,
+                            const char* unit) {
+  std::vector<double> numbers;
+  for (const std::string& text : texts) {
+    if (const auto number = parsed_number(text)) {
+      numbers.push_back(checked(problems, option, *number, least, most, unit));
+    } else {
+      problems.add(option, "\"" + text + "\" is not a number");
+    }
+  }
+  return numbers;
+}
+
+/// What decides how much cable is out; several where several slacks are asked for.
+std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& design,
+                                     double distance, Problems& problems) {
+  const auto of_length = [](double length) {
+    return PaidOut{.length = length, .winch_tension = {}};
+  };
+  const auto of_tension = [](double tension) {
+    return PaidOut{.length = {}, .winch_tension = tension};
+  };
+  const int given = int(!options.slacks_percent.empty()) + int(options.length.has_value()) +
                     int(options.winch_tension.has_value());
   if (given > 1) {
     problems.add("--slack, --length, --winch-tension",
                  "one of them decides how much cable is out; give no more");
-  } else if (options.length) {
-    out.length = checked(problems, "--length", *options.length, 1e-3, 1e6, "m");
-  } else if (options.winch_tension) {
-    out.winch_tension =
-        checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N");
-  } else if (given == 0 && design.tether.winch_pull > 0) {
-    out.winch_tension = design.tether.winch_pull;
-  } else {
-    const double percent =
-        checked(problems, "--slack", options.slack_percent.value_or(1), 1e-6, 1000, "percent");
-    out.length = distance * (1 + percent / 100);
+    return {};
+  }
+  if (options.length) {
+    return {of_length(checked(problems, "--length", *options.length, 1e-3, 1e6, "m"))};
+  }
+  if (options.winch_tension) {
+    return {
+        of_tension(checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N"))};
+  }
+  if (given == 0 && design.tether.winch_pull > 0) return {of_tension(design.tether.winch_pull)};
+  const std::vector<std::string> one_percent{"1"};
+  std::vector<PaidOut> out;
+  for (const double percent :
+       checked(problems, "--slack", given ? options.slacks_percent : one_percent, 1e-6, 1000,
+               "percent")) {
+    out.push_back(of_length(distance * (1 + percent / 100)));
   }
   return out;
 }
 
-ShapeRequest parsed_request(const ShapeOptions& options, const Design& design) {
+std::vector<ShapeRequest> parsed_requests(const ShapeOptions& options, const Design& design) {
   Problems problems;
   ShapeRequest request;
   request.height =
       checked(problems, "--height", options.height.value_or(design.tether.length), 0.01, 1e5, "m");
   request.offset = checked(problems, "--offset", options.offset, 0, 1e5, "m");
-  request.wind = checked(problems, "--wind",
-                         options.wind.value_or(std::abs(design.flight.airspeed)), 0, 200, "m/s");
   request.wind_from =
       checked(problems, "--wind-from", options.wind_from, -360, 360, "degrees") * unit::degree;
   request.station_height =
@@ -261,10 +285,20 @@ ShapeRequest parsed_request(const ShapeOptions& options, const Design& design) {
     request.axial_stiffness =
         checked(problems, "--stiffness", *options.axial_stiffness, 1, 1e12, "N");
   }
-  request.paid_out =
-      parsed_paid_out(options, design, std::hypot(request.height, request.offset), problems);
+  std::vector<double> winds = checked(problems, "--wind", options.winds, 0, 200, "m/s");
+  if (options.winds.empty()) winds = {std::abs(design.flight.airspeed)};
+  const double distance = std::hypot(request.height, request.offset);
+  const std::vector<PaidOut> lengths = parsed_paid_out(options, design, distance, problems);
   problems.throw_if_any();
-  return request;
+  std::vector<ShapeRequest> requests;
+  for (const double wind : winds) {
+    for (const PaidOut& paid_out : lengths) {
+      requests.push_back(request);
+      requests.back().wind = wind;
+      requests.back().paid_out = paid_out;
+    }
+  }
+  return requests;
 }
 
 int run_cable_cases(const ShapeOptions& options, const Output& output) {
@@ -276,6 +310,15 @@ int run_cable_cases(const ShapeOptions& options, const Output& output) {
 
 }  // namespace
 
+AskedShapes asked_shapes(const ShapeOptions& options) {
+  const std::vector<double> areas = parsed_areas(options.areas_mm2);
+  AskedShapes out{read_spec(options.spec), 0, {}};
+  if (areas.size() > 1) throw InputError("--area-mm2", "a shape is that of one cross-section");
+  out.area = chosen_areas(areas, out.file.design).front();
+  out.requests = parsed_requests(options, out.file.design);
+  return out;
+}
+
 int run_shape(const ShapeOptions& options, const Output& output) {
   if (!options.cases_file.empty()) {
     if (!options.spec.file.empty()) {
@@ -284,15 +327,16 @@ int run_shape(const ShapeOptions& options, const Output& output) {
     return run_cable_cases(options, output);
   }
   if (options.spec.file.empty()) throw InputError("SPEC", "is needed, or --cases FILE");
-  const std::vector<double> areas = parsed_areas(options.areas_mm2);
-  const DesignFile file = read_spec(options.spec);
-  if (areas.size() > 1) throw InputError("--area-mm2", "a shape is that of one cross-section");
-  const double area = chosen_areas(areas, file.design).front();
-  const ShapeRequest request = parsed_request(options, file.design);
-  const ShapeStudy answer = study_cable_shape(file.design, area, request);
+  const AskedShapes asked = asked_shapes(options);
+  if (asked.requests.size() > 1) {
+    throw InputError("--wind, --slack", "a shape is that of one of each; plot shape draws several");
+  }
+  const ShapeRequest& request = asked.requests.front();
+  const ShapeStudy answer = study_cable_shape(asked.file.design, asked.area, request);
   emit(
-      output, [&] { return cable_shape_text(file, area, request, answer, style_for(output)); },
-      [&] { return cable_shape_json(file, area, answer); },
+      output,
+      [&] { return cable_shape_text(asked.file, asked.area, request, answer, style_for(output)); },
+      [&] { return cable_shape_json(asked.file, asked.area, answer); },
       [&] { return cable_shape_csv(answer); });
   return answer.outcome == CableOutcome::hangs && answer.hangs_free ? done : answer_is_no;
 }

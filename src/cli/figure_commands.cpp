@@ -100,6 +100,21 @@ Figure sweep(const PlotOptions& options) {
       {options.x, options.y, heading(options, base_name(file))});
 }
 
+Figure shape(const PlotOptions& options) {
+  ShapeOptions how = options.shape;
+  how.spec = {options.files.front(), options.made_of.spec.overrides};
+  const AskedShapes asked = asked_shapes(how);
+  std::vector<ShapeStudy> studies;
+  for (const ShapeRequest& request : asked.requests) {
+    studies.push_back(study_cable_shape(asked.file.design, asked.area, request));
+  }
+  try {
+    return shape_figure(heading(options, asked.file.name), asked.requests, studies);
+  } catch (const std::invalid_argument& error) {
+    throw InputError("plot shape", error.what());
+  }
+}
+
 struct Kind {
   std::string_view name;
   std::string_view input;  ///< what FILE is
@@ -112,6 +127,7 @@ constexpr std::array kinds{
     Kind{"optimum", "SPEC", "thrust and power over the cross-section", optimum},
     Kind{"motors", "SPEC", "efficiency of motors, with what their best tethers ask of them",
          motors},
+    Kind{"shape", "SPEC", "the cable as it hangs, from the side and from above", shape},
     Kind{"log", "LOG", "accelerations, drag and speed over time", log},
     Kind{"drag", "LOG...", "measured and fitted drag over airspeed", drag, true},
     Kind{"diagnosis", "SPEC", "what a log (--flight, --power) shows of the simulation's errors",
@@ -132,7 +148,11 @@ const Kind& find_kind(const std::string& name) {
 /// An option that belongs to other kinds of figures was meant for something.
 void check_options(const PlotOptions& options) {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> takers{
-      {"optimum, motors, diagnosis", {"--set"}},
+      {"optimum, motors, shape, diagnosis", {"--set"}},
+      {"shape",
+       {"--area-mm2", "--height", "--offset", "--wind", "--wind-from", "--slack", "--length",
+        "--winch-tension", "--stiffness", "--station-height", "--profile", "--reference-height",
+        "--exponent", "--roughness"}},
       {"motors", {"--motors"}},
       {"drag", {"--view"}},
       {"diagnosis", {"--flight", "--power", "--base"}},

@@ -28,6 +28,10 @@ constexpr Accuracy coarse{1, 0.1, 1e-3};   ///< while the unknowns are far off
 constexpr Accuracy fine{0.3, 1e-3, 1e-6};  ///< for forces to 1e-9 of the greatest
 constexpr int most_steps_along = 4000;
 
+/// Of the unknowns, in radians and logarithms: what derivatives that are wrong by a hundredth leave
+/// of it is 1e-9.
+constexpr double small_step = 2e-8;
+
 /// Steps of one solution in all, after which it counts as not found: a hundred times what a usual
 /// one takes.
 constexpr int most_steps = 100000;
@@ -365,24 +369,45 @@ Unknowns<n> change_of_miss(const Problem& problem, const Point& station_at, cons
   return equations<n>(station.position, drone.position, held);
 }
 
-/// How `miss_of` changes with the unknowns.
+/// Both ends, or how they change with something.
+struct BothEnds {
+  Point station;
+  Point drone;
+};
+
+/// How the ends change with each unknown.
 template <int n, std::size_t columns, class Problem, class Start>
-Square<n> by_unknowns(const Problem& problem, const Ends<columns>& ends, const Start& start) {
+std::array<BothEnds, n> by_each_unknown(const Problem& problem, const Ends<columns>& ends,
+                                        const Start& start) {
+  const auto derivative = [&ends](std::size_t k) {
+    return BothEnds{point_at(&ends.station[8 * k]), point_at(&ends.drone[8 * k])};
+  };
   const Point station = point_at(ends.station.data());
   const Point drone = point_at(ends.drone.data());
-  const auto derivative = [&](std::size_t k) {
-    return change_of_miss<n>(problem, station, point_at(&ends.station[8 * k]),
-                             point_at(&ends.drone[8 * k]));
-  };
   const double before = start.before * start.sigma;
-  Square<n> by;
-  by.col(0) = derivative(1);
-  by.col(1) = derivative(2);
-  by.col(2) = change_of_miss<n>(
-      problem, station, -before * problem.change(station, problem.wind_at(station)),
-      (start.sigma - before) * problem.change(drone, problem.wind_at(drone)));
-  for (int k = 3; k < n; ++k) by.col(k) = derivative(static_cast<std::size_t>(k));
+  std::array<BothEnds, n> by{
+      derivative(1), derivative(2),
+      BothEnds{-before * problem.change(station, problem.wind_at(station)),
+               (start.sigma - before) * problem.change(drone, problem.wind_at(drone))}};
+  for (std::size_t k = 3; k < n; ++k) by[k] = derivative(k);
   return by;
+}
+
+/// How `miss_of` changes with the unknowns.
+template <int n, class Problem>
+Square<n> changes_of_miss(const Problem& problem, const Point& station,
+                          const std::array<BothEnds, n>& by) {
+  Square<n> out;
+  for (int k = 0; k < n; ++k) {
+    const BothEnds& one = by[static_cast<std::size_t>(k)];
+    out.col(k) = change_of_miss<n>(problem, station, one.station, one.drone);
+  }
+  return out;
+}
+
+/// How the tension along the cable changes at a point.
+Vector3 change_of_pull(const Point& at, const Point& change) {
+  return change.tension * at.direction + at.tension * change.direction;
 }
 
 /// The largest of the angle by which the direction turns, the changes of logarithms, and the way
@@ -403,7 +428,8 @@ Start moved(const Start& from, const Unknowns<n>& step) {
   return to;
 }
 
-/// Steps with one inverse, as long as each is much smaller than the one before.
+/// Steps with one inverse, as long as each is much smaller than the one before. The last, whose
+/// square is below 1e-9 of it, is taken at the ends by their derivatives.
 template <int n, class Problem, class Start>
 std::optional<Start> refined(const Problem& problem, Start at) {
   const Eigen::Map<const Square<n>> inverse(at.inverse.data());
@@ -414,13 +440,18 @@ std::optional<Start> refined(const Problem& problem, Start at) {
     const Unknowns<n> step = -(inverse * miss_of<n>(problem, *ends));
     const double size = size_of<n>(step);
     if (!(size < 0.5 * before)) return std::nullopt;
-    if (size < 1e-10) {
+    if (size < small_step) {
       const Point station = point_at(ends->station.data());
       const Point drone = point_at(ends->drone.data());
-      at.at_station = station.tension * unit(station.direction);
-      at.at_drone = drone.tension * unit(drone.direction);
-      at.length = drone.length - station.length;
+      at = moved<n>(at, step);
       at.position = at.position - station.position;
+      at.ends = {station.tension * unit(station.direction), drone.tension * unit(drone.direction),
+                 drone.length - station.length};
+      for (int k = 0; k < n; ++k) {
+        const auto& by = at.by_unknowns[static_cast<std::size_t>(k)];
+        at.ends = {at.ends.at_station + step(k) * by.at_station,
+                   at.ends.at_drone + step(k) * by.at_drone, at.ends.length + step(k) * by.length};
+      }
       return at;
     }
     at = moved<n>(at, step);
@@ -438,10 +469,17 @@ std::optional<Start> newton(const Problem& problem, Start at, int most_iteration
   if (!ends) return std::nullopt;
   for (int i = 0; i < most_iterations; ++i) {
     const Unknowns<n> miss = miss_of<n>(problem, *ends);
-    const Square<n> inverse = by_unknowns<n>(problem, *ends, at).inverse();
+    const BothEnds at_ends{point_at(ends->station.data()), point_at(ends->drone.data())};
+    const auto by = by_each_unknown<n>(problem, *ends, at);
+    const Square<n> inverse = changes_of_miss<n>(problem, at_ends.station, by).inverse();
     const Unknowns<n> step = -(inverse * miss);
     if (!step.allFinite()) return std::nullopt;
     Eigen::Map<Square<n>>(at.inverse.data()) = inverse;
+    for (std::size_t k = 0; k < n; ++k) {
+      at.by_unknowns[k] = {change_of_pull(at_ends.station, by[k].station),
+                           change_of_pull(at_ends.drone, by[k].drone),
+                           by[k].drone.length - by[k].station.length};
+    }
     const double size = size_of<n>(step);
     if (size < 0.03) {
       if (const auto found = refined<n>(problem, moved<n>(at, step))) return found;
@@ -687,8 +725,9 @@ HangingCable CableSolver::result() const {
             std::hypot(still_->horizontal, still_->vertical_at_start)};
   }
   const Problem p = problem();
-  return {last_->length * p.metre, -p.newton * last_->at_drone, p.newton * last_->at_station,
-          p.newton * norm(last_->at_drone), p.newton * norm(last_->at_station)};
+  const Last::Ends& ends = last_->ends;
+  return {ends.length * p.metre, -p.newton * ends.at_drone, p.newton * ends.at_station,
+          p.newton * norm(ends.at_drone), p.newton * norm(ends.at_station)};
 }
 
 namespace {
@@ -754,7 +793,7 @@ CableShape CableSolver::shape(int pieces) const {
   std::vector<double> before;
   std::vector<double> after;
   for (int k = 0; k <= pieces; ++k) {
-    const double s = last_->length * k / pieces + station.length;
+    const double s = last_->ends.length * k / pieces + station.length;
     (s < 0 ? before : after).push_back(s);
   }
   std::reverse(before.begin(), before.end());
@@ -766,7 +805,7 @@ CableShape CableSolver::shape(int pieces) const {
   std::vector<CablePoint> points;
   for (int k = 0; k <= pieces; ++k) {
     const Point& at = found[static_cast<std::size_t>(k)];
-    points.push_back({last_->length * p.metre * k / pieces,
+    points.push_back({last_->ends.length * p.metre * k / pieces,
                       p.metre * (at.position - station.position), at.tension * p.newton});
   }
   return with_extremes(std::move(points));
@@ -797,22 +836,16 @@ CableSolver::Derivatives CableSolver::derivatives() const {
   const Point drone = point_at(ends->drone.data());
   const auto at_station = [&](std::size_t k) { return point_at(&ends->station[8 * k]); };
   const auto at_drone = [&](std::size_t k) { return point_at(&ends->drone[8 * k]); };
-  const auto pull = [&drone](const Point& d) {
-    return d.tension * drone.direction + drone.tension * d.direction;
-  };
-  const Square<in_any> inverse = by_unknowns<in_any>(p, *ends, *last_).inverse();
-  const double after = (1 - last_->before) * last_->sigma;
-  std::array<Vector3, in_any> by_unknown{pull(at_drone(1)), pull(at_drone(2)),
-                                         pull(after * p.change(drone, p.wind_at(drone)))};
-  for (std::size_t k = 3; k < in_any; ++k) by_unknown[k] = pull(at_drone(k));
+  const auto by = by_each_unknown<in_any>(p, *ends, *last_);
+  const Square<in_any> inverse = changes_of_miss<in_any>(p, station, by).inverse();
   const auto force = [&](std::size_t column, const Vector3& moved) {
     const Unknowns<in_any> change =
         change_of_miss<in_any>(p, station, at_station(column), at_drone(column)) -
         equations<in_any>({}, moved, 0);
     const Unknowns<in_any> unknowns = -(inverse * change);
-    Vector3 sum = pull(at_drone(column));
+    Vector3 sum = change_of_pull(drone, at_drone(column));
     for (std::size_t k = 0; k < in_any; ++k) {
-      sum = sum + unknowns(static_cast<Eigen::Index>(k)) * by_unknown[k];
+      sum = sum + unknowns(static_cast<Eigen::Index>(k)) * change_of_pull(drone, by[k].drone);
     }
     return -p.newton * sum;
   };

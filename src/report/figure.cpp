@@ -9,6 +9,7 @@
 
 #include "io/closest_name.hpp"
 #include "report/characters.hpp"
+#include "report/gnuplot_script.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
@@ -16,10 +17,10 @@ namespace {
 
 constexpr double font_pt = 7.5;  // of 72 to the inch
 constexpr double millimetre_per_inch = 25.4;
-constexpr double column_mm = 85;
-constexpr double line_mm = 3.2;  // 7.5 pt and the space between lines
 
-double height_over_width(const Figure& figure) { return figure.lines * line_mm / column_mm; }
+double height_over_width(const Figure& figure) {
+  return figure.lines * gnuplot::line_mm / gnuplot::column_mm;
+}
 
 /// The command that chooses and sizes the terminal.
 std::string set_terminal(const Figure& figure, FigureFormat format, const FigureSize& size) {
@@ -57,7 +58,7 @@ std::string set_terminal(const Figure& figure, FigureFormat format, const Figure
 /// The terminal, and how long a dot is there that is as high as its stroke is wide.
 std::string preparation(const Figure& figure, FigureFormat format, const FigureSize& size) {
   return fmt::format("{}dot_length = {:.4g}\n", set_terminal(figure, format, size),
-                     column_mm / size.width_mm);
+                     gnuplot::column_mm / size.width_mm);
 }
 
 /// gnuplot's SVG with title and description for those who cannot see it, and with ids that stay

@@ -28,6 +28,10 @@ inline constexpr std::string_view purple = "#CC79A7";
 inline constexpr std::string_view grey = "#999999";
 }  // namespace colour
 
+/// Width of a picture of one column, and height of one of its lines: 7.5 pt and the space between.
+inline constexpr double column_mm = 85;
+inline constexpr double line_mm = 3.2;
+
 /// A number as gnuplot reads it: seven significant digits, `NaN` where it does not exist.
 [[nodiscard]] inline std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.7g}", value) : "NaN";
@@ -155,6 +159,11 @@ class Layout {
         "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
         "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
         left_, 1 - right_, height(top), height(bottom));
+  }
+
+  /// Height over width of the frame of a plot from line `top` to line `bottom`.
+  [[nodiscard]] double shape_of_panel(double top, double bottom) const {
+    return (bottom - top) * line_mm / ((1 - left_ - right_) * column_mm);
   }
 
   /// The layout of one of two columns of equal plots, `second` or not, that share a vertical axis:

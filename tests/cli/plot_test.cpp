@@ -28,6 +28,9 @@ class Kinds {
                 .exit_code == 0);
     arguments_ = {{"optimum", {published}},
                   {"motors", {published}},
+                  {"shape",
+                   {published, "--area-mm2", "1.0886", "--slack", "2,10", "--wind", "5,10",
+                    "--wind-from", "60"}},
                   {"log", {flight}},
                   {"drag", {flight}},
                   {"diagnosis", {published, "--flight", flight, "--base", "linear_drag,wind"}},

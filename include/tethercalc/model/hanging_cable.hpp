@@ -149,11 +149,16 @@ class CableSolver {
     Vector3 position{};   ///< of the place
     Vector3 direction{};  ///< of the cable there, towards the drone
     double tension = 0;
-    double sigma = 0;      ///< from the station to the drone
-    double before = 0;     ///< share of it that lies before the place
-    Vector3 at_station{};  ///< tension there along the cable
-    Vector3 at_drone{};    ///< tension there
-    double length = 0;
+    double sigma = 0;   ///< from the station to the drone
+    double before = 0;  ///< share of it that lies before the place
+    /// What is found at the ends, or how that changes with an unknown.
+    struct Ends {
+      Vector3 at_station{};  ///< tension along the cable
+      Vector3 at_drone{};
+      double length = 0;
+    };
+    Ends ends;
+    std::array<Ends, 7> by_unknowns{};
     std::array<double, 49> inverse{};  ///< of how the ends follow the unknowns
   };
   std::optional<Last> last_;

@@ -7,6 +7,7 @@
 #include "tethercalc/diagnose/diagnosis.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/figure.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 #include "tethercalc/study/drag.hpp"
 
 namespace tethercalc {
@@ -24,6 +25,12 @@ namespace tethercalc {
 /// hover (circle), the thrust demanded with headroom (dot) and, where the least power decides, the
 /// thrust in the condition in which power is judged (plus).
 [[nodiscard]] Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranking);
+
+/// The cable as it hangs, from the side and, where a wind presses it aside, from above, to scale,
+/// one line a request (as `studies`, at most 35). Those without a shape are left out and named in
+/// the description. Throws std::invalid_argument where none has one.
+[[nodiscard]] Figure shape_figure(const std::string& name, std::span<const ShapeRequest> requests,
+                                  std::span<const ShapeStudy> studies);
 
 /// Over time: the forward acceleration expected from the attitude and the one observed; the drag
 /// per mass, which is their difference; and the forward speed that it follows. `name` is the log's.
