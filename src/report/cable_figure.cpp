@@ -89,11 +89,11 @@ Figure shape_figure(const std::string& name, std::span<const ShapeRequest> reque
   const gp::Range aside = extent_of(drawn, &Vector3::y);
   const bool from_above = aside.hi - aside.lo > 1e-6 * (up.hi - up.lo);
   const double rows = std::ceil(double(drawn.size() + 2) / 2);
-  const double top_of_second = 28.5 + rows;
+  const double top_of_second = 29.5 + rows;
   Figure figure{.id = "shape",
                 .title = "The cable of " + name,
                 .description = {},
-                .lines = static_cast<int>(from_above ? top_of_second + 12.5 : 28 + rows)};
+                .lines = static_cast<int>(from_above ? top_of_second + 13 : 28.8 + rows)};
   const gp::Layout layout(figure.lines, 0.105);
   const double side = layout.shape_of_panel(3.5, 24);
   const double above = layout.shape_of_panel(top_of_second, top_of_second + 9);
@@ -124,14 +124,14 @@ Figure shape_figure(const std::string& name, std::span<const ShapeRequest> reque
   const gp::Plot from_side = view(drawn, 3, drone, drone.z);
   figure.script += layout.panel(3.5, 24) + layout.heading(name) +
                    layout.above(2.6, "height over the station (m)") +
-                   layout.below(26, "to where the drone stands aside (m)") +
-                   layout.legend(27.3, 2, from_side.legend()) +
+                   layout.below(26.6, "to where the drone stands aside (m)") +
+                   layout.legend(27.9, 2, from_side.legend()) +
                    gp::set_range("y", widened(up, width * side)) + from_side.text();
   if (from_above) {
     const gp::Plot seen_from_above = view(drawn, 2, drone, drone.y);
     figure.script += layout.panel(top_of_second, top_of_second + 9) + layout.legend(0, 1, {}) +
                      layout.above(top_of_second - 0.9, "from above: to the left of that (m)") +
-                     layout.below(top_of_second + 11, "to where the drone stands aside (m)") +
+                     layout.below(top_of_second + 11.6, "to where the drone stands aside (m)") +
                      gp::set_range("y", widened(aside, width * above)) + seen_from_above.text();
   }
   figure.script += "unset multiplot\n";

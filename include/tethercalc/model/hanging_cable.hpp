@@ -154,8 +154,8 @@ class CableSolver {
     /// What is found at the ends, or how that changes with an unknown.
     struct Ends {
       Vector3 at_station{};  ///< tension along the cable
-      Vector3 at_drone{};
-      double length = 0;
+      Vector3 at_drone{};    ///< the same
+      double length = 0;     ///< paid out
     };
     Ends ends;
     std::array<Ends, 7> by_unknowns{};
