@@ -16,8 +16,8 @@
 namespace tethercalc {
 namespace {
 
-/// How long a step along the cable is, in units of the way on which the load can turn it once
-/// round: everywhere alike, but shorter where the wind comes along the cable, because drag by the
+/// How long a step along the cable is, in units of the way on which the load can turn it by a
+/// radian: everywhere alike, but shorter where the wind comes along the cable, because drag by the
 /// square of a speed that goes through zero has a corner there.
 struct Accuracy {
   double step = 0;
@@ -28,9 +28,9 @@ constexpr Accuracy coarse{1, 0.1, 1e-3};   ///< while the unknowns are far off
 constexpr Accuracy fine{0.3, 1e-3, 1e-6};  ///< for forces to 1e-9 of the greatest
 constexpr int most_steps_along = 4000;
 
-/// Of the unknowns, in radians and logarithms: what derivatives that are wrong by a hundredth leave
-/// of it is 1e-9.
-constexpr double small_step = 2e-8;
+/// Of the unknowns, in radians and logarithms: of it, derivatives that are wrong by a quarter leave
+/// 2.5e-9, and those of Newton's method next to nothing.
+constexpr double small_step = 1e-8;
 
 /// Steps of one solution in all, after which it counts as not found: a hundred times what a usual
 /// one takes.
@@ -321,20 +321,20 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
 
 /// Both ends of the cable.
 template <std::size_t columns>
-struct Ends {
+struct EndStates {
   State<columns> station;
   State<columns> drone;
 };
 
 template <int unknowns, std::size_t columns, class Problem, class Start>
-std::optional<Ends<columns>> ends_of(const Problem& problem, const Start& start,
-                                     const Accuracy& accuracy) {
+std::optional<EndStates<columns>> ends_of(const Problem& problem, const Start& start,
+                                          const Accuracy& accuracy) {
   const double before = start.before * start.sigma;
   const auto station = followed<unknowns, columns>(problem, start, -before, accuracy);
   if (!station) return std::nullopt;
   const auto drone = followed<unknowns, columns>(problem, start, start.sigma - before, accuracy);
   if (!drone) return std::nullopt;
-  return Ends<columns>{*station, *drone};
+  return EndStates<columns>{*station, *drone};
 }
 
 /// How far the ends are from where they should be, or how that changes; the length or the tension
@@ -356,7 +356,7 @@ Unknowns<n> miss_of(const Problem& problem, const Point& station, const Point& d
 }
 
 template <int n, class Problem, std::size_t columns>
-Unknowns<n> miss_of(const Problem& problem, const Ends<columns>& ends) {
+Unknowns<n> miss_of(const Problem& problem, const EndStates<columns>& ends) {
   return miss_of<n>(problem, point_at(ends.station.data()), point_at(ends.drone.data()));
 }
 
@@ -377,7 +377,7 @@ struct BothEnds {
 
 /// How the ends change with each unknown.
 template <int n, std::size_t columns, class Problem, class Start>
-std::array<BothEnds, n> by_each_unknown(const Problem& problem, const Ends<columns>& ends,
+std::array<BothEnds, n> by_each_unknown(const Problem& problem, const EndStates<columns>& ends,
                                         const Start& start) {
   const auto derivative = [&ends](std::size_t k) {
     return BothEnds{point_at(&ends.station[8 * k]), point_at(&ends.drone[8 * k])};
@@ -428,8 +428,8 @@ Start moved(const Start& from, const Unknowns<n>& step) {
   return to;
 }
 
-/// Steps with one inverse, as long as each is much smaller than the one before. The last, whose
-/// square is below 1e-9 of it, is taken at the ends by their derivatives.
+/// Steps with one inverse, as long as each is less than a quarter of the one before. The last is
+/// taken at the ends by their derivatives.
 template <int n, class Problem, class Start>
 std::optional<Start> refined(const Problem& problem, Start at) {
   const Eigen::Map<const Square<n>> inverse(at.inverse.data());
@@ -439,7 +439,7 @@ std::optional<Start> refined(const Problem& problem, Start at) {
     if (!ends) return std::nullopt;
     const Unknowns<n> step = -(inverse * miss_of<n>(problem, *ends));
     const double size = size_of<n>(step);
-    if (!(size < 0.5 * before)) return std::nullopt;
+    if (!(size < 0.25 * before)) return std::nullopt;
     if (size < small_step) {
       const Point station = point_at(ends->station.data());
       const Point drone = point_at(ends->drone.data());
@@ -654,6 +654,20 @@ bool winch_is_too_weak(const Problem& p) {
   return even.tension_at_station(even.length_with_tension(*p.winch)) > 1.0001 * *p.winch;
 }
 
+/// A solution in another problem's units.
+template <class Problem, class Last>
+Last in_units_of(const Problem& now, const Problem& before, Last last) {
+  const double newtons = before.newton / now.newton;
+  const double metres = before.metre / now.metre;
+  last.position = metres * last.position;
+  last.tension *= newtons;
+  last.sigma *= metres / newtons;
+  for (auto& by : last.by_unknowns) {
+    by = {newtons * by.at_station, newtons * by.at_drone, metres * by.length};
+  }
+  return last;
+}
+
 void check(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
 }
@@ -681,6 +695,7 @@ void check(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
 CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
                                 const Vector3& drone) {
   check(cable, air, paid_out, drone);
+  const Problem before = last_ ? problem() : Problem();
   const bool alike = last_ && paid_out.length.has_value() == paid_out_.length.has_value() &&
                      air.profile == air_.profile &&
                      (air.drone_velocity == Vector3{}) == (air_.drone_velocity == Vector3{});
@@ -705,6 +720,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
                       cable.axial_stiffness);
     return still_ ? CableOutcome::hangs : CableOutcome::not_found;
   }
+  if (last_) last_ = in_units_of(p, before, *last_);
   if (last_) last_ = p.even() ? refined<in_even>(p, *last_) : refined<in_any>(p, *last_);
   if (!last_) last_ = anew<Last>(p);
   if (last_) return CableOutcome::hangs;

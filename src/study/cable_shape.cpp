@@ -12,6 +12,18 @@ namespace {
 
 constexpr int pieces = 400;
 
+/// Tangent of the tilt into the wind; negative where the cable pulls harder against the wind than
+/// the airframe drags with it, which leaves a small tilt to step towards.
+double forward_tan_pitch(const ForceBalance& balance, const AirframeDrag& drag) {
+  if (balance.tether_drag >= 0) return equilibrium_tan_pitch(balance, infinity);
+  double tangent = 0;
+  for (int i = 0; i < 50; ++i) {
+    const double push = balance.area_force_factor * effective_area(drag, std::abs(tangent));
+    tangent = (push + balance.tether_drag) / balance.weight;
+  }
+  return tangent;
+}
+
 /// The hover in which the cable pulls like this; what it weighs is in `down`.
 LoadedHover hover_under(const SteadyFlight& flight, double radius, double paid_out, double down,
                         double against, double across) {
@@ -22,13 +34,8 @@ LoadedHover hover_under(const SteadyFlight& flight, double radius, double paid_o
   const AirframeDrag& drag = design.drone.drag;
   const double drag_factor =
       area_force_factor(drag, design.flight.air_density, flight.state().airspeed);
-  // A cable that pulls against the wind more than the drone drags leans it backwards.
-  const double level = drag_factor * drag.front_area + against;
-  const double forward = level >= 0
-                             ? equilibrium_tan_pitch({weight, drag_factor, std::max(against, 0.0),
-                                                      drag.front_area, drag.top_area},
-                                                     infinity)
-                             : level / weight;
+  const double forward =
+      forward_tan_pitch({weight, drag_factor, against, drag.front_area, drag.top_area}, drag);
   const double tangent = std::hypot(forward, across / weight);
   out.pitch = std::atan(tangent);
   out.thrust = flight.necessary_thrust(weight, tangent);
