@@ -204,7 +204,7 @@ WindProfile parsed_profile(const std::string& text) {
                                     "and logarithmic" + did_you_mean(text, names));
 }
 
-/// The number in its range; 0, with the reason among the problems, outside.
+/// The number in its range; `least`, with the reason among the problems, outside.
 double checked(Problems& problems, const char* option, double value, double least, double most,
                const char* unit) {
   if (value >= least && value <= most) return value;
@@ -230,7 +230,7 @@ std::vector<double> checked(Problems& problems, const char* option,
 
 /// What decides how much cable is out; several where several slacks are asked for.
 std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& design,
-                                     double distance, Problems& problems) {
+                                     const ShapeRequest& request, Problems& problems) {
   const auto of_length = [](double length) {
     return PaidOut{.length = length, .winch_tension = {}};
   };
@@ -257,7 +257,7 @@ std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& 
   for (const double percent :
        checked(problems, "--slack", given ? options.slacks_percent : one_percent, 1e-6, 1000,
                "percent")) {
-    out.push_back(of_length(distance * (1 + percent / 100)));
+    out.push_back(of_length(slack_length(percent / 100, request.height, request.offset)));
   }
   return out;
 }
@@ -287,8 +287,7 @@ std::vector<ShapeRequest> parsed_requests(const ShapeOptions& options, const Des
   }
   std::vector<double> winds = checked(problems, "--wind", options.winds, 0, 200, "m/s");
   if (options.winds.empty()) winds = {std::abs(design.flight.airspeed)};
-  const double distance = std::hypot(request.height, request.offset);
-  const std::vector<PaidOut> lengths = parsed_paid_out(options, design, distance, problems);
+  const std::vector<PaidOut> lengths = parsed_paid_out(options, design, request, problems);
   problems.throw_if_any();
   std::vector<ShapeRequest> requests;
   for (const double wind : winds) {
