@@ -240,6 +240,8 @@ class SpecReader {
       case FieldKind::boolean:
       case FieldKind::condition:
       case FieldKind::strength_material:
+      case FieldKind::tether_model:
+      case FieldKind::wind_profile:
         return read_word(place, field, design, problems_);
       case FieldKind::text:
         if (const std::string text = checked_text(place, problems_);

@@ -7,9 +7,11 @@
 #include <deque>
 #include <map>
 #include <stdexcept>
+#include <type_traits>
 
 #include "io/closest_name.hpp"
 #include "io/json_document.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -151,9 +153,24 @@ const std::array all_spec_fields{
     SpecField{"/tether/strength_member/cross_section_mm2", number, "mm²", between(0, 1000), "0",
               "Cross-section of the fibres.", unit::square_millimetre,
               at<&Design::tether, &Tether::strength_member, &StrengthMember::cross_section>},
-    SpecField{"/tether/winch_pull_N", number, "N", between(0, 1e5), "0",
-              "Pull of the winch on the tether, which the drone holds up.", 1,
-              at<&Design::tether, &Tether::winch_pull>},
+    SpecField{
+        "/tether/winch_pull_N", number, "N", between(0, 1e5), "0",
+        "Pull of the winch on the tether, which the drone holds up; of a solved tether, the "
+        "tension that the winch holds at the station, which decides how much is out. 0: none.",
+        1, at<&Design::tether, &Tether::winch_pull>},
+    SpecField{
+        "/tether/model", tether_model, "", any_number, "\"straight\"",
+        "How the tether hangs: straight down with all its drag on the drone, or solved, as its "
+        "weight and the wind have it.",
+        1, at<&Design::tether, &Tether::model>},
+    SpecField{
+        "/tether/slack_percent", number, "%", between(1e-4, 1000), "1",
+        "Tether paid out beyond the distance to the drone, of a solved one that no winch pulls.",
+        0.01, at<&Design::tether, &Tether::slack>},
+    SpecField{"/tether/axial_stiffness_N", optional_number, "N", between(1, 1e12), "null",
+              "EA of the solved tether: how much force stretches it by its own length; without, it "
+              "does not stretch.",
+              1, at<&Design::tether, &Tether::axial_stiffness>},
     SpecField{"/supply/voltage_V", number, "V", between(1, 1e4), "",
               "Voltage of the supply at the ground end of the tether.", 1,
               at<&Design::supply, &Supply::voltage>},
@@ -201,6 +218,26 @@ const std::array all_spec_fields{
               at<&Design::flight, &Flight::air_density>},
     SpecField{"/flight/gravity_m_s2", number, "m/s²", between(0.1, 100), "9.80665",
               "Acceleration of gravity.", 1, at<&Design::flight, &Flight::gravity>},
+    SpecField{"/flight/horizontal_offset_m", number, "m", between(0, 1e4), "0",
+              "How far the drone stands aside of its station, upwind; for a solved tether.", 1,
+              at<&Design::flight, &Flight::horizontal_offset>},
+    SpecField{"/flight/station_height_m", number, "m", between(0, 1e4), "0",
+              "Height of the tether's lower end over ground; matters with a wind profile.", 1,
+              at<&Design::flight, &Flight::station_height>},
+    SpecField{"/flight/wind_profile", wind_profile, "", any_number, "\"uniform\"",
+              "How the wind grows with height over ground.", 1,
+              at<&Design::flight, &Flight::wind_profile>},
+    SpecField{"/flight/wind_exponent", number, "", between(0, 1), "0.142857142857142857",
+              "Exponent of the power law; 1/7 over open land.", 1,
+              at<&Design::flight, &Flight::wind_exponent>},
+    SpecField{"/flight/roughness_length_m", number, "m", between(1e-6, 10), "0.03",
+              "Roughness length of the logarithmic profile; 0.03 over grass.", 1,
+              at<&Design::flight, &Flight::roughness_length>},
+    SpecField{
+        "/flight/wind_reference_height_m", optional_number, "m", between(0.1, 1e4), "null",
+        "Height over ground at which headwind_m_s blows, by the profile; without, it blows at "
+        "the drone.",
+        1, at<&Design::flight, &Flight::wind_reference_height>},
     SpecField{"/requirements/thrust_headroom", number, "", between(1, 100), "2.0",
               "Thrust that the available power makes over the thrust needed, at least.", 1,
               at<&Design::requirements, &Requirements::thrust_headroom>},
@@ -453,29 +490,41 @@ std::span<const std::string> field_words(FieldKind kind) {
   static const std::array<std::string, 2> booleans{"false", "true"};
   static const std::array<std::string, 2> conditions{"hover", "forward"};
   static const std::array<std::string, 3> fibres{"none", "aramid", "uhmwpe"};
+  static const std::array<std::string, 2> models{"straight", "solved"};
+  static const std::array<std::string, 3> profiles{"uniform", "power_law", "logarithmic"};
   if (kind == FieldKind::boolean) return booleans;
   if (kind == FieldKind::condition) return conditions;
   if (kind == FieldKind::strength_material) return fibres;
+  if (kind == FieldKind::tether_model) return models;
+  if (kind == FieldKind::wind_profile) return profiles;
   return {};
 }
 
+namespace {
+
+/// Calls `use` with the boolean or the choice where a field with words lives.
+template <class Use>
+void with_word(Design& design, const SpecField& field, const Use& use) {
+  const auto call = [&]<class Access>(const Access& access) {
+    if constexpr (!std::is_same_v<Access, std::monostate>) {
+      using Value = std::remove_reference_t<decltype(access(design))>;
+      if constexpr (std::is_same_v<Value, bool> || std::is_enum_v<Value>) use(access(design));
+    }
+  };
+  std::visit(call, field.access);
+}
+
+}  // namespace
+
 std::size_t field_word(const Design& design, const SpecField& field) {
-  auto& lent = const_cast<Design&>(design);  // as above
-  if (const auto* boolean = std::get_if<Access<bool>>(&field.access)) return (*boolean)(lent);
-  if (const auto* condition = std::get_if<Access<Condition>>(&field.access)) {
-    return static_cast<std::size_t>((*condition)(lent));
-  }
-  return static_cast<std::size_t>(std::get<Access<StrengthMaterial>>(field.access)(lent));
+  std::size_t index = 0;
+  with_word(const_cast<Design&>(design), field,  // as above
+            [&](const auto& value) { index = static_cast<std::size_t>(value); });
+  return index;
 }
 
 void set_word(Design& design, const SpecField& field, std::size_t index) {
-  if (field.kind == FieldKind::boolean) {
-    std::get<Access<bool>>(field.access)(design) = index != 0;
-  } else if (field.kind == FieldKind::condition) {
-    std::get<Access<Condition>>(field.access)(design) = static_cast<Condition>(index);
-  } else {
-    std::get<Access<StrengthMaterial>>(field.access)(design) = static_cast<StrengthMaterial>(index);
-  }
+  with_word(design, field, [&]<class Value>(Value& value) { value = static_cast<Value>(index); });
 }
 
 std::vector<FieldConflict> find_conflicts(const Design& design) {
@@ -523,6 +572,21 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
         {"/tether/insulation/dielectric_safety_factor",
          "asks for a wall by the voltage, but the breakdown strength of the insulation material is "
          "not known; give a material that has breakdown_kV_mm"});
+  }
+  const Flight& flight = design.flight;
+  if (flight.horizontal_offset > 0 && design.tether.model == TetherModel::straight) {
+    conflicts.push_back({"/flight/horizontal_offset_m",
+                         "a straight tether hangs down from the drone; give tether.model solved"});
+  }
+  if (flight.wind_profile == WindProfile::logarithmic) {
+    const double lowest = std::min(flight.wind_reference_height.value_or(infinity),
+                                   flight.station_height + design.tether.length);
+    if (!(flight.roughness_length < lowest)) {
+      conflicts.push_back(
+          {"/flight/roughness_length_m",
+           fmt::format("{} m is not less than the {} m over ground at which the wind is known",
+                       flight.roughness_length, lowest)});
+    }
   }
   try {
     validate(converter);

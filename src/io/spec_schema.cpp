@@ -48,7 +48,9 @@ Json schema_of_kind(FieldKind kind) {
     case FieldKind::text:
       return {{"type", "string"}};
     case FieldKind::condition:
-    case FieldKind::strength_material: {
+    case FieldKind::strength_material:
+    case FieldKind::tether_model:
+    case FieldKind::wind_profile: {
       const auto words = field_words(kind);
       return {{"enum", std::vector<std::string>(words.begin(), words.end())}};
     }

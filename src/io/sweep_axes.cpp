@@ -105,6 +105,8 @@ class AxisReader {
       case FieldKind::boolean:
       case FieldKind::condition:
       case FieldKind::strength_material:
+      case FieldKind::tether_model:
+      case FieldKind::wind_profile:
         return word_axis(*field, values);
       case FieldKind::motor:
         return entry_axis<MotorEntry>(*field, values);

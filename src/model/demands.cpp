@@ -15,6 +15,11 @@ double excess(double have, double need) {
   return std::isfinite(ratio) ? ratio - 1 : -1;
 }
 
+OptionalMargin tether_shape(const Design& design, const OperatingPoint& point, Condition) {
+  if (design.tether.model == TetherModel::straight) return std::nullopt;
+  return std::isnan(point.tether_tension) ? -1.0 : 1.0;
+}
+
 OptionalMargin takeoff_mass(const Design& design, const OperatingPoint& point, Condition) {
   if (design.drone.reserve_battery.specific_energy == 0) return std::nullopt;
   return std::isfinite(point.battery_mass) ? 1.0 : -1.0;
@@ -81,7 +86,8 @@ struct DemandEntry {
 
 /// In the order of `Demand`.
 constexpr std::array<DemandEntry, demand_count> demands{
-    {{Demand::takeoff_mass, "takeoff_mass", takeoff_mass},
+    {{Demand::tether_shape, "tether_shape", tether_shape},
+     {Demand::takeoff_mass, "takeoff_mass", takeoff_mass},
      {Demand::max_pitch, "max_pitch", max_pitch},
      {Demand::input_voltage, "input_voltage", input_voltage},
      {Demand::thrust_headroom, "thrust_headroom", thrust_headroom},

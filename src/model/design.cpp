@@ -13,9 +13,21 @@ double usual_ambient(const Tether& tether) {
 
 }  // namespace
 
-double airspeed(const Design& design, Condition condition) {
+double wind_at_drone(const Design& design) {
   const Flight& flight = design.flight;
-  return condition == Condition::hover ? flight.headwind : flight.airspeed + flight.headwind;
+  if (!flight.wind_reference_height || flight.headwind == 0) return flight.headwind;
+  MovingAir air;
+  air.profile = flight.wind_profile;
+  air.station_height = flight.station_height;
+  air.reference_height = *flight.wind_reference_height;
+  air.exponent = flight.wind_exponent;
+  air.roughness_length = flight.roughness_length;
+  return flight.headwind * wind_share(air, design.tether.length);
+}
+
+double airspeed(const Design& design, Condition condition) {
+  const double wind = wind_at_drone(design);
+  return condition == Condition::hover ? wind : design.flight.airspeed + wind;
 }
 
 FlightState flight_state(const Design& design, Condition condition) {

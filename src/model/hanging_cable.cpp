@@ -32,10 +32,6 @@ constexpr int most_steps_along = 4000;
 /// 2.5e-9, and those of Newton's method next to nothing.
 constexpr double small_step = 1e-8;
 
-/// Steps of one solution in all, after which it counts as not found: a hundred times what a usual
-/// one takes.
-constexpr int most_steps = 100000;
-
 double dot(const Vector3& a, const Vector3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(const Vector3& a) { return std::sqrt(dot(a, a)); }
 Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -173,7 +169,7 @@ struct CableSolver::Problem {
   bool moves = false;
   Vector3 even_wind{};            ///< m/s, the same everywhere
   double grown = 1;               ///< how far the air is from that, of 1
-  int* steps_left = nullptr;      ///< of `most_steps`
+  int* steps_left = nullptr;      ///< of those that may be taken
   std::optional<double> winch{};  ///< tension at the station, where the winch decides
 
   [[nodiscard]] bool even() const {
@@ -706,7 +702,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
   still_.reset();
   if (!alike) last_.reset();
   Problem p = problem();
-  int steps_left = most_steps;
+  int steps_left = most_steps_;
   p.steps_left = &steps_left;
   const bool loaded = p.newton > 0;
   if (!loaded || (paid_out.length && !cable.axial_stiffness && !(*paid_out.length > norm(drone)))) {

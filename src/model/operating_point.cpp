@@ -45,12 +45,13 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
 
   OperatingPoint point;
   point.cross_section = area;
-  point.tether_mass = load.mass;
-  point.tether_tension = load.greatest_tension();
-  point.tether_resistance = flight.tether().resistance(radius);
+  point.tether_mass = or_nan(load.mass);
+  point.tether_length = or_nan(load.length);
+  point.tether_tension = or_nan(load.greatest_tension());
+  point.tether_resistance = or_nan(flight.tether().resistance(radius));
   point.battery_mass = flight.battery_mass(radius);
   point.takeoff_mass = or_nan(flight.takeoff_mass(radius, point.battery_mass));
-  const double weight = flight.lifted(point.takeoff_mass);
+  const double weight = flight.lifted(radius, point.takeoff_mass);
   const double tangent =
       std::isnan(point.takeoff_mass)
           ? nan

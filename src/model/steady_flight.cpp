@@ -1,6 +1,7 @@
 #include "tethercalc/model/steady_flight.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "tethercalc/model/power_line.hpp"
 
@@ -10,7 +11,7 @@ SteadyFlight::SteadyFlight(const Design& design, const FlightState& state)
     : design_(&design),
       state_(state),
       wall_(insulation_wall(design.tether.insulation, design.supply.voltage)),
-      tether_(design.tether, wall_, state, design.flight.air_density, design.flight.gravity),
+      tether_(design.tether, wall_, state, design.flight),
       fixed_mass_(design.drone.mass + converter_mass(design.supply.converter)),
       has_battery_(design.drone.reserve_battery.specific_energy > 0),
       gravity_(design.flight.gravity),
@@ -26,15 +27,14 @@ SteadyFlight::SteadyFlight(const Design& design, Condition condition)
 
 SteadyFlight SteadyFlight::in(Condition condition) const {
   SteadyFlight other = *this;
-  const double speed = airspeed(*design_, condition);
-  other.tether_.set_airspeed(speed);
-  other.set_airspeed(speed);
+  other.state_ = flight_state(*design_, condition);
+  other.tether_.set_state(other.state_, design_->flight);
+  other.set_airspeed(other.state_.airspeed);
   return other;
 }
 
 void SteadyFlight::set_airspeed(double speed) {
   const Drone& drone = design_->drone;
-  state_.airspeed = speed;
   power_scale_ = drone.motor_count * drone.motor_power_factor *
                  translational_lift_factor(drone.translational_lift, speed);
   area_force_factor_ = area_force_factor(drone.drag, design_->flight.air_density, speed);
@@ -42,12 +42,13 @@ void SteadyFlight::set_airspeed(double speed) {
 
 double SteadyFlight::sized_battery(double radius) const {
   const double length = design_->tether.length;
-  return reserve_battery_mass(design_->drone, fixed_mass_ + tether_.mass_of(length, radius), length,
-                              gravity_);
+  return reserve_battery_mass(
+      design_->drone, fixed_mass_ + tether_.straight().mass_of(length, radius), length, gravity_);
 }
 
 double SteadyFlight::landed_mass(double radius) const {
-  return fixed_mass_ + tether_.mass_of(design_->tether.length, radius) + sized_battery(radius);
+  return fixed_mass_ + tether_.straight().mass_of(design_->tether.length, radius) +
+         sized_battery(radius);
 }
 
 std::size_t SteadyFlight::battery_piece(double radius) const {
@@ -56,25 +57,52 @@ std::size_t SteadyFlight::battery_piece(double radius) const {
 }
 
 SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
-  const double slope = tether_.mass_slope(radius) * gravity_;
+  const double slope = tether_.down_slope(radius);
   const double mass = fixed_mass_ + tether_.mass(radius);
-  if (!has_battery_) return {lifted(mass), slope};
+  if (!has_battery_) return {lifted(radius, mass), slope};
+  const StraightTether& straight = tether_.straight();
   const double length = design_->tether.length;
-  const double bare = fixed_mass_ + tether_.mass_of(length, radius);
+  const double bare = fixed_mass_ + straight.mass_of(length, radius);
   const double battery = reserve_battery_mass(design_->drone, bare, length, gravity_);
   const double growth = reserve_battery_growth(design_->drone, bare + battery, length, gravity_);
-  return {lifted(mass + battery), slope * (1 + growth)};
+  const double carried = straight.mass_slope(radius) * gravity_;
+  return {lifted(radius, mass + battery),
+          tether_.is_solved() ? slope + carried * growth : slope * (1 + growth)};
 }
 
 double SteadyFlight::radius_of_weight(double weight) const {
-  const double takeoff = (weight - tether_.winch_pull()) / gravity_;
-  return tether_.radius_of_mass(
+  if (tether_.is_solved()) return radius_of_solved_weight(weight);
+  const double takeoff = (weight - tether_.straight().winch_pull()) / gravity_;
+  return tether_.straight().radius_of_mass(
       mass_without_battery(design_->drone, takeoff, design_->tether.length, gravity_) -
       fixed_mass_);
 }
 
+double SteadyFlight::radius_of_solved_weight(double limit) const {
+  constexpr double thinnest = 1e-6;
+  constexpr double thickest = 1;
+  double light = -1;
+  double heavy = thinnest;
+  while (heavy <= thickest && (light < 0 || weight(heavy) <= limit)) {
+    if (weight(heavy) <= limit) light = heavy;
+    heavy *= 2;
+  }
+  if (light < 0 || heavy > thickest) return light;
+  // By ratios, then down to the last digit.
+  while (heavy > light * (1 + 1e-3)) {
+    const double middle = std::sqrt(light * heavy);
+    (weight(middle) > limit ? heavy : light) = middle;
+  }
+  for (double middle = 0.5 * (light + heavy); middle > light && middle < heavy;
+       middle = 0.5 * (light + heavy)) {
+    (weight(middle) > limit ? heavy : light) = middle;
+  }
+  return light;
+}
+
 double SteadyFlight::tan_pitch(double radius, double weight, double tan_limit, double guess) const {
-  if (area_force_factor_ == 0 && tether_.drag_slope() == 0) return 0;
+  if (area_force_factor_ == 0 && tether_.drag(radius) == 0) return 0;
+  if (!(weight < std::numeric_limits<double>::infinity())) return weight;
   const AirframeDrag& drag = design_->drone.drag;
   return equilibrium_tan_pitch(
       {weight, area_force_factor_, tether_.drag(radius), drag.front_area, drag.top_area}, tan_limit,
@@ -84,10 +112,11 @@ double SteadyFlight::tan_pitch(double radius, double weight, double tan_limit, d
 SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   // The tilt exceeds its limit where weight·t_max < drag at t_max: a·r² + b·r + c < 0.
   const double t = tan_pitch_limit_;
-  const double a = 0.5 * gravity_ * tether_.mass_curvature() * t;
-  const double b = gravity_ * tether_.mass_slope(0) * t - tether_.drag_slope();
-  const double c = (gravity_ * (fixed_mass_ + tether_.mass(0)) + tether_.winch_pull()) * t -
-                   tether_.least_drag() - airframe_drag_at_pitch_limit();
+  const StraightTether& tether = tether_.straight();
+  const double a = 0.5 * gravity_ * tether.mass_curvature() * t;
+  const double b = gravity_ * tether.mass_slope(0) * t - tether.drag_slope();
+  const double c = (gravity_ * (fixed_mass_ + tether.mass(0)) + tether.winch_pull()) * t -
+                   tether.least_drag() - airframe_drag_at_pitch_limit();
   if (b >= 0 && c >= 0) return {};  // as in hover
   const double discriminant = b * b - 4 * a * c;
   if (!(discriminant > 0)) return {};
@@ -98,14 +127,15 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   return {std::max(0.0, std::min(far, near)), std::max(0.0, std::max(far, near))};
 }
 
-SteadyFlight::Thrust SteadyFlight::inclined_thrust(Weight weight, double tan_pitch) const {
+SteadyFlight::Thrust SteadyFlight::inclined_thrust(double radius, Weight weight,
+                                                   double tan_pitch) const {
   if (tan_pitch == 0) return {weight.value * per_motor_, weight.slope * per_motor_, 0};
   const AirframeDrag& drag = design_->drone.drag;
   const double secant_squared = 1 + tan_pitch * tan_pitch;
   const double secant = std::sqrt(secant_squared);
   // The force balance W·t − q·g(t) − F_t = 0, differentiated by r: tan_slope/secant.
   const double tan_slope_cosine =
-      (tether_.drag_slope() - weight.slope * tan_pitch) * secant_squared /
+      (tether_.drag_slope(radius) - weight.slope * tan_pitch) * secant_squared /
       (weight.value * secant_squared * secant -
        area_force_factor_ * (drag.top_area - drag.front_area * tan_pitch));
   return {weight.value * secant * per_motor_,

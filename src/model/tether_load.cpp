@@ -2,6 +2,7 @@
 
 #include "tethercalc/model/tether_load.hpp"
 
+#include <map>
 #include <numbers>
 
 namespace tethercalc {
@@ -56,10 +57,310 @@ double StraightTether::radius_of_mass(double mass) const {
 }
 
 double StraightTether::resistance(double radius, double in_air_C, double on_drum_C) const {
+  return resistance(radius, deployed_, on_drum_, in_air_C, on_drum_C);
+}
+
+double StraightTether::resistance(double radius, double in_air, double on_drum, double in_air_C,
+                                  double on_drum_C) const {
   return contact_resistance() + 2 *
-                                    (deployed_ * resistivity(tether_->conductor, in_air_C) +
-                                     on_drum_ * resistivity(tether_->conductor, on_drum_C)) /
+                                    (in_air * resistivity(tether_->conductor, in_air_C) +
+                                     on_drum * resistivity(tether_->conductor, on_drum_C)) /
                                     conductor_area(radius);
+}
+
+// --- HangingLoad ---
+
+namespace {
+
+/// ln r between places at which a cable is solved. The error of a cubic goes with its fourth power:
+/// forces over the cable's own load change by less than themselves over a factor of e in r.
+constexpr double stride = 0.25 * std::numbers::ln2;
+/// Where a cable begins to hang no more, it is solved closer by as much; where its load bends
+/// sharply, by a part of it.
+constexpr long places_per_stride = 1024;
+constexpr long closest_places = 16;
+const double log_thinnest = std::log(1e-5);  // of m, 0.0003 mm²
+constexpr double log_thickest = 0;           // of m
+/// Of ln r: half of the solver's digits for the slope, and no more error than its square.
+constexpr double slope_step = 1e-4;
+
+double log_radius_at(long place) {
+  return stride * static_cast<double>(place) / static_cast<double>(places_per_stride);
+}
+
+}  // namespace
+
+HangingLoad::Scale HangingLoad::own_load(double radius) const {
+  const auto& [w0, w1, w2] = situation_.weight;
+  const double weight = w0 + radius * (w1 + radius * w2);
+  const double speed = std::abs(situation_.air.wind.x);
+  const double pressure =
+      0.5 * situation_.air.density * situation_.drag_coefficient * speed * speed;
+  const double drag = pressure * (situation_.width[0] + situation_.width[1] * radius);
+  const double both = std::hypot(weight, drag);
+  const double slope =
+      both > 0 ? (weight * (w1 + 2 * radius * w2) + drag * pressure * situation_.width[1]) / both
+               : 0;
+  return {situation_.height * both + situation_.paid_out.winch_tension.value_or(0),
+          situation_.height * slope};
+}
+
+CableOutcome HangingLoad::solve(CableSolver& solver, double radius, Values& values) const {
+  const auto& [w0, w1, w2] = situation_.weight;
+  const PaidOut& paid_out = situation_.paid_out;
+  const Cable cable{.weight = w0 + radius * (w1 + radius * w2),
+                    .diameter = situation_.width[0] + situation_.width[1] * radius,
+                    .drag_coefficient = situation_.drag_coefficient,
+                    .axial_stiffness = situation_.axial_stiffness};
+  MovingAir air = situation_.air;
+  const Vector3 drone{situation_.offset, 0, situation_.height};
+  CableOutcome outcome = solver.solve(cable, air, paid_out, drone);
+  double drag_of_fold = 0;
+  if (outcome == CableOutcome::not_found && situation_.offset == 0 && paid_out.length) {
+    // The wind swings it aside by half of drag over weight. With less than its slack it stays a
+    // fold, or nearly so.
+    const double slack = *paid_out.length / situation_.height - 1;
+    const double speed = std::abs(air.wind.x);
+    const double drag = 0.5 * air.density * cable.drag_coefficient * cable.diameter * speed * speed;
+    if (drag < 3 * slack * cable.weight) {
+      drag_of_fold = drag * situation_.height;
+      air.wind = {};
+      outcome = solver.solve(cable, air, paid_out, drone);
+    }
+  }
+  if (outcome != CableOutcome::hangs) return outcome;
+  const HangingCable hangs = solver.result();
+  const double load = own_load(radius).value;
+  values = {std::max(0.0, drag_of_fold - hangs.on_drone.x) / load, -hangs.on_drone.z / load,
+            hangs.tension_at_drone / load, hangs.tension_at_station / load, hangs.length};
+  return outcome;
+}
+
+HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
+  // Each from nothing, so that an answer does not depend on what was asked before.
+  constexpr int most_steps = 4000;
+  CableSolver solver(most_steps);
+  Node node;
+  node.outcome = solve(solver, std::exp(log_radius), node.value);
+  if (node.outcome != CableOutcome::hangs) return node;
+  Values beyond{};
+  node.outcome = solve(solver, std::exp(log_radius + slope_step), beyond);
+  for (std::size_t i = 0; i < part_count; ++i) {
+    node.slope[i] = (beyond[i] - node.value[i]) / slope_step;
+  }
+  return node;
+}
+
+const HangingLoad::Node& HangingLoad::node(long place) const {
+  const auto known = nodes_.find(place);
+  if (known != nodes_.end()) return known->second;
+  return nodes_.emplace(place, solved_node(log_radius_at(place))).first->second;
+}
+
+bool HangingLoad::bends_much(const Node& a, const Node& b, double width) {
+  // Of a parabola the mean slope is that of the ends; beyond it is the third derivative times
+  // width³/12. With this little of it the cubic misses by about 1e-5.
+  constexpr double little = 2e-3;
+  const double tension = std::max(a.value[2], b.value[2]);
+  for (std::size_t i = 0; i + 1 < part_count; ++i) {
+    const double mean_slope = 0.5 * (a.slope[i] + b.slope[i]);
+    if (std::abs(b.value[i] - a.value[i] - width * mean_slope) > little * tension) return true;
+  }
+  return false;
+}
+
+std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
+  constexpr int most_strides = 4;
+  const auto outcome = [this](long place) { return node(place).outcome; };
+  // Away from places at which nothing was found.
+  const auto away_from = [&](long place, long step) {
+    for (int i = 0; i < most_strides && outcome(place) == CableOutcome::not_found; ++i) {
+      place += step;
+    }
+    return place;
+  };
+  const long first = static_cast<long>(std::floor(x / stride)) * places_per_stride;
+  const long lo = away_from(first, -places_per_stride);
+  long hi = away_from(first + places_per_stride, places_per_stride);
+  const bool at_the_thin_end = x < log_thinnest + most_strides * stride;
+  if (outcome(lo) != CableOutcome::hangs) {
+    if (at_the_thin_end && outcome(hi) == CableOutcome::hangs) return {{hi, hi}};
+    return std::nullopt;
+  }
+  long hangs = lo;
+  while (outcome(hi) != CableOutcome::hangs) {  // towards where it ceases to hang
+    const long middle = hangs + (hi - hangs) / 2;
+    if (middle == hangs) return std::nullopt;
+    if (x < log_radius_at(middle)) {
+      hi = middle;
+    } else {
+      hangs = middle;
+      if (outcome(hangs) != CableOutcome::hangs) return std::nullopt;
+    }
+  }
+  while (hi - hangs > closest_places &&
+         bends_much(node(hangs), node(hi), log_radius_at(hi - hangs))) {
+    const long middle = hangs + (hi - hangs) / 2;
+    if (outcome(middle) != CableOutcome::hangs) break;
+    (x < log_radius_at(middle) ? hi : hangs) = middle;
+  }
+  return {{hangs, hi}};
+}
+
+const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
+  if (radius == last_radius_) return last_;
+  last_radius_ = radius;
+  const double x = std::clamp(std::log(radius), log_thinnest, log_thickest);
+  const auto places = places_about(x);
+  if (!places) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    last_ = {{none, none, none, none, none}, {}};
+    return last_;
+  }
+  const auto [lo, hi] = *places;
+  const Node& a = node(lo);
+  const Node& b = node(hi);
+  const bool one_place = lo == hi;  // its forces over the cable's own load hold for thinner ones
+  const double width = one_place ? 1 : log_radius_at(hi) - log_radius_at(lo);
+  const double t = one_place ? 0 : (x - log_radius_at(lo)) / width;
+  // Hermite's cubic, and its slope by ln r.
+  const double b1 = t * t * (3 - 2 * t);
+  const double sa = t * (1 - t) * (1 - t) * width;
+  const double sb = t * t * (t - 1) * width;
+  const double b1_slope = 6 * t * (1 - t) / width;
+  const double sa_slope = (1 - t) * (1 - 3 * t);
+  const double sb_slope = t * (3 * t - 2);
+  const bool moves = !one_place && x > log_thinnest && x < log_thickest;
+  Values value{};
+  Values slope{};
+  const Scale load = own_load(radius);
+  for (std::size_t i = 0; i < part_count; ++i) {
+    const double rise = b.value[i] - a.value[i];
+    const double share = a.value[i] + b1 * rise + sa * a.slope[i] + sb * b.slope[i];
+    const double change =
+        moves ? (b1_slope * rise + sa_slope * a.slope[i] + sb_slope * b.slope[i]) / radius : 0;
+    const bool is_length = i + 1 == part_count;
+    value[i] = is_length ? share : share * load.value;
+    slope[i] = is_length ? change : change * load.value + share * load.slope;
+  }
+  if (situation_.paid_out.length) {
+    value.back() = *situation_.paid_out.length;
+    slope.back() = 0;
+  }
+  last_ = {{value[0], value[1], value[2], value[3], value[4]},
+           {slope[0], slope[1], slope[2], slope[3], slope[4]}};
+  return last_;
+}
+
+// --- TetherInFlight ---
+
+namespace {
+
+/// The load in a situation, which the one asked for later shares with its solutions.
+std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situation) {
+  // A flight log has tens of thousands of states; a sweep has few at a time.
+  constexpr std::size_t most_kept = 1 << 15;
+  thread_local std::map<HangingSituation, std::shared_ptr<const HangingLoad>> known;
+  if (known.size() >= most_kept) known.clear();
+  auto& load = known[situation];
+  if (!load) load = std::make_shared<const HangingLoad>(situation);
+  return load;
+}
+
+/// The air as the cable meets it, x from the station to the drone, which stands upwind. The drone's
+/// own motion counts as wind, which loads the cable more than following the drone would.
+MovingAir air_about(const FlightState& state, const Flight& flight) {
+  MovingAir air;
+  air.density = flight.air_density;
+  air.wind = {-std::abs(state.airspeed), 0, 0};
+  air.profile = flight.wind_profile;
+  air.station_height = flight.station_height;
+  air.reference_height = flight.station_height + state.deployed;
+  air.exponent = flight.wind_exponent;
+  air.roughness_length = flight.roughness_length;
+  return air;
+}
+
+PaidOut paid_out_by(const Tether& tether, const FlightState& state, const Flight& flight) {
+  if (tether.winch_pull > 0) return {.length = {}, .winch_tension = tether.winch_pull};
+  const double distance = std::hypot(state.deployed, flight.horizontal_offset);
+  return {.length = (1 + tether.slack) * distance, .winch_tension = {}};
+}
+
+}  // namespace
+
+TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,
+                               const Flight& flight)
+    : straight_(tether, wall, state, flight.air_density, flight.gravity) {
+  set_state(state, flight);
+}
+
+void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
+  straight_.set_airspeed(state.airspeed);
+  const Tether& tether = *straight_.tether_;
+  // On the ground nothing hangs.
+  if (tether.model == TetherModel::straight || !(state.deployed > 0)) return;
+  const StraightTether metre(tether, straight_.wall_, {.deployed = 1}, flight.air_density,
+                             flight.gravity);
+  hanging_ = hanging_load(
+      {.weight = {flight.gravity * metre.mass_0_, flight.gravity * metre.mass_1_,
+                  flight.gravity * metre.mass_2_},
+       .width = {4 * tether.projection_factor * metre.width_, 4 * tether.projection_factor},
+       .drag_coefficient = tether.drag_coefficient,
+       .air = air_about(state, flight),
+       .paid_out = paid_out_by(tether, state, flight),
+       .axial_stiffness = tether.axial_stiffness,
+       .offset = flight.horizontal_offset,
+       .height = state.deployed});
+}
+
+TetherLoad TetherInFlight::load(double radius) const {
+  if (!hanging_) return straight_.load(radius);
+  const HangingLoad::Parts& parts = hanging_->at(radius).value;
+  return {parts.along,          parts.down,  parts.tension_at_drone, parts.tension_at_ground,
+          hanging_mass(radius), parts.length};
+}
+
+double TetherInFlight::hanging_mass(double radius) const {
+  return straight_.mass_of(1, radius) * hanging_->at(radius).value.length;
+}
+
+double TetherInFlight::on_drum(double in_air) const {
+  return std::max(0.0, straight_.on_drum_ - (in_air - straight_.deployed_));
+}
+
+double TetherInFlight::circuit_share(double radius) const {
+  const double in_air = hanging_->at(radius).value.length;
+  return (in_air + on_drum(in_air)) / (straight_.deployed_ + straight_.on_drum_);
+}
+
+double TetherInFlight::resistance(double radius, double in_air_C, double on_drum_C) const {
+  if (!hanging_) return straight_.resistance(radius, in_air_C, on_drum_C);
+  const double in_air = hanging_->at(radius).value.length;
+  return straight_.resistance(radius, in_air, on_drum(in_air), in_air_C, on_drum_C);
+}
+
+double TetherInFlight::resistance_slope(double radius) const {
+  if (!hanging_) return straight_.resistance_slope(radius);
+  const HangingLoad::AtRadius& at = hanging_->at(radius);
+  const double circuit = straight_.deployed_ + straight_.on_drum_;
+  const double growth = on_drum(at.value.length) > 0 ? 0 : at.slope.length / circuit;
+  return straight_.resistance_slope(radius) * circuit_share(radius) +
+         straight_.resistance_area() * growth / (radius * radius);
+}
+
+double TetherInFlight::radius_of_resistance(double resistance) const {
+  double radius = straight_.radius_of_resistance(resistance);
+  if (!hanging_ || !(radius < std::numeric_limits<double>::infinity())) return radius;
+  // The length of the circuit hardly depends on the radius: each step leaves a small part of the
+  // error. Where the cable cannot hang, no radius has a resistance.
+  for (int step = 0; step < 60; ++step) {
+    const double line = resistance - contact_resistance();
+    const double next = std::sqrt(resistance_area(radius) / line);
+    if (!(std::abs(next - radius) > 1e-15 * radius)) break;
+    radius = next;
+  }
+  return radius;
 }
 
 }  // namespace tethercalc

@@ -61,7 +61,15 @@ constexpr LimitWords all_limits[] = {
     {"",  // the same at every cross-section: nothing that an optimum lies on
      "No cross-section works: a supply of {voltage} V is outside the converter's range.",
      "The converter's highest input of {highest_input} V",
-     "the supply is outside the converter's range", "supply outside the converter's range"}};
+     "the supply is outside the converter's range", "supply outside the converter's range"},
+    {"Limited by the winch: any thicker, and its pull of {winch_N} N does not hold the tether up "
+     "in "
+     "{where}.",
+     "No cross-section works: a tether that the winch pulls with {winch_N} N cannot hang between "
+     "station and drone in {where}.",
+     "The winch's pull of {winch_N} N",
+     "the tether can no longer hang between station and drone in {where}",
+     "tether cannot hang there"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
@@ -81,6 +89,7 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
                                       3)),
       fmt::arg("factor", significant(need.strength_safety_factor, 3)),
       fmt::arg("rated_W", significant(converter.rated_output_power.value_or(0), 4)),
+      fmt::arg("winch_N", significant(design.tether.winch_pull, 3)),
       fmt::arg("voltage", significant(design.supply.voltage, 4)),
       fmt::arg("highest_input", significant(converter.max_input_voltage.value_or(0), 4)));
 }
@@ -250,6 +259,8 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
     }
     case Demand::tether_strength:
       return "too weak for its tension";
+    case Demand::tether_shape:
+      return "cannot hang between station and drone in " + where;
     case Demand::converter_rating:
       break;
   }

@@ -1,9 +1,10 @@
 // Notation: r conductor radius; TN necessary thrust per motor; k headroom asked for; V²/R the power
 // that a loop of resistance R makes available.
-// What is asked for rises with r: mass, drag, tension, TN, the power for k·TN. What there is rises
-// with r too: V²/R and the breaking load. So between two radii a < b no margin is more than what
-// there is at b over what is asked for at a, and none is less than what there is at a over what is
-// asked for at b. Where these bounds decide nothing, the stretch is split.
+// What is asked for rises with r: mass, drag, tension, TN, the power for k·TN. (Of a solved tether
+// it falls no faster than `least_up_to` and `most_down_to` allow, which stand for a and b then.)
+// What there is rises with r too: V²/R and the breaking load. So between two radii a < b no margin
+// is more than what there is at b over what is asked for at a, and none is less than what there is
+// at a over what is asked for at b. Where these bounds decide nothing, the stretch is split.
 
 #include "tethercalc/solve/headroom.hpp"
 
@@ -75,11 +76,12 @@ class FlightDemands {
   /// −1 or 1 where the margin of a cold cable is certain to fall or to rise all the way from a to
   /// b, else 0.
   [[nodiscard]] int trend(const ThrustAt& a, const ThrustAt& b) const {
+    if (flight_.tether().is_solved()) return 0;  // nothing is known of how its load bends
     if (!convex_weight_ && flight_.battery_piece(a.radius) != flight_.battery_piece(b.radius)) {
       return 0;
     }
     const Range price = price_of_thrust(a, b);
-    const StraightTether& tether = flight_.tether();
+    const StraightTether& tether = flight_.tether().straight();
     // V²/R = V²/(c + k/r²) rises with V²·2k·r/(c·r² + k)².
     const double per_square = 2 * flight_.available_power(1) * tether.resistance_area();
     const auto bend = [&](double r) {
@@ -140,7 +142,14 @@ class RadiiSearch {
     const double most = demands_.most_thrust();
     // A hair's breadth more is what rounding makes of it.
     if (!(first.thrust.value <= most * (1 + 1e-12))) return;
-    for (int step = 0; step < 8; ++step) {  // nothing is met up to the radius that would suffice
+    const bool solved = flight.tether().is_solved();
+    if (solved) {
+      lo = std::max(lo, demands_.needed_radius(least_up_to(flight, first, hi)));
+      if (!(lo < hi)) return;
+      first = thrust_at(flight, lo, first.tan_pitch);
+    }
+    for (int step = 0; step < 8 && !solved;
+         ++step) {  // nothing is met up to the radius that would suffice
       const double needed = demands_.needed_radius(first);
       if (!(needed < hi)) return;
       if (needed <= first.radius) break;
@@ -171,6 +180,14 @@ class RadiiSearch {
     return end_at(thrust_at(demands_.flight(), radius, a.at.tan_guess(radius)));
   }
 
+  /// No margin between a and b is less, and none is more.
+  [[nodiscard]] FlightDemands::Margin least_margin(const End& a, const End& b) const {
+    return demands_.margin(most_down_to(demands_.flight(), b.at, a.at.radius), a.at);
+  }
+  [[nodiscard]] FlightDemands::Margin most_margin(const End& a, const End& b) const {
+    return demands_.margin(least_up_to(demands_.flight(), a.at, b.at.radius), b.at);
+  }
+
   /// Ratio of radii at which a smooth stretch is so narrow that its margin has one hump at most.
   static constexpr double narrow = 1.05;
   /// More than any design has been seen to take by a factor of 100; then only ends are compared.
@@ -178,10 +195,10 @@ class RadiiSearch {
 
   void collect(const End& a, const End& b) {
     if (monotone(a, b)) return collect_monotone(a, b);
-    if (a.met() && b.met() && demands_.margin(b.at, a.at).value >= 0) {
+    if (a.met() && b.met() && least_margin(a, b).value >= 0) {
       return append(radii_, {a.at.radius, b.at.radius});
     }
-    if (!a.met() && !b.met() && demands_.margin(a.at, b.at).value < 0) return;
+    if (!a.met() && !b.met() && most_margin(a, b).value < 0) return;
     const double ratio = b.at.radius / a.at.radius;
     if (++stretches_ > most_stretches || ratio < 1 + 1e-12) return collect_monotone(a, b);
     // Where the cable runs away there is no margin that could point to what lies between.
@@ -402,13 +419,13 @@ class BestHeadroomSearch {
   /// No less than the headroom between a and b: that of the conductor at b with the load at a, or
   /// of a cold one, but less than 1, where the load cannot be delivered at all.
   [[nodiscard]] double most_headroom(const Look& a, const Look& b) const {
+    const double least = least_up_to(flight_, a.at, b.at.radius).thrust.value;
     const auto over = [&](double resistance) {
-      return flight_.available_thrust(flight_.available_power(resistance)) / a.at.thrust.value;
+      return flight_.available_thrust(flight_.available_power(resistance)) / least;
     };
     const double cold = over(flight_.tether().resistance(b.at.radius));
     if (!heated_ || cold <= best_.value) return cold;
-    const double warm =
-        over(least_resistance(tether_, flight_, a.at.radius, a.at.thrust.value, b.at.radius));
+    const double warm = over(least_resistance(tether_, flight_, a.at.radius, least, b.at.radius));
     const bool delivered =
         supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(a.at.radius),
                        flight_.drone_power(b.at.thrust.value)) > 0;

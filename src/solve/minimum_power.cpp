@@ -158,7 +158,7 @@ class ValleySearch {
     before_piece_ = piece;
     const double secant = near_log(at.radius, before.radius) / -change;
     if (same_piece && secant > 0.05 && secant < 1) return secant;
-    const StraightTether& tether = flight_.tether();
+    const StraightTether& tether = flight_.tether().straight();
     const double mass_slope = tether.mass_slope(at.radius);
     return mass_slope / (3 * mass_slope + tether.mass_curvature() * at.radius);
   }
@@ -299,14 +299,15 @@ class LeastPowerSearch {
   /// Last step of a heat balance where the power is only compared: its error is about the square.
   static constexpr double roughly = 1e-3;
 
-  /// Nothing is proved of warm cables and of curved efficiencies, but between radii of this ratio
-  /// their power bends no more sharply than its parts.
+  /// Nothing is proved of warm cables, solved ones and of curved efficiencies, but between radii of
+  /// this ratio their power bends no more sharply than its parts.
   static constexpr double narrow = 1.5;
 
   /// With the thrust at `at` over a cold cable of `radius`.
   [[nodiscard]] double power_over(const ThrustAt& at, double radius) const {
+    const double thrust = least_up_to(flight_, at, radius).thrust.value;
     return supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(radius),
-                          flight_.drone_power(at.thrust.value));
+                          flight_.drone_power(thrust));
   }
 
   void improve(const Look& a, const Look& b) {
@@ -365,10 +366,9 @@ class LeastPowerSearch {
   }
 
   [[nodiscard]] double warm_power_over(const ThrustAt& at, double radius) const {
-    const double resistance =
-        least_resistance(tether_, flight_, at.radius, at.thrust.value, radius);
-    return supplied_power(flight_.design().supply.voltage, resistance,
-                          flight_.drone_power(at.thrust.value));
+    const double thrust = least_up_to(flight_, at, radius).thrust.value;
+    const double resistance = least_resistance(tether_, flight_, at.radius, thrust, radius);
+    return supplied_power(flight_.design().supply.voltage, resistance, flight_.drone_power(thrust));
   }
 
   [[nodiscard]] bool runs_away(const Look& look) const {
@@ -430,7 +430,8 @@ class LeastPowerSearch {
   [[nodiscard]] bool bends_up(const ThrustAt& a, const ThrustAt& b, const MotorCurve& motor,
                               bool one_piece) const {
     const Converter& converter = flight_.design().supply.converter;
-    if (heated_ && !(b.radius < narrow * a.radius)) return false;
+    const bool unproved = heated_ || flight_.tether().is_solved();
+    if (unproved && !(b.radius < narrow * a.radius)) return false;
     if (is_proportional(converter)) return true;
     const double lo = motor.power(a.thrust.value);
     const double hi = motor.power(b.thrust.value);
@@ -473,12 +474,13 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
   const double price = (flight.input_power(1) - flight.input_power(0)) *
                        motor.slope(motor.piece(thrust)) * design.flight.gravity /
                        design.drone.motor_count;
-  const double saved = -flight.tether().resistance_slope(1);
+  const double saved = -flight.tether().straight().resistance_slope(1);
   const double bare =
-      std::sqrt(current * std::sqrt(saved / (price * flight.tether().mass_curvature())));
+      std::sqrt(current * std::sqrt(saved / (price * flight.tether().straight().mass_curvature())));
   // Then with the insulation's mass, the loss in the line and the weight there; a propeller's power
   // grows with thrust to the 3/2.
-  const double share = flight.tether().mass_curvature() * bare / flight.tether().mass_slope(bare);
+  const double share = flight.tether().straight().mass_curvature() * bare /
+                       flight.tether().straight().mass_slope(bare);
   const double growth = flight.weight(bare) / flight.weight(lightest);
   const double root_growth = std::sqrt(growth);
   const double supplied =
@@ -497,7 +499,9 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   radii.hi =
       std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
   if (!(lightest <= radii.hi)) return none;
-  const double weight = flight.weight(lightest);
+  // A solved tether's load may fall with the radius, that of none does not.
+  const bool solved = flight.tether().is_solved();
+  const double weight = solved ? flight.lifted_without_tether() : flight.weight(lightest);
   const double hover_power = flight.drone_power(flight.necessary_thrust(weight, 0));
   if (!(hover_power < infinity)) return none;
   const double voltage = design.supply.voltage;
@@ -556,8 +560,8 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
 }  // namespace
 
 bool hull_is_one_valley(const Design& design) {
-  return is_proportional(design.supply.converter) && !is_heated(design.tether) &&
-         design.drone.reserve_battery.specific_energy == 0;
+  return design.tether.model == TetherModel::straight && is_proportional(design.supply.converter) &&
+         !is_heated(design.tether) && design.drone.reserve_battery.specific_energy == 0;
 }
 
 MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/constants.hpp"
+#include "solve/thrust_at.hpp"
 
 namespace tethercalc {
 namespace {
@@ -111,9 +112,20 @@ void name_limit(Optimization& result, const Flights& flights) {
   }
 }
 
+/// The radii from the thinnest on at which the tilt exceeds its limit.
+SteadyFlight::Radii too_tilted_with_solved_tether(const SteadyFlight& flight) {
+  constexpr double thickest = 1;     // m
+  constexpr double thinnest = 1e-7;  // m, 3e-8 mm²
+  const IntervalSet within = radii_within_tilt(flight, thickest);
+  if (within.empty()) return {0, thickest};
+  return {0, within.front().lo > thinnest ? within.front().lo : 0};
+}
+
 /// What keeps the best reachable headroom of one condition below `demanded`.
 Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
-  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+  const bool solved = flight.tether().is_solved();
+  const SteadyFlight::Radii beyond =
+      solved ? too_tilted_with_solved_tether(flight) : flight.beyond_pitch_limit();
   const bool tilts = beyond.lo < beyond.hi;
   if (!(best.value > 0)) return tilts ? Limit::max_pitch : Limit::available_power;
   if (at_tilt_limit(evaluate(flight, best.area), flight.design())) return Limit::max_pitch;
@@ -240,11 +252,15 @@ Flights flights_of(const Design& design) {
 }  // namespace
 
 Limit limit_of(Demand demand) {
-  constexpr std::array<Limit, demand_count> limits{
-      Limit::takeoff_mass,          Limit::max_pitch,
-      Limit::input_voltage,         Limit::available_power,
-      Limit::conductor_temperature, Limit::conductor_temperature,
-      Limit::tether_strength,       Limit::converter_rating};  // as in Demand
+  constexpr std::array<Limit, demand_count> limits{Limit::tether_shape,
+                                                   Limit::takeoff_mass,
+                                                   Limit::max_pitch,
+                                                   Limit::input_voltage,
+                                                   Limit::available_power,
+                                                   Limit::conductor_temperature,
+                                                   Limit::conductor_temperature,
+                                                   Limit::tether_strength,
+                                                   Limit::converter_rating};  // as in Demand
   return limits[static_cast<std::size_t>(demand)];
 }
 

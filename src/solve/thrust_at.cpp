@@ -33,22 +33,82 @@ ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double 
 
 namespace {
 
+/// The part that is left of a solved tether's load from a radius `thin` on, at `thick`, at least.
+double left_of_load(double thin, double thick) { return thin / thick; }
+
+/// `at` with `share` of the tether's load more.
+ThrustAt with_more_load(const SteadyFlight& flight, ThrustAt at, double share) {
+  const TetherLoad load = flight.tether().load(at.radius);
+  at.thrust.value += share * (load.down + load.along) / flight.design().drone.motor_count;
+  at.thrust.value = std::max(at.thrust.value, 0.0);
+  return at;
+}
+
+}  // namespace
+
+ThrustAt least_up_to(const SteadyFlight& flight, const ThrustAt& at, double radius) {
+  if (!flight.tether().is_solved()) return at;
+  return with_more_load(flight, at, left_of_load(at.radius, radius) - 1);
+}
+
+ThrustAt most_down_to(const SteadyFlight& flight, const ThrustAt& at, double radius) {
+  if (!flight.tether().is_solved()) return at;
+  return with_more_load(flight, at, 1 / left_of_load(radius, at.radius) - 1);
+}
+
+namespace {
+
 /// What was solved for to lie on a kink may miss it by this much, relative.
 constexpr double kink_rounding = 1e-12;
+
+/// Whether the tilt is within its limit with the weight at one radius and the tether's drag at
+/// another, of which `lighter` N of weight and the share `of_drag` count.
+bool within_tilt(const SteadyFlight& flight, double light, double wide, double lighter = 0,
+                 double of_drag = 1) {
+  return (flight.weight(light) - lighter) * flight.tan_pitch_limit() >=
+         flight.airframe_drag_at_pitch_limit() + of_drag * flight.tether().drag(wide);
+}
 
 /// Collects where the tilt is within its limit with a reserve battery, whose mass is no closed form
 /// of the radius. Weight and drag both rise with it, which bounds the tilt between two radii.
 void collect_within_tilt(const SteadyFlight& flight, double a, double b, IntervalSet& radii) {
-  const auto within = [&](double light, double wide) {
-    return flight.weight(light) * flight.tan_pitch_limit() >=
-           flight.airframe_drag_at_pitch_limit() + flight.tether().drag(wide);
-  };
-  if (!within(b, a)) return;
-  if (within(a, b)) return append(radii, {a, b});
+  if (!within_tilt(flight, b, a)) return;
+  if (within_tilt(flight, a, b)) return append(radii, {a, b});
   const double middle = std::sqrt(a * b);
   if (!(middle > a * (1 + kink_rounding))) return;
   collect_within_tilt(flight, a, middle, radii);
   collect_within_tilt(flight, middle, b, radii);
+}
+
+/// The same with a solved tether, whose load may fall from a to b by as much as `left_of_load` says
+/// before it rises. Closer radii are told apart by their ends.
+void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
+                                IntervalSet& radii) {
+  constexpr double close = 1.05;
+  const auto hangs = [&](double r) { return flight.weight(r) < infinity; };
+  const auto within = [&](double r) { return hangs(r) && within_tilt(flight, r, r); };
+  if (!hangs(a) && !hangs(b)) return;
+  if (hangs(a) && hangs(b)) {
+    const double left = left_of_load(a, b);
+    const auto down = [&](double r) { return flight.tether().load(r).down; };
+    if (within_tilt(flight, a, b, (1 - left) * down(a), 1 / left)) return append(radii, {a, b});
+    if (!within_tilt(flight, b, a, (1 - 1 / left) * down(b), left)) return;
+  }
+  if (b > close * a) {
+    const double middle = std::sqrt(a * b);
+    collect_solved_within_tilt(flight, a, middle, radii);
+    collect_solved_within_tilt(flight, middle, b, radii);
+    return;
+  }
+  if (within(a) && within(b)) return append(radii, {a, b});
+  if (!within(a) && !within(b)) return;
+  double inside = within(a) ? a : b;
+  double outside = within(a) ? b : a;
+  while (std::abs(outside - inside) > kink_rounding * b) {
+    const double middle = 0.5 * (inside + outside);
+    (within(middle) ? inside : outside) = middle;
+  }
+  append(radii, within(a) ? Interval{a, inside} : Interval{inside, b});
 }
 
 /// The first piece of the motor curve, of those that the reserve battery passes to strictly between
@@ -107,7 +167,7 @@ double battery_kink(const SteadyFlight& flight, double lo, double hi, bool eithe
   if (piece == 0) return nan;
   const Drone& drone = flight.design().drone;
   const double landed = drone.motor.vertices()[piece].thrust * drone.motor_count;
-  double kink = flight.radius_of_weight(landed + flight.tether().winch_pull());
+  double kink = flight.radius_of_weight(landed + flight.tether().straight().winch_pull());
   // Rounding may take it to where the battery has leapt already.
   for (double share = 1e-16; share < kink_rounding / 2 && flight.battery_piece(kink) >= piece;
        share *= 2) {
@@ -164,14 +224,20 @@ double least_resistance(const WarmTether& tether, const SteadyFlight& flight, do
 
 IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
   if (!(hi > 0)) return {};
-  const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
-  if (!(beyond.lo < beyond.hi)) return {{0, hi}};
-  if (flight.design().drone.reserve_battery.specific_energy == 0) {
-    return intersection({{0, beyond.lo}, {beyond.hi, std::max(hi, beyond.hi)}}, {{0, hi}});
+  if (!flight.tether().is_solved()) {
+    const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
+    if (!(beyond.lo < beyond.hi)) return {{0, hi}};
+    if (flight.design().drone.reserve_battery.specific_energy == 0) {
+      return intersection({{0, beyond.lo}, {beyond.hi, std::max(hi, beyond.hi)}}, {{0, hi}});
+    }
   }
   IntervalSet radii;
   constexpr double thinnest = 1e-8;  // 3e-10 mm²
-  if (hi > thinnest) collect_within_tilt(flight, thinnest, hi, radii);
+  if (hi > thinnest && flight.tether().is_solved()) {
+    collect_solved_within_tilt(flight, thinnest, hi, radii);
+  } else if (hi > thinnest) {
+    collect_within_tilt(flight, thinnest, hi, radii);
+  }
   return radii;
 }
 

@@ -31,6 +31,12 @@ struct ThrustAt {
 [[nodiscard]] ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double hi,
                                  ThrustAt from);
 
+/// No more than what is necessary at any radius from `at`'s up to `radius`, and no less at any from
+/// `at`'s down to `radius`: the thrust at `at`, which never falls with the radius, of a solved
+/// tether less or plus what its load may fall by (`HangingLoad`).
+[[nodiscard]] ThrustAt least_up_to(const SteadyFlight& flight, const ThrustAt& at, double radius);
+[[nodiscard]] ThrustAt most_down_to(const SteadyFlight& flight, const ThrustAt& at, double radius);
+
 /// Pieces of a motor curve, both included, and N somewhere on them.
 struct Pieces {
   std::size_t first = 0;

@@ -64,7 +64,10 @@ double slack_length(double slack, double height, double offset) {
   return (1 + slack) * std::hypot(height, offset);
 }
 
-ShapeStudy study_cable_shape(const Design& design, double area, const ShapeRequest& request) {
+ShapeStudy study_cable_shape(const Design& original, double area, const ShapeRequest& request) {
+  // The cable is solved here; what it does to the drone is set beside a straight one.
+  Design design = original;
+  design.tether.model = TetherModel::straight;
   ShapeStudy out;
   out.cable = cable_of(design, area);
   out.cable.axial_stiffness = request.axial_stiffness;

@@ -86,6 +86,7 @@ double lower_bound(Design design, const PointQuantity& objective) {
   tether.length = 1e-6;
   tether.spooled_length = 0;
   tether.winch_pull = 0;
+  tether.model = TetherModel::straight;  // weighs nothing at this length
   const OperatingPoint bare = evaluate(design, 1e-9, condition);
   constexpr double rounding = 1e-6;
   if (std::isfinite(bare.drone_power)) return bare.drone_power * (1 - rounding);

@@ -141,6 +141,7 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
     case Limit::tether_strength:
     case Limit::converter_rating:
     case Limit::input_voltage:
+    case Limit::tether_shape:
       return refusal;
     default:
       refusal.best = result.best_headroom;

@@ -48,9 +48,10 @@ std::string_view condition_name(Condition condition) {
 }
 
 std::string_view limit_name(Limit limit) {
-  constexpr std::array<std::string_view, 9> names{
-      "minimum_power",         "available_power", "takeoff_mass",     "motor_thrust", "max_pitch",
-      "conductor_temperature", "tether_strength", "converter_rating", "input_voltage"};
+  constexpr std::array<std::string_view, 10> names{
+      "minimum_power", "available_power",       "takeoff_mass",    "motor_thrust",
+      "max_pitch",     "conductor_temperature", "tether_strength", "converter_rating",
+      "input_voltage", "tether_shape"};
   return names.at(static_cast<std::size_t>(limit));
 }
 

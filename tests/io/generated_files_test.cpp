@@ -25,6 +25,8 @@ std::string allowed(const SpecField& field) {
       return "`true` or `false`";
     case FieldKind::condition:
     case FieldKind::strength_material:
+    case FieldKind::tether_model:
+    case FieldKind::wind_profile:
       return fmt::format("`\"{}\"` or `\"{}\"`",
                          fmt::join(words.begin(), words.end() - 1, "\"`, `\""), words.back());
     case FieldKind::text:

@@ -70,6 +70,8 @@ void set_off_neutral(Random& random, const SpecField& field, Design& design) {
     case FieldKind::boolean:
     case FieldKind::condition:
     case FieldKind::strength_material:
+    case FieldKind::tether_model:
+    case FieldKind::wind_profile:
       return set_word(design, field, 1 - std::min<std::size_t>(field_word(design, field), 1));
     default:
       if (is_numeric(field)) set_field(design, field, random_number(random, field));

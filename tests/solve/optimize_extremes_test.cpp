@@ -127,3 +127,22 @@ TEST_CASE("a drone without any drag but from above is optimised in a counted num
     check_against_areas(design, 300);
   });
 }
+
+TEST_CASE("no area is better than the optimum on a solved tether") {
+  const int designs = asked_or("TETHERCALC_EXTREME_DESIGNS", test::draws(40));
+  test::each_random(designs, [](test::Random& random) {
+    const Design design = test::random_hanging_design(random);
+    const Optimization result = optimize(design);
+    const Tried tried = try_areas(design, result.headroom_areas, 100);
+    if (!result.feasible) {
+      CHECK(tried.power == infinity);
+      return;
+    }
+    const OperatingPoint hover = evaluate(design, result.area, Condition::hover);
+    const OperatingPoint forward = evaluate(design, result.area, Condition::forward);
+    CHECK(demand_margins(design, hover, forward).met());
+    const bool at_hover = design.requirements.power_at == Condition::hover;
+    // The load is cubics between solved radii, to 1e-5 of the cable's tension.
+    CHECK((at_hover ? hover : forward).total_power <= tried.power * (1 + 1e-5));
+  });
+}

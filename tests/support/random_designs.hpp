@@ -246,4 +246,27 @@ inline Design random_extreme_design(Random& random) {
   return d;
 }
 
+/// The same on a solved tether as drones have them, in air as it is, with a wind that may grow with
+/// height.
+inline Design random_hanging_design(Random& random) {
+  Design d = random_extreme_design(random);
+  d.tether.model = TetherModel::solved;
+  d.tether.length = random.magnitude(5, 150);
+  d.tether.slack = random.magnitude(5e-3, 0.2);
+  d.tether.insulation.thickness = random.uniform(1e-4, 1e-3);
+  d.tether.insulation.density = random.uniform(900, 2200);
+  d.tether.drag_coefficient = random.uniform(0.7, 1.3);
+  d.tether.projection_factor = 0.75;
+  d.flight.gravity = standard_gravity;
+  d.flight.air_density = random.uniform(0.9, 1.3);
+  d.flight.airspeed = random.uniform(0, 20);
+  d.flight.headwind = random.uniform(0, 12);
+  if (random.chance(0.5)) d.flight.horizontal_offset = d.tether.length * random.uniform(0, 0.5);
+  if (random.chance(0.5)) {
+    d.flight.wind_profile = random.chance(0.5) ? WindProfile::power_law : WindProfile::logarithmic;
+    if (random.chance(0.5)) d.flight.wind_reference_height = 10;
+  }
+  return d;
+}
+
 }  // namespace tethercalc::test

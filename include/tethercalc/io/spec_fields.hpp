@@ -25,6 +25,8 @@ enum class FieldKind {
   text,                 ///< any text
   condition,            ///< "hover" or "forward"
   strength_material,    ///< "none", "aramid" or "uhmwpe"
+  tether_model,         ///< "straight" or "solved"
+  wind_profile,         ///< "uniform", "power_law" or "logarithmic"
   motor,                ///< name in the library, path of a .json or .csv file, or an object
   conductor,            ///< name in the library, path of a .json file, or an object
   insulation_material,  ///< likewise
@@ -48,7 +50,8 @@ struct FieldRange {
 using FieldAccess =
     std::variant<std::monostate, double& (*)(Design&), std::optional<double>& (*)(Design&),
                  int& (*)(Design&), bool& (*)(Design&), Condition& (*)(Design&),
-                 Converter& (*)(Design&), StrengthMaterial& (*)(Design&)>;
+                 Converter& (*)(Design&), StrengthMaterial& (*)(Design&), TetherModel& (*)(Design&),
+                 WindProfile& (*)(Design&)>;
 
 /// One field: how a spec writes it, what it may hold, and where it goes.
 struct SpecField {
@@ -103,8 +106,8 @@ void set_field(Design& design, const SpecField& field, double value);
 /// True where `set_field` accepts numbers.
 [[nodiscard]] bool is_numeric(const SpecField& field);
 
-/// The words that a boolean, condition or strength material is written with, by rising value; empty
-/// for every other kind.
+/// The words that a boolean, condition, strength material, tether model or wind profile is written
+/// with, by rising value; empty for every other kind.
 [[nodiscard]] std::span<const std::string> field_words(FieldKind kind);
 
 /// The index of the word for what is where the field lives; it must be of a kind that has words.

@@ -12,6 +12,7 @@ namespace tethercalc {
 /// A demand on a design. Where several are missed at once, the earlier is the cause of the later:
 /// a drone that tilts too far has no thrust to judge.
 enum class Demand {
+  tether_shape,           ///< a solved tether can hang between station and drone
   takeoff_mass,           ///< a reserve battery can carry itself
   max_pitch,              ///< the tilt is within its limit
   input_voltage,          ///< the supply is within the converter's range
@@ -23,7 +24,7 @@ enum class Demand {
 };
 
 /// How many there are.
-inline constexpr std::size_t demand_count = 8;
+inline constexpr std::size_t demand_count = 9;
 
 /// "takeoff_mass", "max_pitch" …: the name of the enumerator.
 [[nodiscard]] std::string_view demand_name(Demand demand);

@@ -7,6 +7,7 @@
 
 #include "tethercalc/model/airframe.hpp"
 #include "tethercalc/model/converter.hpp"
+#include "tethercalc/model/hanging_cable.hpp"
 #include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/reserve_battery.hpp"
 #include "tethercalc/model/tether.hpp"
@@ -39,9 +40,20 @@ struct Supply {
 /// Where and how fast the drone flies.
 struct Flight {
   double airspeed = 0;                ///< m/s in forward flight
-  double headwind = 0;                ///< m/s, added to the airspeed in both conditions
+  double headwind = 0;                ///< m/s, the wind, added to the airspeed in both conditions
   double air_density = 1.293;         ///< kg/m³
   double gravity = standard_gravity;  ///< m/s²
+
+  /// m, ≥ 0, by which the drone stands aside of its station, upwind of it, where the cable pulls it
+  /// back most. For a solved tether; a straight one hangs down from the drone.
+  double horizontal_offset = 0;
+  double station_height = 0;  ///< m of the tether's lower end over ground, ≥ 0
+
+  WindProfile wind_profile = WindProfile::uniform;  ///< how the wind grows with height
+  double wind_exponent = 1.0 / 7;                   ///< of the power law
+  double roughness_length = 0.03;                   ///< m, of the logarithmic profile
+  /// m over ground at which `headwind` blows; nothing: at the drone.
+  std::optional<double> wind_reference_height{};
 
   bool operator==(const Flight&) const = default;  ///< member by member
 };
@@ -67,14 +79,21 @@ struct Design {
   Requirements requirements;  ///< what the optimum must satisfy
 };
 
+/// Wind at the drone in m/s, `tether.length` over its station: `headwind`, or what the profile
+/// makes of it from the reference height to there.
+[[nodiscard]] double wind_at_drone(const Design& design);
+
 /// Airspeed in m/s in `condition`.
 [[nodiscard]] double airspeed(const Design& design, Condition condition);
 
 /// The state of a flight at one moment. Together with a design it makes one operating point.
 struct FlightState {
   double airspeed = 0;  ///< m/s through the air, forward positive
-  double deployed = 0;  ///< m of cable in the air, which is also the height of a straight tether
-  double on_drum = 0;   ///< m of cable on the drum: in the circuit, not in the air
+  /// m of cable in the air where it hangs straight: the height over the station. A solved tether
+  /// reaches as high with what it takes.
+  double deployed = 0;
+  /// m of cable on the drum, in the circuit and not in the air, while `deployed` is out.
+  double on_drum = 0;
   /// °C of the air around the tether. Heats nothing where the design asks for no heat balance.
   double ambient_temperature_C = 20;
 };

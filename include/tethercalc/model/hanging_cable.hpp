@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct Vector3 {
   double y = 0;  ///< level, a quarter turn to the left of x
   double z = 0;  ///< up
 
-  bool operator==(const Vector3&) const = default;  ///< member by member
+  auto operator<=>(const Vector3&) const = default;  ///< member by member
 };
 
 /// A flexible cable, the same all along.
@@ -49,6 +50,8 @@ struct MovingAir {
   /// m/s, velocity of the drone over ground. The cable follows it in proportion to the way along
   /// the chord.
   Vector3 drone_velocity{};
+
+  auto operator<=>(const MovingAir&) const = default;  ///< member by member
 };
 
 /// Wind at `height` m over the station as a part of that at the reference height.
@@ -60,6 +63,8 @@ struct PaidOut {
   std::optional<double> length{};
   /// N at the station, which a winch holds. One of both is set.
   std::optional<double> winch_tension{};
+
+  auto operator<=>(const PaidOut&) const = default;  ///< member by member
 };
 
 /// Whether a cable has a shape, and why not.
@@ -114,6 +119,10 @@ struct CableShape {
 /// the cable (it is taken to follow at once).
 class CableSolver {
  public:
+  /// Gives up after `most_steps` steps along cables: a usual one takes a hundred, one that is hard to
+  /// find thousands, of a few microseconds each.
+  explicit CableSolver(int most_steps = 100000) : most_steps_(most_steps) {}
+
   /// Solves a cable between (0, 0, 0) and `drone` (m; not the same place). `cable` and `air` as
   /// their members say, a length > 0 or a tension > 0.
   /// @throws std::invalid_argument for values out of those ranges.
@@ -140,6 +149,7 @@ class CableSolver {
  private:
   struct Problem;
 
+  int most_steps_;
   Cable cable_;
   MovingAir air_;
   PaidOut paid_out_;

@@ -28,7 +28,10 @@ struct OperatingPoint {
   double current = 0;            ///< A
   double received_voltage = 0;   ///< V at the converter input
 
-  double tether_tension = 0;  ///< N, the greatest along the tether: its weight, drag and winch pull
+  /// N, the greatest along the tether: its weight, drag and winch pull. NaN where it cannot hang
+  /// between station and drone.
+  double tether_tension = 0;
+  double tether_length = 0;  ///< m in the air; NaN likewise
 
   /// °C in the air and on the drum, where the tether has an ambient temperature; NaN otherwise, and
   /// where there is no steady state. On the drum NaN also where its cooling is not known; the

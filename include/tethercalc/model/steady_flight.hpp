@@ -38,8 +38,8 @@ class SteadyFlight {
   [[nodiscard]] const Design& design() const { return *design_; }
   /// The state it flies in.
   [[nodiscard]] const FlightState& state() const { return state_; }
-  /// The load of its tether.
-  [[nodiscard]] const StraightTether& tether() const { return tether_; }
+  /// Its tether.
+  [[nodiscard]] const TetherInFlight& tether() const { return tether_; }
   /// Wall of the insulation in m, as the supply voltage asks for.
   [[nodiscard]] double wall() const { return wall_; }
 
@@ -58,14 +58,19 @@ class SteadyFlight {
   [[nodiscard]] double takeoff_mass(double radius, double battery_mass) const {
     return fixed_mass_ + tether_.mass(radius) + battery_mass;
   }
-  /// N that the motors lift: the weight of all that flies, and the pull of the winch.
-  [[nodiscard]] double weight(double radius) const { return lifted(takeoff_mass(radius)); }
+  /// N that the motors lift: the weight of all that flies, and what the tether pulls down beyond
+  /// its own. +infinity where it cannot hang.
+  [[nodiscard]] double weight(double radius) const { return lifted(radius, takeoff_mass(radius)); }
+  /// The weight of drone and converter alone, N.
+  [[nodiscard]] double lifted_without_tether() const { return fixed_mass_ * gravity_; }
   /// The same for a take-off mass in kg.
-  [[nodiscard]] double lifted(double takeoff_mass) const {
-    return takeoff_mass * gravity_ + tether_.winch_pull();
+  [[nodiscard]] double lifted(double radius, double takeoff_mass) const {
+    return takeoff_mass < std::numeric_limits<double>::infinity()
+               ? takeoff_mass * gravity_ + tether_.pull_beyond_weight(radius)
+               : takeoff_mass;
   }
-  /// The largest radius at which the motors lift no more than `weight` N; negative where even the
-  /// thinnest tether is heavier. For a design in one of its conditions.
+  /// The largest radius, up to 1 m, at which the motors lift no more than `weight` N; negative
+  /// where even the thinnest tether is heavier. For a design in one of its conditions.
   [[nodiscard]] double radius_of_weight(double weight) const;
 
   /// The piece of the motor curve that the landing from the reserve battery decides its mass on; 0
@@ -96,8 +101,9 @@ class SteadyFlight {
     double lo = 0;  ///< m
     double hi = 0;  ///< m
   };
-  /// The radii at which the tilt exceeds its limit without a reserve battery, whose weight only
-  /// lessens it. (Weight grows with r², tether drag with r: there is at most one such range.)
+  /// The radii at which the tilt exceeds its limit with a straight tether and without a reserve
+  /// battery, whose weight only lessens it. (Weight grows with r², tether drag with r: there is at
+  /// most one such range.)
   [[nodiscard]] Radii beyond_pitch_limit() const;
 
   /// A thrust of one motor and how it changes with the radius.
@@ -120,7 +126,7 @@ class SteadyFlight {
     const Weight weight = weighed(radius);
     const double tangent =
         tan_pitch(radius, weight.value, std::numeric_limits<double>::infinity(), tan_guess);
-    return {tangent, inclined_thrust(weight, tangent)};
+    return {tangent, inclined_thrust(radius, weight, tangent)};
   }
 
   // --- Power ---
@@ -141,8 +147,9 @@ class SteadyFlight {
   [[nodiscard]] double radius_of_available_power(double power) const {
     if (!(power > 0)) return 0;
     // P = deliverable/(R_contact + resistance_area/r²), solved for r.
+    if (tether_.is_solved()) return tether_.radius_of_resistance(deliverable_ / power);
     const double line = deliverable_ - tether_.contact_resistance() * power;
-    return line > 0 ? std::sqrt(tether_.resistance_area() * power / line)
+    return line > 0 ? std::sqrt(tether_.straight().resistance_area() * power / line)
                     : std::numeric_limits<double>::infinity();
   }
 
@@ -166,14 +173,15 @@ class SteadyFlight {
     double slope = 0;
   };
   [[nodiscard]] Weight weighed(double radius) const;
-  [[nodiscard]] Thrust inclined_thrust(Weight weight, double tan_pitch) const;
+  [[nodiscard]] Thrust inclined_thrust(double radius, Weight weight, double tan_pitch) const;
   [[nodiscard]] double sized_battery(double radius) const;
+  [[nodiscard]] double radius_of_solved_weight(double limit) const;
   [[nodiscard]] double landed_mass(double radius) const;
 
   const Design* design_;
   FlightState state_;
   double wall_;
-  StraightTether tether_;
+  TetherInFlight tether_;
   double fixed_mass_;  ///< drone and converter
   bool has_battery_;
   double gravity_;  ///< m/s²

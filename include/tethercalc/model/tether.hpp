@@ -89,6 +89,12 @@ struct MeasuredHeating {
   bool operator==(const MeasuredHeating&) const = default;  ///< member by member
 };
 
+/// How the tether hangs between station and drone.
+enum class TetherModel {
+  straight,  ///< straight down, as long as the drone is high, its whole drag on the drone
+  solved,    ///< as weight and wind have it (`HangingLoad`)
+};
+
 /// The cable as bought and laid, but for its cross-section where that is still to be found.
 struct Tether {
   double length = 0;          ///< m in the air, h; also the flight height
@@ -110,6 +116,13 @@ struct Tether {
   Drum drum;                         ///< of the length on it
   StrengthMember strength_member{};  ///< beside the conductors
   double winch_pull = 0;             ///< N, with which the ground end is pulled down
+
+  TetherModel model = TetherModel::straight;  ///< how it hangs
+  /// Of a solved one without a winch's pull: length paid out beyond the distance to the drone, over
+  /// that distance, > 0.
+  double slack = 0.01;
+  std::optional<double>
+      axial_stiffness{};  ///< N, EA, of a solved one; nothing: it does not stretch
 
   bool operator==(const Tether&) const = default;  ///< member by member
 };

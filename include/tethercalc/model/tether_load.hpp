@@ -2,21 +2,27 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <unordered_map>
 
 #include "tethercalc/model/design.hpp"
+#include "tethercalc/model/hanging_cable.hpp"
 
 namespace tethercalc {
 
-/// What the drone and the ground feel of a tether in one flight state, with one conductor. Another
-/// model of the tether's shape answers with the same.
+/// What the drone and the ground feel of a tether in one flight state, with one conductor, however
+/// it hangs. All +infinity where it cannot hang between station and drone.
 struct TetherLoad {
   double along = 0;              ///< N at the drone against its motion through the air
   double down = 0;               ///< N at the drone downwards
   double tension_at_drone = 0;   ///< N
   double tension_at_ground = 0;  ///< N
   double mass = 0;               ///< kg in the air
+  double length = 0;             ///< m in the air
 
   /// N, what the cable has to stand.
   [[nodiscard]] double greatest_tension() const {
@@ -42,7 +48,7 @@ class StraightTether {
   [[nodiscard]] TetherLoad load(double radius) const {
     const double down = mass(radius) * gravity_ + winch_pull();
     const double along = drag(radius);
-    return {along, down, std::hypot(down, along), winch_pull(), mass(radius)};
+    return {along, down, std::hypot(down, along), winch_pull(), mass(radius), deployed_};
   }
 
   /// kg in the air.
@@ -95,6 +101,11 @@ class StraightTether {
   [[nodiscard]] double resistance_area() const { return resistance_area_; }
 
  private:
+  friend class TetherInFlight;
+  /// Ω of conductors of `radius` with these lengths in the air and on the drum at these °C.
+  [[nodiscard]] double resistance(double radius, double in_air, double on_drum, double in_air_C,
+                                  double on_drum_C) const;
+
   const Tether* tether_;
   double wall_;
   double deployed_;
@@ -105,6 +116,152 @@ class StraightTether {
   double mass_0_, mass_1_, mass_2_;  ///< mass = mass_0 + mass_1·r + mass_2·r²
   double resistance_area_;           ///< Ω·m², (R − R_contact)·r²
   double drag_0_, drag_1_;           ///< drag = drag_0 + drag_1·r, N
+};
+
+/// All that decides how a tether hangs, but for its conductor's radius r.
+struct HangingSituation {
+  std::array<double, 3> weight{};  ///< N/m: weight[0] + weight[1]·r + weight[2]·r²
+  std::array<double, 2> width{};   ///< m across the wind: width[0] + width[1]·r
+  double drag_coefficient = 1;     ///< of that width
+  MovingAir air;                   ///< x points from the station to where the drone stands aside
+  PaidOut paid_out;                ///< how much cable is out
+  std::optional<double> axial_stiffness{};  ///< N, EA
+  double offset = 0;                        ///< m aside
+  double height = 0;                        ///< m over the station
+
+  auto operator<=>(const HangingSituation&) const = default;  ///< member by member
+};
+
+/// The load of a tether that hangs as weight and wind have it (`CableSolver`), as a smooth function
+/// of its conductor's radius: the cable is solved at radii a quarter of an octave apart, when one
+/// between them is asked for, and forces over the cable's own load, hypot(weight, drag)·height +
+/// winch tension, are cubic in ln r between those, with their slopes. Within 1e-5 of the solver.
+/// Where the solver finds no equilibrium, the cubic spans up to an octave; a cable with slack right
+/// above its station that hardly any wind moves is taken as the fold it is in still air, all of its
+/// drag on the drone.
+///
+/// Mostly a thicker conductor pulls more. Of a taut cable far aside in much wind weight and wind
+/// may nearly balance each other; up to there its load falls, hardly ever faster than with 1/r.
+/// Remembers what it solved; not for two threads at once.
+class HangingLoad {
+ public:
+  explicit HangingLoad(const HangingSituation& situation) : situation_(situation) {}
+
+  /// The parts of a load, N, and m of cable in the air.
+  struct Parts {
+    double along = 0;              ///< against the wind, ≥ 0
+    double down = 0;               ///< at the drone
+    double tension_at_drone = 0;   ///< N
+    double tension_at_ground = 0;  ///< N
+    double length = 0;             ///< m
+  };
+  /// A load and its derivative by the radius. +infinity and 0 where the cable cannot hang.
+  struct AtRadius {
+    Parts value;  ///< N, m
+    Parts slope;  ///< N/m, 1
+  };
+  /// The load with conductors of `radius` ≥ 0; thinner ones than 10 µm have the forces of such over
+  /// their own load.
+  [[nodiscard]] const AtRadius& at(double radius) const;
+
+ private:
+  static constexpr std::size_t part_count = 5;
+  using Values = std::array<double, part_count>;
+  struct Node {
+    CableOutcome outcome = CableOutcome::not_found;
+    Values value{};
+    Values slope{};
+  };
+  struct Scale {
+    double value = 0;
+    double slope = 0;
+  };
+  [[nodiscard]] Scale own_load(double radius) const;
+  [[nodiscard]] CableOutcome solve(CableSolver& solver, double radius, Values& values) const;
+  [[nodiscard]] Node solved_node(double log_radius) const;
+  [[nodiscard]] const Node& node(long place) const;
+  /// Whether forces between two places that are `width` apart in ln r are no cubic.
+  [[nodiscard]] static bool bends_much(const Node& a, const Node& b, double width);
+  /// Two places about `log_radius` at which the cable hangs, and nothing is known against it
+  /// between them; nothing where it does not.
+  [[nodiscard]] std::optional<std::array<long, 2>> places_about(double log_radius) const;
+
+  HangingSituation situation_;
+  mutable std::unordered_map<long, Node> nodes_;
+  mutable double last_radius_ = std::numeric_limits<double>::quiet_NaN();
+  mutable AtRadius last_;
+};
+
+/// The tether of a design in one flight state by the model that it asks for, as functions of its
+/// conductor's radius r in m. Resistance falls with r. Of a straight tether weight and drag rise
+/// with r; for a solved one see `HangingLoad`. Refers to the tether, which must outlive it.
+class TetherInFlight {
+ public:
+  /// `wall` in m of the insulation.
+  TetherInFlight(const Tether& tether, double wall, const FlightState& state, const Flight& flight);
+
+  /// The same tether in another state.
+  void set_state(const FlightState& state, const Flight& flight);
+
+  /// Whether it hangs as weight and wind have it, so that nothing of it is a polynomial of r.
+  [[nodiscard]] bool is_solved() const { return hanging_ != nullptr; }
+
+  /// The load on the drone.
+  [[nodiscard]] TetherLoad load(double radius) const;
+
+  /// kg in the air; +infinity where it cannot hang.
+  [[nodiscard]] double mass(double radius) const {
+    return hanging_ ? hanging_mass(radius) : straight_.mass(radius);
+  }
+  /// N at the drone downwards beyond the weight of what is in the air.
+  [[nodiscard]] double pull_beyond_weight(double radius) const {
+    return hanging_ ? hanging_->at(radius).value.down - hanging_mass(radius) * straight_.gravity_
+                    : straight_.winch_pull();
+  }
+  /// N/m, how the force at the drone downwards changes with the radius.
+  [[nodiscard]] double down_slope(double radius) const {
+    return hanging_ ? hanging_->at(radius).slope.down
+                    : straight_.mass_slope(radius) * straight_.gravity_;
+  }
+  /// N at the drone against its motion through the air; ≥ 0.
+  [[nodiscard]] double drag(double radius) const {
+    return hanging_ ? hanging_->at(radius).value.along : straight_.drag(radius);
+  }
+  /// Its derivative by the radius, N/m.
+  [[nodiscard]] double drag_slope(double radius) const {
+    return hanging_ ? hanging_->at(radius).slope.along : straight_.drag_slope();
+  }
+
+  /// Resistance of the loop in Ω, as `StraightTether` has it: of all that is in the air and on the
+  /// drum, from which more cable in the air is taken.
+  [[nodiscard]] double resistance(double radius) const {
+    return contact_resistance() + resistance_area(radius) / (radius * radius);
+  }
+  /// The same with the conductor at these temperatures, °C, in the air and on the drum.
+  [[nodiscard]] double resistance(double radius, double in_air_C, double on_drum_C) const;
+  /// Derivative of `resistance(radius)` by the radius, Ω/m.
+  [[nodiscard]] double resistance_slope(double radius) const;
+  /// Radius at which the loop has `resistance`; +infinity where contacts alone have more.
+  [[nodiscard]] double radius_of_resistance(double resistance) const;
+  /// Ω of plugs and slip rings.
+  [[nodiscard]] double contact_resistance() const { return straight_.contact_resistance(); }
+  /// Ω·m²: what the conductors' resistance is over r².
+  [[nodiscard]] double resistance_area(double radius) const {
+    return hanging_ ? straight_.resistance_area() * circuit_share(radius)
+                    : straight_.resistance_area();
+  }
+
+  /// The same cable straight down from the drone: what its mass and drag come to without a load.
+  [[nodiscard]] const StraightTether& straight() const { return straight_; }
+
+ private:
+  [[nodiscard]] double hanging_mass(double radius) const;
+  [[nodiscard]] double on_drum(double in_air) const;
+  /// Length of the circuit over that of a straight tether's.
+  [[nodiscard]] double circuit_share(double radius) const;
+
+  StraightTether straight_;
+  std::shared_ptr<const HangingLoad> hanging_;
 };
 
 }  // namespace tethercalc

@@ -19,6 +19,7 @@ enum class Limit {
   tether_strength,        ///< the breaking load that the tether's tension asks for
   converter_rating,       ///< the rated output of the converter
   input_voltage,          ///< the range of the converter's input
+  tether_shape,           ///< a winch's pull that holds the tether up between station and drone
 };
 
 /// The limit that a demand is told as.

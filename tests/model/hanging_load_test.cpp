@@ -1,0 +1,108 @@
+// The load of a solved tether, held against the cable solver and against the straight tether.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/random.hpp"
+#include "tethercalc/model/tether_load.hpp"
+
+using namespace tethercalc;
+using test::each_random;
+using test::Random;
+
+namespace {
+
+HangingSituation drawn_situation(Random& random) {
+  HangingSituation s;
+  s.weight = {random.uniform(0.01, 0.1), random.uniform(10, 300), random.uniform(1e5, 6e5)};
+  s.width = {random.uniform(5e-4, 3e-3), 3};
+  s.drag_coefficient = random.uniform(0.7, 1.3);
+  s.height = random.uniform(5, 150);
+  s.offset = random.chance(0.5) ? 0 : s.height * random.magnitude(0.01, 1.5);
+  s.air.wind = {-random.uniform(0.5, 15), 0, 0};
+  if (random.chance(0.3)) s.air.drone_velocity = {random.uniform(0, 15), 0, 0};
+  if (random.chance(0.5)) {
+    s.air.profile = random.chance(0.5) ? WindProfile::power_law : WindProfile::logarithmic;
+    s.air.reference_height = s.height;
+  }
+  const double distance = std::hypot(s.height, s.offset);
+  if (random.chance(0.3)) {
+    s.paid_out.winch_tension = distance * random.uniform(0.3, 1.5);
+  } else {
+    s.paid_out.length = distance * (1 + random.magnitude(2e-3, 0.2));
+  }
+  if (random.chance(0.2)) s.axial_stiffness = random.magnitude(1e4, 1e6);
+  return s;
+}
+
+Cable cable_at(const HangingSituation& s, double radius) {
+  return {.weight = s.weight[0] + radius * (s.weight[1] + radius * s.weight[2]),
+          .diameter = s.width[0] + s.width[1] * radius,
+          .drag_coefficient = s.drag_coefficient,
+          .axial_stiffness = s.axial_stiffness};
+}
+
+}  // namespace
+
+TEST_CASE("the load of a solved tether is that of its cable, to 1e-5 of its tension") {
+  int hangs = 0;
+  int far_off = 0;
+  each_random(test::draws(400), [&](Random& random) {
+    const HangingSituation s = drawn_situation(random);
+    const HangingLoad load(s);
+    const double radius = random.magnitude(1e-4, 2e-3);
+    const HangingLoad::Parts found = load.at(radius).value;
+    CableSolver solver;
+    const Vector3 drone{s.offset, 0, s.height};
+    if (solver.solve(cable_at(s, radius), s.air, s.paid_out, drone) != CableOutcome::hangs) return;
+    if (!(found.down < INFINITY)) return;
+    ++hangs;
+    const HangingCable exact = solver.result();
+    const double error =
+        std::max({std::abs(found.along + exact.on_drone.x), std::abs(found.down + exact.on_drone.z),
+                  std::abs(found.tension_at_ground - exact.tension_at_station)}) /
+        exact.tension_at_drone;
+    UNSCOPED_INFO("error " << error << " " << s.offset << " " << s.height);
+    if (!(error < 1e-5)) ++far_off;
+    CHECK(error < 1e-3);
+  });
+  CAPTURE(hangs, far_off);
+  CHECK(hangs > test::draws(350));
+  CHECK(far_off <= test::draws(8));
+}
+
+TEST_CASE("the slope of a solved tether's load is that of its load") {
+  each_random(test::draws(100), [](Random& random) {
+    const HangingLoad load(drawn_situation(random));
+    const double radius = random.magnitude(1e-4, 2e-3);
+    const double step = 1e-5 * radius;
+    const HangingLoad::AtRadius at = load.at(radius);
+    const HangingLoad::Parts below = load.at(radius - step).value;
+    const HangingLoad::Parts above = load.at(radius + step).value;
+    if (!(above.down < INFINITY)) return;
+    const double tension = at.value.tension_at_drone / radius;
+    CHECK(at.slope.down == Approx((above.down - below.down) / (2 * step)).margin(1e-4 * tension));
+    CHECK(at.slope.along ==
+          Approx((above.along - below.along) / (2 * step)).margin(1e-4 * tension));
+    CHECK(
+        at.slope.length ==
+        Approx((above.length - below.length) / (2 * step)).margin(1e-4 * at.value.length / radius));
+  });
+}
+
+TEST_CASE("a thicker conductor of a solved tether pulls more") {
+  int pairs = 0;
+  int less = 0;
+  each_random(test::draws(300), [&](Random& random) {
+    const HangingLoad load(drawn_situation(random));
+    const double radius = random.magnitude(1e-4, 1e-3);
+    const HangingLoad::Parts thin = load.at(radius).value;
+    const HangingLoad::Parts thick = load.at(1.1 * radius).value;
+    if (!(thick.down < INFINITY)) return;
+    ++pairs;
+    if (thick.down < thin.down || thick.along < thin.along) ++less;
+  });
+  CAPTURE(pairs);
+  CHECK(less == 0);
+}
