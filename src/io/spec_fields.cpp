@@ -47,6 +47,11 @@ const std::array all_spec_fields{
               1, at<&Design::drone, &Drone::motor_count>},
     SpecField{"/drone/motor", motor, "", any_number, "",
               "Motor with its propeller: a name in the library, a file, or an object."},
+    SpecField{
+        "/drone/motor_air_density_kg_m3", optional_number, "kg/m³", between(0.001, 100), "null",
+        "Density of the air in which the motor's curve was measured, where the motor's file "
+        "does not state it or is wrong; the curve is then scaled to flight.air_density_kg_m3.",
+        1, at<&Design::drone, &Drone::motor_air_density>},
     SpecField{"/drone/motor_power_factor", number, "", above(0, 10), "1",
               "The motors draw this times what the motor's curve says.", 1,
               at<&Design::drone, &Drone::motor_power_factor>},
@@ -245,6 +250,9 @@ const std::array all_motor_fields{
               "Voltage at which it was measured."},
     SpecField{"/propeller_in", optional_number, "inch", above(0, 200), "null",
               "Diameter of the propeller."},
+    SpecField{"/measured_air_density_kg_m3", optional_number, "kg/m³", between(0.001, 100), "null",
+              "Density of the air in which it was measured; where unknown, the curve counts in any "
+              "air."},
     SpecField{"/points", motor_points, "", any_number, "",
               "Measured points of one motor with its propeller, two at least."}};
 

@@ -110,6 +110,7 @@ double value_off_neutral(const SpecField& field, const Design& d) {
       {"/drone/drag/fore_aft_asymmetry", 0.2},
       {"/drone/translational_lift/induced_share", 0.2},
       {"/drone/reserve_battery/specific_energy_Wh_kg", 150},
+      {"/drone/motor_air_density_kg_m3", 1.1},
       {"/tether/spooled_length_m", 20},
       {"/tether/insulation/dielectric_safety_factor", 400},
       {"/tether/contact_resistance_ohm", 0.3},
