@@ -148,8 +148,20 @@ const std::array all_spec_fields{
               1, at<&Design::tether, &Tether::drum, &Drum::layers>},
     SpecField{"/tether/drum/derating", optional_number, "", positive_fraction, "null",
               "Current that the tether may carry on the drum over what it may laid out, where that "
-              "is known; goes before layers.",
+              "is known; goes before layers and package.",
               1, at<&Design::tether, &Tether::drum, &Drum::derating>},
+    SpecField{"/tether/drum/core_diameter_mm", number, "mm", between(0, 1e4), "0",
+              "Diameter that the tether is wound on. With width_mm the temperature on the drum is "
+              "that of the wound package, in place of what layers say; 0: not stated.",
+              unit::millimetre, at<&Design::tether, &Tether::drum, &Drum::core_diameter>},
+    SpecField{"/tether/drum/width_mm", number, "mm", between(0, 1e4), "0",
+              "Width of the drum between its flanges; 0: not stated.", unit::millimetre,
+              at<&Design::tether, &Tether::drum, &Drum::width>},
+    SpecField{"/tether/drum/package_conductivity_W_mK", optional_number, "W/(m·K)",
+              between(0.01, 10), "null",
+              "Thermal conductivity across the wound wires; where unknown, that of the wires with "
+              "air between them.",
+              1, at<&Design::tether, &Tether::drum, &Drum::package_conductivity>},
     SpecField{"/tether/strength_member/material", strength_material, "", any_number, "\"none\"",
               "Fibres that carry the pull.", 1,
               at<&Design::tether, &Tether::strength_member, &StrengthMember::material>},
@@ -524,6 +536,11 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
     conflicts.push_back(
         {"/supply/converter/mass_table",
          "and specific_mass_kg_per_kW both give the converter's mass; only one can be right"});
+  }
+  const Drum& drum = design.tether.drum;
+  if ((drum.core_diameter > 0) != (drum.width > 0)) {
+    conflicts.push_back({drum.width > 0 ? "/tether/drum/core_diameter_mm" : "/tether/drum/width_mm",
+                         "a wound package has both a core's diameter and a width; give this too"});
   }
   const Insulation& insulation = design.tether.insulation;
   if (insulation.dielectric_safety_factor > 0 && !(insulation.breakdown_strength > 0)) {

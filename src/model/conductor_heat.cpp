@@ -19,7 +19,6 @@ constexpr double stefan_boltzmann = 5.670374419e-8;
 
 constexpr double emissivity = 0.9;    // CIGRE TB 601: 0.8 to 0.9 for weathered surfaces
 constexpr double absorptivity = 0.9;  // likewise
-constexpr double least_conductivity = 0.17;
 constexpr double pair_surface_share = (pi + 2) / (2 * pi);
 constexpr double steepest_known_inclination = pi / 3;
 
@@ -138,9 +137,10 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
       resistance_per_kelvin_(resistivity(tether.conductor, 1) / conductor_area(radius) -
                              resistance_at_zero_),
       diameter_(2 * (radius + wall)),
+      surface_share_(pair_surface_share),
+      still_air_share_(cigre601_inclination_factor(steepest_known_inclination)),
       density_0C_(density_at_zero(around)) {
-  const double known = tether.insulation.thermal_conductivity;
-  const double around_metal = 2 * pi * (known > 0 ? known : least_conductivity);
+  const double around_metal = 2 * pi * insulation_conductivity(tether.insulation);
   thermal_resistance_ = std::log((radius + wall) / radius) / around_metal;
   thermal_resistance_slope_ = -wall / (radius * (radius + wall)) / around_metal;
 }
@@ -149,6 +149,20 @@ ConductorHeat ConductorHeat::in(const Surroundings& around) const {
   ConductorHeat other = *this;
   other.around_ = around;
   other.density_0C_ = density_at_zero(around);
+  return other;
+}
+
+ConductorHeat ConductorHeat::wound(const Surroundings& around, const DrumPackage& package) const {
+  ConductorHeat other = in(around);
+  other.diameter_ = 2 * package.outer_radius;
+  other.diameter_slope_ = 2 * package.outer_radius_slope;
+  const double perimeter = pi * other.diameter_;
+  other.surface_share_ = package.surface / perimeter;
+  other.surface_share_slope_ = package.surface_slope / perimeter -
+                               other.surface_share_ * other.diameter_slope_ / other.diameter_;
+  other.still_air_share_ = 1;
+  other.thermal_resistance_ = package.thermal_resistance;
+  other.thermal_resistance_slope_ = package.thermal_resistance_slope;
   return other;
 }
 
@@ -172,7 +186,7 @@ ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
     rise_times_growth =
         rise * (nusselt.by_prandtl * prandtl_growth - nusselt.by_flow * viscosity_growth);
   }
-  static const double hanging = cigre601_inclination_factor(steepest_known_inclination);
+  const double hanging = still_air_share_;
   const double rayleigh = around_.gravity * std::max(rise, 0.0) / kelvin(film) * diameter_ *
                           diameter_ * diameter_ /
                           (air.kinematic_viscosity * air.kinematic_viscosity) * air.prandtl;
@@ -198,11 +212,14 @@ ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
   const double hot = kelvin(surface_C);
   const double radiated_growth =
       4 * pi * diameter_ * emissivity * stefan_boltzmann * hot * hot * hot;
-  const double share = around_.cooling * pair_surface_share;
+  const double share = around_.cooling * surface_share_;
+  const double with_diameter =
+      share * (pi * air.conductivity * rise * by_log_diameter + radiated) / diameter_ -
+      absorptivity * around_.sun;
+  const double with_share = around_.cooling * surface_share_slope_ * (convected + radiated);
   return {share * (convected + radiated) - absorptivity * around_.sun * diameter_,
           share * (convected_growth + radiated_growth),
-          2 * (share * (pi * air.conductivity * rise * by_log_diameter + radiated) / diameter_ -
-               absorptivity * around_.sun)};
+          diameter_slope_ * with_diameter + with_share};
 }
 
 std::optional<double> ConductorHeat::temperature(double current) const {
@@ -241,7 +258,7 @@ double ConductorHeat::first_surface(double current) const {
   const AirProperties air = air_properties(around_.temperature_C, density_0C_);
   const double nusselt = 1 + 0.5 * std::sqrt(around_.wind * diameter_ / air.kinematic_viscosity);
   const double cooled =
-      around_.cooling * pair_surface_share * (pi * air.conductivity * nusselt + 6 * pi * diameter_);
+      around_.cooling * surface_share_ * (pi * air.conductivity * nusselt + 6 * pi * diameter_);
   const double heat = current * current * resistance(around_.temperature_C) +
                       absorptivity * around_.sun * diameter_;
   return around_.temperature_C + std::min(heat / cooled, 100.0);

@@ -413,10 +413,11 @@ std::vector<std::string> cable_warnings(const Design& design) {
   std::vector<std::string> warnings;
   const Tether& tether = design.tether;
   if (!tether.ambient_temperature_C) return warnings;
-  if (tether.spooled_length > 0 && !drum_derating(tether.drum)) {
+  if (tether.spooled_length > 0 && !is_cooling_known(tether.drum)) {
     warnings.push_back(fmt::format(
         "{} m lie on a drum of which neither layers nor derating are stated: the wound part is the "
-        "hot one, and its temperature is not known (tether.drum.layers or tether.drum.derating)",
+        "hot one, and its temperature is not known (tether.drum.core_diameter_mm and width_mm, "
+        "tether.drum.layers or tether.drum.derating)",
         significant(tether.spooled_length, 3)));
   }
   if (!tether.insulation.rated_temperature_C) {

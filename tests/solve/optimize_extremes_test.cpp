@@ -127,3 +127,15 @@ TEST_CASE("a drone without any drag but from above is optimised in a counted num
     check_against_areas(design, 300);
   });
 }
+
+TEST_CASE("no area is better than the optimum where the drum and the bench are described") {
+  test::each_random(test::draws(200), [](test::Random& random) {
+    Design design = test::random_extreme_design(random);
+    design.drone.motor_air_density = design.flight.air_density * random.uniform(0.6, 1.6);
+    design.tether.ambient_temperature_C = random.uniform(-20, 50);
+    design.tether.spooled_length = random.magnitude(0.1, 1000);
+    design.tether.drum.core_diameter = random.magnitude(0.02, 1);
+    design.tether.drum.width = random.magnitude(0.02, 1);
+    check_against_areas(design, 300);
+  });
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/model/tether.hpp"
 
 namespace tethercalc {
@@ -72,6 +73,10 @@ class ConductorHeat {
   /// The same conductor in another place.
   [[nodiscard]] ConductorHeat in(const Surroundings& around) const;
 
+  /// The same conductor in a wound package: its hottest turn, with its share of the package's
+  /// surface, which is cooled like a horizontal cylinder of the package's diameter, faces included.
+  [[nodiscard]] ConductorHeat wound(const Surroundings& around, const DrumPackage& package) const;
+
   /// Conductor temperature in °C at `current` A (≥ 0); nothing where no state below
   /// `highest_conductor_temperature_C` is steady. Exact to 1e-9 K.
   [[nodiscard]] std::optional<double> temperature(double current) const;
@@ -133,7 +138,11 @@ class ConductorHeat {
   double radius_;
   double resistance_at_zero_;        ///< Ω/m of one conductor, at 0 °C
   double resistance_per_kelvin_;     ///< Ω/(m·K)
-  double diameter_;                  ///< m, over the insulation
+  double diameter_;                  ///< m, over the insulation, or of the package
+  double diameter_slope_ = 2;        ///< m of it per m of the metal's radius
+  double surface_share_;             ///< surface that is cooled, over that of the diameter
+  double surface_share_slope_ = 0;   ///< per m of the metal's radius
+  double still_air_share_;           ///< of a horizontal cylinder's natural convection
   double thermal_resistance_;        ///< K·m/W of the insulation
   double thermal_resistance_slope_;  ///< K/W, by the radius
   double density_0C_;

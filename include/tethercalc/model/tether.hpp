@@ -37,11 +37,16 @@ struct Insulation {
 /// the breakdown strength is 0.
 [[nodiscard]] double insulation_wall(const Insulation& insulation, double voltage);
 
-/// How the part of the tether on the drum is cooled: by its number of layers, or by a factor that
-/// its user knows. Neither: nothing is known.
+/// How the part of the tether on the drum is cooled: by a factor that its user knows, else by the
+/// package that it is wound to (drum_package.hpp), else by its number of layers. None of them:
+/// nothing is known.
 struct Drum {
   int layers = 0;                    ///< 1 to 4; 0: not stated
   std::optional<double> derating{};  ///< in (0, 1], current wound up over current laid out
+  double core_diameter = 0;          ///< m, that the tether is wound on; 0: not stated
+  double width = 0;                  ///< m between the flanges; 0: not stated
+  /// W/(m·K) across the wound wires; nothing: that of the wires and the air between them.
+  std::optional<double> package_conductivity{};
 
   bool operator==(const Drum&) const = default;  ///< member by member
 };
