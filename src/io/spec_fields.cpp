@@ -139,6 +139,12 @@ const std::array all_spec_fields{
     SpecField{"/tether/heating/wind_cooling_sqrt_s_per_m", number, "(s/m)^0.5", between(0, 100),
               "0", "The rise is divided by 1 + this times the square root of the airspeed.", 1,
               at<&Design::tether, &Tether::heating, &MeasuredHeating::wind_cooling>},
+    SpecField{
+        "/tether/inclination_deg", optional_number, "°", between(0, 90), "null",
+        "Angle of the tether over the ground, for its heat: 90 hangs straight down, where still "
+        "air cools a wire about half as well. Unset: wind across it, and still air as along a "
+        "horizontal conductor, less 7 %.",
+        unit::degree, at<&Design::tether, &Tether::inclination>},
     SpecField{"/tether/sun_W_m2", number, "W/m²", between(0, 1500), "0",
               "Sunlight across the tether in the air; matters with ambient_temperature_C.", 1,
               at<&Design::tether, &Tether::sun>},

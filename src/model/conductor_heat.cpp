@@ -74,7 +74,13 @@ struct Nusselt {
   double value = 0;
   double by_flow = 0;  ///< by ln Re, or ln Ra
   double by_prandtl = 0;
+  double by_slenderness = 0;  ///< by ln of diameter over height, at the same Ra of the diameter
 };
+
+Nusselt operator*(double share, const Nusselt& whole) {
+  return {share * whole.value, share * whole.by_flow, share * whole.by_prandtl,
+          share * whole.by_slenderness};
+}
 
 // Roots in place of powers: they take a fraction of the time.
 Nusselt forced_convection(double reynolds, double prandtl) {
@@ -98,6 +104,23 @@ Nusselt natural_convection(double rayleigh, double prandtl) {
   return {root * root, root * part / 3, root * part * hinder / (3 * (1 + hinder))};
 }
 
+Nusselt vertical_convection(double rayleigh, double prandtl, double slenderness) {
+  const double thinning = 20 + 21 * prandtl;
+  const double layer =
+      4.0 / 3 * std::sqrt(std::sqrt(1.4 * rayleigh * prandtl * slenderness / thinning));
+  const double below = 64 + 63 * prandtl;
+  return {layer + 4 * (272 + 315 * prandtl) / (35 * below), 0.25 * layer,
+          0.25 * layer * 20 / thinning + prandtl * 4 * 3024 / (35 * below * below), 0.25 * layer};
+}
+
+/// The greater of a horizontal cylinder's across and a vertical one's along an inclined conductor.
+Nusselt inclined_convection(double rayleigh, double prandtl, double slenderness,
+                            double inclination) {
+  const Nusselt across = natural_convection(rayleigh * std::cos(inclination), prandtl);
+  const Nusselt along = vertical_convection(rayleigh * std::sin(inclination), prandtl, slenderness);
+  return across.value > along.value ? across : along;
+}
+
 }  // namespace
 
 AirProperties air_properties(double film_temperature_C, double density_at_0C) {
@@ -114,6 +137,16 @@ double churchill_bernstein(double reynolds, double prandtl) {
 
 double churchill_chu(double rayleigh, double prandtl) {
   return natural_convection(rayleigh, prandtl).value;
+}
+
+double slender_vertical_cylinder(double rayleigh, double prandtl, double slenderness) {
+  return vertical_convection(rayleigh, prandtl, slenderness).value;
+}
+
+double cigre601_attack_factor(double angle) {
+  const double sine = std::sin(angle);
+  return angle <= 24 * unit::degree ? 0.42 + 0.68 * std::pow(sine, 1.08)
+                                    : 0.42 + 0.58 * std::pow(sine, 0.9);
 }
 
 double cigre601_inclination_factor(double inclination) {
@@ -138,6 +171,7 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              resistance_at_zero_),
       diameter_(2 * (radius + wall)),
       surface_share_(pair_surface_share),
+      wind_share_(around.inclination ? cigre601_attack_factor(*around.inclination) : 1),
       still_air_share_(cigre601_inclination_factor(steepest_known_inclination)),
       density_0C_(density_at_zero(around)) {
   const double around_metal = 2 * pi * insulation_conductivity(tether.insulation);
@@ -148,6 +182,7 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
 ConductorHeat ConductorHeat::in(const Surroundings& around) const {
   ConductorHeat other = *this;
   other.around_ = around;
+  other.wind_share_ = around.inclination ? cigre601_attack_factor(*around.inclination) : 1;
   other.density_0C_ = density_at_zero(around);
   return other;
 }
@@ -181,7 +216,8 @@ ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
   double by_log_diameter = 0;
   double rise_times_growth = 0;  // of the Nusselt number
   if (around_.wind > 0) {
-    nusselt = forced_convection(around_.wind * diameter_ / air.kinematic_viscosity, air.prandtl);
+    nusselt = wind_share_ *
+              forced_convection(around_.wind * diameter_ / air.kinematic_viscosity, air.prandtl);
     by_log_diameter = nusselt.by_flow;
     rise_times_growth =
         rise * (nusselt.by_prandtl * prandtl_growth - nusselt.by_flow * viscosity_growth);
@@ -193,14 +229,17 @@ ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
   // Without the factor below 1 by which the Prandtl number enters, natural convection is more.
   const double needed = std::max(0.0, (std::sqrt(nusselt.value / hanging) - 0.6) / 0.387);
   const double cube = needed * needed * needed;
-  if (rayleigh >= cube * cube) {
-    const Nusselt natural = natural_convection(rayleigh, air.prandtl);
-    if (hanging * natural.value > nusselt.value) {
-      nusselt.value = hanging * natural.value;
-      by_log_diameter = 3 * hanging * natural.by_flow;
+  if (rayleigh >= cube * cube || around_.inclination) {
+    const Nusselt natural =
+        around_.inclination ? inclined_convection(rayleigh, air.prandtl, diameter_ / around_.length,
+                                                  *around_.inclination)
+                            : hanging * natural_convection(rayleigh, air.prandtl);
+    if (natural.value > nusselt.value) {
+      nusselt.value = natural.value;
+      by_log_diameter = 3 * natural.by_flow + natural.by_slenderness;
       const double flow_growth = prandtl_growth - 2 * viscosity_growth - 0.5 / kelvin(film);
-      rise_times_growth = hanging * (natural.by_flow * (1 + rise * flow_growth) +
-                                     natural.by_prandtl * rise * prandtl_growth);
+      rise_times_growth =
+          natural.by_flow * (1 + rise * flow_growth) + natural.by_prandtl * rise * prandtl_growth;
     }
   }
   const double convected = pi * air.conductivity * nusselt.value * rise;

@@ -11,6 +11,9 @@ namespace {
 /// Relative. Temperatures are exact to 1e-11 K, and a kelvin is 0.4 % of the resistance.
 constexpr double same_current = 1e-12;
 
+/// m. A drone on the ground has no cable in the air, and none that convection could be high along.
+constexpr double shortest_hanging = 0.1;
+
 /// `width` of what the sun shines on, over that of the cable.
 Surroundings around_airborne(const SteadyFlight& flight, double width) {
   const Design& design = flight.design();
@@ -20,6 +23,8 @@ Surroundings around_airborne(const SteadyFlight& flight, double width) {
   around.wind = std::abs(flight.state().airspeed);
   around.sun = design.tether.sun * width;
   around.gravity = design.flight.gravity;
+  around.inclination = design.tether.inclination;
+  around.length = std::max(shortest_hanging, flight.state().deployed);
   return around;
 }
 
@@ -32,6 +37,7 @@ ConductorHeat wound_up(const SteadyFlight& flight, const ConductorHeat& in_air, 
   const Tether& tether = flight.design().tether;
   Surroundings around = around_airborne(flight, 0);
   around.wind = 0;
+  around.inclination.reset();
   if (is_packed(tether.drum)) {
     return in_air.wound(around,
                         drum_package(tether, radius, flight.wall(), flight.state().on_drum));

@@ -118,6 +118,7 @@ double value_off_neutral(const SpecField& field, const Design& d) {
       {"/tether/heating/rise_K_m_per_W", 15},
       {"/tether/heating/wind_cooling_sqrt_s_per_m", 0.2},
       {"/tether/sun_W_m2", 500},
+      {"/tether/inclination_deg", 80},
       {"/tether/drum/layers", 2},
       {"/tether/drum/derating", 0.6},
       {"/tether/drum/core_diameter_mm", 200},

@@ -23,13 +23,6 @@ double cigre601_stranded(double reynolds, double roughness) {
   return roughness <= 0.05 ? 0.178 * std::pow(reynolds, 0.633) : 0.048 * std::pow(reynolds, 0.8);
 }
 
-/// Share of it left where the wind meets the conductor at an angle, CIGRE TB 601.
-double cigre601_attack_factor(double angle) {
-  const double sine = std::sin(angle);
-  return angle <= 24 * pi / 180 ? 0.42 + 0.68 * std::pow(sine, 1.08)
-                                : 0.42 + 0.58 * std::pow(sine, 0.9);
-}
-
 /// A worked example of CIGRE TB 601 (2014), annex E: "Drake" conductor at 100 °C.
 struct WorkedExample {
   double strand_mm, emissivity, ambient_C, wind, attack_deg, altitude_m, sun_heat;
@@ -519,4 +512,86 @@ TEST_CASE("one layer of a tether carries about 0.4 of what it carries laid out, 
     CHECK(*warm->on_drum > 30 + 40);
     CHECK(*warm->on_drum < 30 + 80);
   }
+}
+
+TEST_CASE("a vertical wire is cooled as the measured ones of the literature") {
+  // Wires, by their Ra·d/H: Nu = 0.87·(Ra·d/H)^0.05 below 0.05 (Nagendra, Tirunarayanan and
+  // Ramachandran 1969, Chem. Eng. Sci. 24, 1491–1495).
+  constexpr double prandtl = 0.71;
+  for (const double rayleigh : {20.0, 50.0, 100.0}) {
+    for (const double slenderness : {1e-4, 3e-4}) {
+      const double measured = 0.87 * std::pow(rayleigh * slenderness, 0.05);
+      CHECK(slender_vertical_cylinder(rayleigh, prandtl, slenderness) ==
+            Approx(measured).epsilon(0.06));
+    }
+  }
+  // By hand: 4·(272 + 223.65)/(35·(64 + 44.73)) and 4/3·(1.4·50·0.71·1e-4/34.91)^¼.
+  CHECK(slender_vertical_cylinder(0, prandtl, 1e-4) == Approx(0.52097).epsilon(1e-4));
+  CHECK(slender_vertical_cylinder(50, prandtl, 1e-4) == Approx(0.52097 + 0.14564).epsilon(1e-3));
+}
+
+TEST_CASE(
+    "a wire that hangs in still air is about 1.6 times as warm as by the inclined conductor's") {
+  Surroundings around;
+  around.temperature_C = 25;
+  for (const double area : {0.5e-6, 1e-6, 1.5e-6}) {
+    const ConductorHeat usual(published_tether(), conductor_radius(area), 0.75e-3, around);
+    Surroundings upright = around;
+    upright.inclination = pi / 2;
+    const double current = usual.current_at(45);
+    const double rise = *ConductorHeat(published_tether(), conductor_radius(area), 0.75e-3, upright)
+                             .temperature(current) -
+                        25;
+    INFO(area << " " << rise);
+    CHECK(rise / 20 > 1.4);
+    CHECK(rise / 20 < 1.75);
+  }
+}
+
+TEST_CASE(
+    "an inclined conductor is horizontal at 0, meets the wind by CIGRE's factor, and balances") {
+  Surroundings around;
+  around.temperature_C = 20;
+  const Tether tether = published_tether();
+  const double radius = conductor_radius(1e-6);
+  const auto given_off = [&](std::optional<double> inclination, double wind) {
+    Surroundings there = around;
+    there.inclination = inclination;
+    there.wind = wind;
+    return ConductorHeat(tether, radius, 0.75e-3, there).given_off(50);
+  };
+  const double radiated =
+      (pi + 2) / (2 * pi) * radiated_heat(2 * pi * (radius + 0.75e-3), 0.9, 50, 20);
+  CHECK(given_off(pi / 2, 5) == given_off({}, 5));
+  CHECK((given_off(pi / 6, 8) - radiated) / (given_off({}, 8) - radiated) ==
+        Approx(0.42 + 0.58 * std::pow(0.5, 0.9)).epsilon(1e-12));
+  CHECK((given_off({}, 0) - radiated) / (given_off(0.0, 0) - radiated) ==
+        Approx(cigre601_inclination_factor(pi / 3)).epsilon(1e-12));
+  double before = given_off(0.0, 0);
+  for (int degrees = 10; degrees <= 80; degrees += 10) {
+    const double now = given_off(degrees * unit::degree, 0);
+    CHECK(now <= before);
+    before = now;
+  }
+  // Where tangents lead is where the balance is.
+  test::each_random(200, [&](test::Random& random) {
+    Surroundings there = around;
+    there.inclination = random.uniform(0, pi / 2);
+    there.length = random.magnitude(1, 300);
+    there.wind = random.chance(0.3) ? random.magnitude(0.01, 5) : 0;
+    const ConductorHeat heat(tether, radius, 0.75e-3, there);
+    const double surface = random.uniform(25, 90);
+    const double current = random.uniform(1, 10);
+    const double step = 1e-4;
+    const ConductorHeat::Balance at = heat.balance(surface, current);
+    const ConductorHeat::Balance more = heat.balance(surface + step, current);
+    const double made = current * current * resistivity(tether.conductor, at.inside_C) / 1e-6;
+    const double slope =
+        (heat.given_off(surface + step) - heat.given_off(surface - step)) / (2 * step);
+    const double made_slope = current * current * resistivity(tether.conductor, 20) / 1e-6 *
+                              tether.conductor.temperature_coefficient * at.inside_per_surface;
+    CHECK(at.surface_change ==
+          Approx((made - heat.given_off(surface)) / (slope - made_slope)).epsilon(1e-4));
+    CHECK((more.inside_C - at.inside_C) / step == Approx(at.inside_per_surface).epsilon(1e-4));
+  });
 }

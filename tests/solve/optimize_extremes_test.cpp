@@ -136,6 +136,7 @@ TEST_CASE("no area is better than the optimum where the drum and the bench are d
     design.tether.spooled_length = random.magnitude(0.1, 1000);
     design.tether.drum.core_diameter = random.magnitude(0.02, 1);
     design.tether.drum.width = random.magnitude(0.02, 1);
+    if (random.chance(0.5)) design.tether.inclination = random.uniform(0, 90) * unit::degree;
     check_against_areas(design, 300);
   });
 }

@@ -110,7 +110,10 @@ struct Tether {
   /// °C of the air. Set, the conductor's temperature is that of a steady heat balance, and
   /// `conductor_temperature_C` is not used; unset, it is what that says.
   std::optional<double> ambient_temperature_C{};
-  MeasuredHeating heating{};         ///< takes the place of the balance where it was measured
+  MeasuredHeating heating{};  ///< takes the place of the balance where it was measured
+  /// rad over the ground, in [0, π/2], of the tether in the air, for its heat; π/2 hangs straight
+  /// down. Nothing: as Surroundings has it without.
+  std::optional<double> inclination{};
   double sun = 0;                    ///< W/m² of sunlight across the tether in the air
   Drum drum;                         ///< of the length on it
   StrengthMember strength_member{};  ///< beside the conductors
