@@ -115,6 +115,18 @@ const std::array all_spec_fields{
     SpecField{"/tether/contact_resistance_ohm", number, "Ω", between(0, 1000), "0",
               "Resistance of plugs and slip rings in the whole loop.", 1,
               at<&Design::tether, &Tether::contact_resistance>},
+    SpecField{"/tether/stranding_factor", number, "", between(1, 2), "1",
+              "Resistance of a conductor over that of solid wire of its cross-section: 1.08 to "
+              "1.10 for fine strands (class 5 over class 1 of IEC 60228).",
+              1, at<&Design::tether, &Tether::stranding_factor>},
+    SpecField{"/tether/cover/mass_g_m", number, "g/m", between(0, 1e4), "0",
+              "Mass of a common jacket, fillers and fibres that carry no pull, per metre.",
+              unit::gram, at<&Design::tether, &Tether::cover_mass>},
+    SpecField{
+        "/tether/cover/width_mm", number, "mm", between(0, 100), "0",
+        "Width that these add to that of both conductors side by side, in the wind and on the "
+        "drum; how they hinder heat is not counted.",
+        unit::millimetre, at<&Design::tether, &Tether::cover_width>},
     SpecField{"/tether/drag_coefficient", number, "", between(0, 10), "1.0",
               "Drag coefficient of a conductor across the wind.", 1,
               at<&Design::tether, &Tether::drag_coefficient>},

@@ -166,8 +166,8 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              const Surroundings& around)
     : around_(around),
       radius_(radius),
-      resistance_at_zero_(resistivity(tether.conductor, 0) / conductor_area(radius)),
-      resistance_per_kelvin_(resistivity(tether.conductor, 1) / conductor_area(radius) -
+      resistance_at_zero_(effective_resistivity(tether, 0) / conductor_area(radius)),
+      resistance_per_kelvin_(effective_resistivity(tether, 1) / conductor_area(radius) -
                              resistance_at_zero_),
       diameter_(2 * (radius + wall)),
       surface_share_(pair_surface_share),

@@ -64,8 +64,9 @@ DrumPackage drum_package(const Tether& tether, double radius, double wall, doubl
   const Drum& drum = tether.drum;
   const Slope r{radius, 1};
   const double inner = 0.5 * drum.core_diameter;
-  const Slope side = std::sqrt(8.0) * (r + Slope{wall, 0}) +
-                     Slope{strength_member_data(tether.strength_member).diameter, 0};
+  const Slope side =
+      std::sqrt(8.0) * (r + Slope{wall, 0}) +
+      Slope{strength_member_data(tether.strength_member).diameter + tether.cover_width, 0};
   const Slope volume = length * (side * side);
   // One layer of turns side by side, where they do not reach from flange to flange.
   Slope width = (length / pi) * (side / (Slope{2 * inner, 0} + side));

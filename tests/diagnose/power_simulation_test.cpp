@@ -119,6 +119,8 @@ double value_off_neutral(const SpecField& field, const Design& d) {
       {"/tether/heating/wind_cooling_sqrt_s_per_m", 0.2},
       {"/tether/sun_W_m2", 500},
       {"/tether/inclination_deg", 80},
+      {"/tether/cover/mass_g_m", 3},
+      {"/tether/cover/width_mm", 1},
       {"/tether/drum/layers", 2},
       {"/tether/drum/derating", 0.6},
       {"/tether/drum/core_diameter_mm", 200},

@@ -9,9 +9,9 @@ namespace tethercalc {
 /// A length of tether wound on a cylindrical core between two flanges, as what one of the two
 /// conductors has of it, with derivatives by the conductors' radius.
 ///
-/// Geometry: the tether takes a square of side a = √8·(r + s) plus the diameter of a strength
-/// member, as wires do that lie in a square pattern; a length L fills L·a², in layers between core
-/// and outer radius, one layer at least.
+/// Geometry: the tether takes a square of side a = √8·(r + s) plus the width of a strength
+/// member and a cover, as wires do that lie in a square pattern; a length L fills L·a², in layers
+/// between core and outer radius, one layer at least.
 ///
 /// Heat inside: made evenly, led off to the outside and to the faces at the flanges, none to the
 /// core. Alone, the way outwards leaves the turns at the core q‴/(4k)·(r_o² − r_i² −

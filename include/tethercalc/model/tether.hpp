@@ -103,6 +103,9 @@ struct Tether {
                                         ///< asked for: without current
   Insulation insulation;                ///< of each conductor
   double contact_resistance = 0;        ///< Ω, plugs and slip rings of the whole loop
+  double stranding_factor = 1;          ///< ≥ 1, resistance over that of solid wire of that area
+  double cover_mass = 0;                ///< kg/m of jacket, fillers and fibres that carry nothing
+  double cover_width = 0;               ///< m, that these add to the width of both conductors
   double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
   double projection_factor = 0.75;      ///< k, mean projected width of the turning pair over 4(r+s)
   std::optional<double> cross_section;  ///< m² of one conductor, where the cable is already chosen
@@ -136,6 +139,10 @@ struct Tether {
 
 /// Resistivity in Ω·m at `temperature` in °C: ρ = ρ20·(1 + α(T − 20 °C)) (IEC 60287-1-1, 2.1.1).
 [[nodiscard]] double resistivity(const Conductor& conductor, double temperature_C);
+
+/// Ω·m of the tether's conductors over the area of their metal: that of the material times
+/// `stranding_factor`, since strands lie askew and are thinner than their sum is measured.
+[[nodiscard]] double effective_resistivity(const Tether& tether, double temperature_C);
 
 /// Radius in m of a round conductor of `area` m².
 [[nodiscard]] double conductor_radius(double area);
