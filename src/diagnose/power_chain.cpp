@@ -134,7 +134,7 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
     }
     const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
     power[i] = grown * steady.output_power(motor_curve_power(
-                           drone.motor, steady.necessary_thrust(weight, tan_pitch)));
+                           steady.motor(), steady.necessary_thrust(weight, tan_pitch)));
     const double rest = power[i];
     for (const auto& added : model.added_power) power[i] += added(model, log, i, rest);
   }

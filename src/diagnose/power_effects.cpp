@@ -259,6 +259,8 @@ std::vector<Effect> power_effects() {
        .on_power =
            [](PowerModel& m, Values x) {
              m.design.flight.air_density *= x[0];
+             // A bench of known density has the motors' curve scaled with that of the flight.
+             if (bench_air_density(m.design.drone)) return;
              m.design.drone.motor_power_factor /= std::sqrt(x[0]);
            }},
 

@@ -148,10 +148,12 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
   entry_object.set_texts(entry);
   entry.voltage_V = entry_object.number("/voltage_V");
   entry.propeller_in = entry_object.number("/propeller_in");
+  const std::optional<double> density = entry_object.number("/measured_air_density_kg_m3");
   const JsonPlace& points_place = entry_object.at("/points");
   const auto points = read_motor_points(points_place, problems);
   if (!points || entry_object.faulty()) return std::nullopt;
   if (!set_curve(entry, *points, points_place.where(), problems)) return std::nullopt;
+  entry.curve.set_measured_in(density);
   return entry;
 }
 

@@ -49,6 +49,11 @@ const std::array all_spec_fields{
               1, at<&Design::drone, &Drone::motor_count>},
     SpecField{"/drone/motor", motor, "", any_number, "",
               "Motor with its propeller: a name in the library, a file, or an object."},
+    SpecField{
+        "/drone/motor_air_density_kg_m3", optional_number, "kg/m³", between(0.001, 100), "null",
+        "Density of the air in which the motor's curve was measured, where the motor's file "
+        "does not state it or is wrong; the curve is then scaled to flight.air_density_kg_m3.",
+        1, at<&Design::drone, &Drone::motor_air_density>},
     SpecField{"/drone/motor_power_factor", number, "", above(0, 10), "1",
               "The motors draw this times what the motor's curve says.", 1,
               at<&Design::drone, &Drone::motor_power_factor>},
@@ -112,6 +117,18 @@ const std::array all_spec_fields{
     SpecField{"/tether/contact_resistance_ohm", number, "Ω", between(0, 1000), "0",
               "Resistance of plugs and slip rings in the whole loop.", 1,
               at<&Design::tether, &Tether::contact_resistance>},
+    SpecField{"/tether/stranding_factor", number, "", between(1, 2), "1",
+              "Resistance of a conductor over that of solid wire of its cross-section: 1.08 to "
+              "1.10 for fine strands (class 5 over class 1 of IEC 60228).",
+              1, at<&Design::tether, &Tether::stranding_factor>},
+    SpecField{"/tether/cover/mass_g_m", number, "g/m", between(0, 1e4), "0",
+              "Mass of a common jacket, fillers and fibres that carry no pull, per metre.",
+              unit::gram, at<&Design::tether, &Tether::cover_mass>},
+    SpecField{
+        "/tether/cover/width_mm", number, "mm", between(0, 100), "0",
+        "Width that these add to that of both conductors side by side, in the wind and on the "
+        "drum; how they hinder heat is not counted.",
+        unit::millimetre, at<&Design::tether, &Tether::cover_width>},
     SpecField{"/tether/drag_coefficient", number, "", between(0, 10), "1.0",
               "Drag coefficient of a conductor across the wind.", 1,
               at<&Design::tether, &Tether::drag_coefficient>},
@@ -136,6 +153,12 @@ const std::array all_spec_fields{
     SpecField{"/tether/heating/wind_cooling_sqrt_s_per_m", number, "(s/m)^0.5", between(0, 100),
               "0", "The rise is divided by 1 + this times the square root of the airspeed.", 1,
               at<&Design::tether, &Tether::heating, &MeasuredHeating::wind_cooling>},
+    SpecField{
+        "/tether/inclination_deg", optional_number, "°", between(0, 90), "null",
+        "Angle of the tether over the ground, for its heat: 90 hangs straight down, where still "
+        "air cools a wire about half as well. Unset: wind across it, and still air as along a "
+        "horizontal conductor, less 7 %.",
+        unit::degree, at<&Design::tether, &Tether::inclination>},
     SpecField{"/tether/sun_W_m2", number, "W/m²", between(0, 1500), "0",
               "Sunlight across the tether in the air; matters with ambient_temperature_C.", 1,
               at<&Design::tether, &Tether::sun>},
@@ -145,8 +168,20 @@ const std::array all_spec_fields{
               1, at<&Design::tether, &Tether::drum, &Drum::layers>},
     SpecField{"/tether/drum/derating", optional_number, "", positive_fraction, "null",
               "Current that the tether may carry on the drum over what it may laid out, where that "
-              "is known; goes before layers.",
+              "is known; goes before layers and package.",
               1, at<&Design::tether, &Tether::drum, &Drum::derating>},
+    SpecField{"/tether/drum/core_diameter_mm", number, "mm", between(0, 1e4), "0",
+              "Diameter that the tether is wound on. With width_mm the temperature on the drum is "
+              "that of the wound package, in place of what layers say; 0: not stated.",
+              unit::millimetre, at<&Design::tether, &Tether::drum, &Drum::core_diameter>},
+    SpecField{"/tether/drum/width_mm", number, "mm", between(0, 1e4), "0",
+              "Width of the drum between its flanges; 0: not stated.", unit::millimetre,
+              at<&Design::tether, &Tether::drum, &Drum::width>},
+    SpecField{"/tether/drum/package_conductivity_W_mK", optional_number, "W/(m·K)",
+              between(0.01, 10), "null",
+              "Thermal conductivity across the wound wires; where unknown, that of the wires with "
+              "air between them.",
+              1, at<&Design::tether, &Tether::drum, &Drum::package_conductivity>},
     SpecField{"/tether/strength_member/material", strength_material, "", any_number, "\"none\"",
               "Fibres that carry the pull.", 1,
               at<&Design::tether, &Tether::strength_member, &StrengthMember::material>},
@@ -282,6 +317,9 @@ const std::array all_motor_fields{
               "Voltage at which it was measured."},
     SpecField{"/propeller_in", optional_number, "inch", above(0, 200), "null",
               "Diameter of the propeller."},
+    SpecField{"/measured_air_density_kg_m3", optional_number, "kg/m³", between(0.001, 100), "null",
+              "Density of the air in which it was measured; where unknown, the curve counts in any "
+              "air."},
     SpecField{"/points", motor_points, "", any_number, "",
               "Measured points of one motor with its propeller, two at least."}};
 
@@ -565,6 +603,11 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
     conflicts.push_back(
         {"/supply/converter/mass_table",
          "and specific_mass_kg_per_kW both give the converter's mass; only one can be right"});
+  }
+  const Drum& drum = design.tether.drum;
+  if ((drum.core_diameter > 0) != (drum.width > 0)) {
+    conflicts.push_back({drum.width > 0 ? "/tether/drum/core_diameter_mm" : "/tether/drum/width_mm",
+                         "a wound package has both a core's diameter and a width; give this too"});
   }
   const Insulation& insulation = design.tether.insulation;
   if (insulation.dielectric_safety_factor > 0 && !(insulation.breakdown_strength > 0)) {

@@ -67,7 +67,11 @@ Json entry_numbers(const Design& design, FieldKind kind) {
       points.push_back({{"thrust_g", practical_number(point.thrust, unit::gram_force)},
                         {"power_W", point.power}});
     }
-    return {{"points", points}};
+    if (const auto density = design.drone.motor.measured_in()) {
+      numbers["measured_air_density_kg_m3"] = *density;
+    }
+    numbers["points"] = std::move(points);
+    return numbers;
   }
   for (const SpecField& field : object_fields(kind)) {
     if (!is_numeric(field)) continue;

@@ -19,7 +19,6 @@ constexpr double stefan_boltzmann = 5.670374419e-8;
 
 constexpr double emissivity = 0.9;    // CIGRE TB 601: 0.8 to 0.9 for weathered surfaces
 constexpr double absorptivity = 0.9;  // likewise
-constexpr double least_conductivity = 0.17;
 constexpr double pair_surface_share = (pi + 2) / (2 * pi);
 constexpr double steepest_known_inclination = pi / 3;
 
@@ -75,7 +74,13 @@ struct Nusselt {
   double value = 0;
   double by_flow = 0;  ///< by ln Re, or ln Ra
   double by_prandtl = 0;
+  double by_slenderness = 0;  ///< by ln of diameter over height, at the same Ra of the diameter
 };
+
+Nusselt operator*(double share, const Nusselt& whole) {
+  return {share * whole.value, share * whole.by_flow, share * whole.by_prandtl,
+          share * whole.by_slenderness};
+}
 
 // Roots in place of powers: they take a fraction of the time.
 Nusselt forced_convection(double reynolds, double prandtl) {
@@ -99,6 +104,23 @@ Nusselt natural_convection(double rayleigh, double prandtl) {
   return {root * root, root * part / 3, root * part * hinder / (3 * (1 + hinder))};
 }
 
+Nusselt vertical_convection(double rayleigh, double prandtl, double slenderness) {
+  const double thinning = 20 + 21 * prandtl;
+  const double layer =
+      4.0 / 3 * std::sqrt(std::sqrt(1.4 * rayleigh * prandtl * slenderness / thinning));
+  const double below = 64 + 63 * prandtl;
+  return {layer + 4 * (272 + 315 * prandtl) / (35 * below), 0.25 * layer,
+          0.25 * layer * 20 / thinning + prandtl * 4 * 3024 / (35 * below * below), 0.25 * layer};
+}
+
+/// The greater of a horizontal cylinder's across and a vertical one's along an inclined conductor.
+Nusselt inclined_convection(double rayleigh, double prandtl, double slenderness,
+                            double inclination) {
+  const Nusselt across = natural_convection(rayleigh * std::cos(inclination), prandtl);
+  const Nusselt along = vertical_convection(rayleigh * std::sin(inclination), prandtl, slenderness);
+  return across.value > along.value ? across : along;
+}
+
 }  // namespace
 
 AirProperties air_properties(double film_temperature_C, double density_at_0C) {
@@ -115,6 +137,16 @@ double churchill_bernstein(double reynolds, double prandtl) {
 
 double churchill_chu(double rayleigh, double prandtl) {
   return natural_convection(rayleigh, prandtl).value;
+}
+
+double slender_vertical_cylinder(double rayleigh, double prandtl, double slenderness) {
+  return vertical_convection(rayleigh, prandtl, slenderness).value;
+}
+
+double cigre601_attack_factor(double angle) {
+  const double sine = std::sin(angle);
+  return angle <= 24 * unit::degree ? 0.42 + 0.68 * std::pow(sine, 1.08)
+                                    : 0.42 + 0.58 * std::pow(sine, 0.9);
 }
 
 double cigre601_inclination_factor(double inclination) {
@@ -134,13 +166,15 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              const Surroundings& around)
     : around_(around),
       radius_(radius),
-      resistance_at_zero_(resistivity(tether.conductor, 0) / conductor_area(radius)),
-      resistance_per_kelvin_(resistivity(tether.conductor, 1) / conductor_area(radius) -
+      resistance_at_zero_(effective_resistivity(tether, 0) / conductor_area(radius)),
+      resistance_per_kelvin_(effective_resistivity(tether, 1) / conductor_area(radius) -
                              resistance_at_zero_),
       diameter_(2 * (radius + wall)),
+      surface_share_(pair_surface_share),
+      wind_share_(around.inclination ? cigre601_attack_factor(*around.inclination) : 1),
+      still_air_share_(cigre601_inclination_factor(steepest_known_inclination)),
       density_0C_(density_at_zero(around)) {
-  const double known = tether.insulation.thermal_conductivity;
-  const double around_metal = 2 * pi * (known > 0 ? known : least_conductivity);
+  const double around_metal = 2 * pi * insulation_conductivity(tether.insulation);
   thermal_resistance_ = std::log((radius + wall) / radius) / around_metal;
   thermal_resistance_slope_ = -wall / (radius * (radius + wall)) / around_metal;
 }
@@ -148,7 +182,22 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
 ConductorHeat ConductorHeat::in(const Surroundings& around) const {
   ConductorHeat other = *this;
   other.around_ = around;
+  other.wind_share_ = around.inclination ? cigre601_attack_factor(*around.inclination) : 1;
   other.density_0C_ = density_at_zero(around);
+  return other;
+}
+
+ConductorHeat ConductorHeat::wound(const Surroundings& around, const DrumPackage& package) const {
+  ConductorHeat other = in(around);
+  other.diameter_ = 2 * package.outer_radius;
+  other.diameter_slope_ = 2 * package.outer_radius_slope;
+  const double perimeter = pi * other.diameter_;
+  other.surface_share_ = package.surface / perimeter;
+  other.surface_share_slope_ = package.surface_slope / perimeter -
+                               other.surface_share_ * other.diameter_slope_ / other.diameter_;
+  other.still_air_share_ = 1;
+  other.thermal_resistance_ = package.thermal_resistance;
+  other.thermal_resistance_slope_ = package.thermal_resistance_slope;
   return other;
 }
 
@@ -167,26 +216,30 @@ ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
   double by_log_diameter = 0;
   double rise_times_growth = 0;  // of the Nusselt number
   if (around_.wind > 0) {
-    nusselt = forced_convection(around_.wind * diameter_ / air.kinematic_viscosity, air.prandtl);
+    nusselt = wind_share_ *
+              forced_convection(around_.wind * diameter_ / air.kinematic_viscosity, air.prandtl);
     by_log_diameter = nusselt.by_flow;
     rise_times_growth =
         rise * (nusselt.by_prandtl * prandtl_growth - nusselt.by_flow * viscosity_growth);
   }
-  static const double hanging = cigre601_inclination_factor(steepest_known_inclination);
+  const double hanging = still_air_share_;
   const double rayleigh = around_.gravity * std::max(rise, 0.0) / kelvin(film) * diameter_ *
                           diameter_ * diameter_ /
                           (air.kinematic_viscosity * air.kinematic_viscosity) * air.prandtl;
   // Without the factor below 1 by which the Prandtl number enters, natural convection is more.
   const double needed = std::max(0.0, (std::sqrt(nusselt.value / hanging) - 0.6) / 0.387);
   const double cube = needed * needed * needed;
-  if (rayleigh >= cube * cube) {
-    const Nusselt natural = natural_convection(rayleigh, air.prandtl);
-    if (hanging * natural.value > nusselt.value) {
-      nusselt.value = hanging * natural.value;
-      by_log_diameter = 3 * hanging * natural.by_flow;
+  if (rayleigh >= cube * cube || around_.inclination) {
+    const Nusselt natural =
+        around_.inclination ? inclined_convection(rayleigh, air.prandtl, diameter_ / around_.length,
+                                                  *around_.inclination)
+                            : hanging * natural_convection(rayleigh, air.prandtl);
+    if (natural.value > nusselt.value) {
+      nusselt.value = natural.value;
+      by_log_diameter = 3 * natural.by_flow + natural.by_slenderness;
       const double flow_growth = prandtl_growth - 2 * viscosity_growth - 0.5 / kelvin(film);
-      rise_times_growth = hanging * (natural.by_flow * (1 + rise * flow_growth) +
-                                     natural.by_prandtl * rise * prandtl_growth);
+      rise_times_growth =
+          natural.by_flow * (1 + rise * flow_growth) + natural.by_prandtl * rise * prandtl_growth;
     }
   }
   const double convected = pi * air.conductivity * nusselt.value * rise;
@@ -198,11 +251,14 @@ ConductorHeat::Flow ConductorHeat::flow(double surface_C) const {
   const double hot = kelvin(surface_C);
   const double radiated_growth =
       4 * pi * diameter_ * emissivity * stefan_boltzmann * hot * hot * hot;
-  const double share = around_.cooling * pair_surface_share;
+  const double share = around_.cooling * surface_share_;
+  const double with_diameter =
+      share * (pi * air.conductivity * rise * by_log_diameter + radiated) / diameter_ -
+      absorptivity * around_.sun;
+  const double with_share = around_.cooling * surface_share_slope_ * (convected + radiated);
   return {share * (convected + radiated) - absorptivity * around_.sun * diameter_,
           share * (convected_growth + radiated_growth),
-          2 * (share * (pi * air.conductivity * rise * by_log_diameter + radiated) / diameter_ -
-               absorptivity * around_.sun)};
+          diameter_slope_ * with_diameter + with_share};
 }
 
 std::optional<double> ConductorHeat::temperature(double current) const {
@@ -241,7 +297,7 @@ double ConductorHeat::first_surface(double current) const {
   const AirProperties air = air_properties(around_.temperature_C, density_0C_);
   const double nusselt = 1 + 0.5 * std::sqrt(around_.wind * diameter_ / air.kinematic_viscosity);
   const double cooled =
-      around_.cooling * pair_surface_share * (pi * air.conductivity * nusselt + 6 * pi * diameter_);
+      around_.cooling * surface_share_ * (pi * air.conductivity * nusselt + 6 * pi * diameter_);
   const double heat = current * current * resistance(around_.temperature_C) +
                       absorptivity * around_.sun * diameter_;
   return around_.temperature_C + std::min(heat / cooled, 100.0);

@@ -13,6 +13,23 @@ double usual_ambient(const Tether& tether) {
 
 }  // namespace
 
+std::optional<double> bench_air_density(const Drone& drone) {
+  return drone.motor_air_density ? drone.motor_air_density : drone.motor.measured_in();
+}
+
+MotorCurve motor_in_flight(const Design& design) {
+  const std::optional<double> measured = bench_air_density(design.drone);
+  if (!measured || *measured == design.flight.air_density) return design.drone.motor;
+  return design.drone.motor.in_air(design.flight.air_density / *measured);
+}
+
+Drone drone_in_flight(const Design& design) {
+  Drone drone = design.drone;
+  drone.motor = motor_in_flight(design);
+  if (bench_air_density(drone)) drone.motor_air_density = design.flight.air_density;
+  return drone;
+}
+
 double wind_at_drone(const Design& design) {
   const Flight& flight = design.flight;
   if (!flight.wind_reference_height || flight.headwind == 0) return flight.headwind;

@@ -101,6 +101,18 @@ double MotorCurve::thrust(double power) const {
   return line_->vertices[i].thrust + (power - line_->vertices[i].power) / line_->slopes[i];
 }
 
+MotorCurve MotorCurve::in_air(double density_ratio) const {
+  const auto points = vertices().subspan(1);
+  if (points.empty()) return *this;
+  std::vector<MotorPoint> scaled;
+  for (const MotorPoint& point : points) {
+    scaled.push_back({density_ratio * point.thrust, density_ratio * point.power});
+  }
+  MotorCurve curve(std::move(scaled));
+  if (measured_in_) curve.measured_in_ = density_ratio * *measured_in_;
+  return curve;
+}
+
 const MotorCurve& MotorCurve::convex_hull() const { return line_->hull ? *line_->hull : *this; }
 
 bool MotorCurve::is_convex() const { return !line_->hull; }

@@ -15,8 +15,8 @@ double or_nan(double value) { return std::isfinite(value) ? value : nan; }
 constexpr double rounding = 1e-9;
 
 /// The thrust, or the motors' last where it exceeds that by rounding only.
-double within_reach(double thrust, const Design& design) {
-  const double most = design.drone.motor.max_thrust();
+double within_reach(double thrust, const MotorCurve& motor) {
+  const double most = motor.max_thrust();
   return thrust > most && thrust <= most * (1 + rounding) ? most : thrust;
 }
 
@@ -58,7 +58,8 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
           : or_nan(flight.tan_pitch(radius, weight, flight.tan_pitch_limit() * (1 + rounding)));
   point.pitch = flight.pitch_sign() * std::atan(tangent);
   point.necessary_thrust = flight.necessary_thrust(weight, tangent);
-  point.drone_power = or_nan(flight.drone_power(within_reach(point.necessary_thrust, design)));
+  point.drone_power =
+      or_nan(flight.drone_power(within_reach(point.necessary_thrust, flight.motor())));
   if (is_heated(design.tether)) warm_up(flight, radius, point);
   // A cable that runs away has no state in which anything is available.
   const bool exists = !point.thermal_runaway && !std::isinf(point.battery_mass);

@@ -6,9 +6,20 @@
 #include "tethercalc/model/power_line.hpp"
 
 namespace tethercalc {
+namespace {
+
+/// Null where the curve of the motors is that of the design.
+std::shared_ptr<const Drone> with_motors_in_flight(const Design& design) {
+  const std::optional<double> measured = bench_air_density(design.drone);
+  if (!measured || *measured == design.flight.air_density) return nullptr;
+  return std::make_shared<const Drone>(drone_in_flight(design));
+}
+
+}  // namespace
 
 SteadyFlight::SteadyFlight(const Design& design, const FlightState& state)
     : design_(&design),
+      rescaled_(with_motors_in_flight(design)),
       state_(state),
       wall_(insulation_wall(design.tether.insulation, design.supply.voltage)),
       tether_(design.tether, wall_, state, design.flight),
@@ -42,8 +53,8 @@ void SteadyFlight::set_airspeed(double speed) {
 
 double SteadyFlight::sized_battery(double radius) const {
   const double length = design_->tether.length;
-  return reserve_battery_mass(
-      design_->drone, fixed_mass_ + tether_.straight().mass_of(length, radius), length, gravity_);
+  return reserve_battery_mass(drone(), fixed_mass_ + tether_.straight().mass_of(length, radius),
+                              length, gravity_);
 }
 
 double SteadyFlight::landed_mass(double radius) const {
@@ -53,7 +64,7 @@ double SteadyFlight::landed_mass(double radius) const {
 
 std::size_t SteadyFlight::battery_piece(double radius) const {
   if (!has_battery_) return 0;
-  return design_->drone.motor.piece(landed_mass(radius) * gravity_ * per_motor_);
+  return motor().piece(landed_mass(radius) * gravity_ * per_motor_);
 }
 
 SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
@@ -63,8 +74,8 @@ SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
   const StraightTether& straight = tether_.straight();
   const double length = design_->tether.length;
   const double bare = fixed_mass_ + straight.mass_of(length, radius);
-  const double battery = reserve_battery_mass(design_->drone, bare, length, gravity_);
-  const double growth = reserve_battery_growth(design_->drone, bare + battery, length, gravity_);
+  const double battery = reserve_battery_mass(drone(), bare, length, gravity_);
+  const double growth = reserve_battery_growth(drone(), bare + battery, length, gravity_);
   const double carried = straight.mass_slope(radius) * gravity_;
   return {lifted(radius, mass + battery),
           tether_.is_solved() ? slope + carried * growth : slope * (1 + growth)};
@@ -74,8 +85,7 @@ double SteadyFlight::radius_of_weight(double weight) const {
   if (tether_.is_solved()) return radius_of_solved_weight(weight);
   const double takeoff = (weight - tether_.straight().winch_pull()) / gravity_;
   return tether_.straight().radius_of_mass(
-      mass_without_battery(design_->drone, takeoff, design_->tether.length, gravity_) -
-      fixed_mass_);
+      mass_without_battery(drone(), takeoff, design_->tether.length, gravity_) - fixed_mass_);
 }
 
 double SteadyFlight::radius_of_solved_weight(double limit) const {
@@ -148,7 +158,7 @@ double SteadyFlight::available_thrust(double available_power) const {
                                          available_power - design_->drone.auxiliary_power);
   const Converter& converter = design_->supply.converter;
   if (converter.rated_output_power) output = std::min(output, *converter.rated_output_power);
-  return design_->drone.motor.thrust(output / power_scale_);
+  return motor().thrust(output / power_scale_);
 }
 
 }  // namespace tethercalc

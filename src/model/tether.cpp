@@ -12,6 +12,10 @@ double resistivity(const Conductor& conductor, double temperature_C) {
   return conductor.resistivity_20C * (1 + conductor.temperature_coefficient * (temperature_C - 20));
 }
 
+double effective_resistivity(const Tether& tether, double temperature_C) {
+  return tether.stranding_factor * resistivity(tether.conductor, temperature_C);
+}
+
 bool is_heated(const Tether& tether) {
   return tether.ambient_temperature_C.has_value() || tether.heating.rise_per_loss > 0;
 }
@@ -26,7 +30,7 @@ Tether without_heat(Tether tether) {
 
 double settled_rise(const Tether& tether, double area, double current, double airspeed) {
   const MeasuredHeating& heating = tether.heating;
-  const double loss = current * current * 2 * resistivity(tether.conductor, 20) / area;
+  const double loss = current * current * 2 * effective_resistivity(tether, 20) / area;
   return heating.rise_per_loss * loss / (1 + heating.wind_cooling * std::sqrt(std::abs(airspeed)));
 }
 

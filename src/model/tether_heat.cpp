@@ -11,6 +11,9 @@ namespace {
 /// Relative. Temperatures are exact to 1e-11 K, and a kelvin is 0.4 % of the resistance.
 constexpr double same_current = 1e-12;
 
+/// m. A drone on the ground has no cable in the air, and none that convection could be high along.
+constexpr double shortest_hanging = 0.1;
+
 /// `width` of what the sun shines on, over that of the cable.
 Surroundings around_airborne(const SteadyFlight& flight, double width) {
   const Design& design = flight.design();
@@ -20,15 +23,28 @@ Surroundings around_airborne(const SteadyFlight& flight, double width) {
   around.wind = std::abs(flight.state().airspeed);
   around.sun = design.tether.sun * width;
   around.gravity = design.flight.gravity;
+  around.inclination = design.tether.inclination;
+  around.length = std::max(shortest_hanging, flight.state().deployed);
   return around;
 }
 
-Surroundings around_wound(const SteadyFlight& flight) {
+/// Whether the wound part is cooled as its package is, which a factor of the user's own goes
+/// before.
+bool is_packed(const Drum& drum) { return is_package_known(drum) && !drum.derating; }
+
+/// A conductor on the drum that is laid out as `in_air` is.
+ConductorHeat wound_up(const SteadyFlight& flight, const ConductorHeat& in_air, double radius) {
+  const Tether& tether = flight.design().tether;
   Surroundings around = around_airborne(flight, 0);
-  const double derating = drum_derating(flight.design().tether.drum).value_or(1);
   around.wind = 0;
+  around.inclination.reset();
+  if (is_packed(tether.drum)) {
+    return in_air.wound(around,
+                        drum_package(tether, radius, flight.wall(), flight.state().on_drum));
+  }
+  const double derating = drum_derating(tether.drum).value_or(1);
   around.cooling = derating * derating;
-  return around;
+  return in_air.in(around);
 }
 
 }  // namespace
@@ -37,10 +53,10 @@ TetherHeat::TetherHeat(const SteadyFlight& flight, double radius, double sunlit_
     : flight_(flight),
       radius_(radius),
       measured_(flight.design().tether.heating.rise_per_loss > 0),
-      wound_(flight.state().on_drum > 0 && drum_derating(flight.design().tether.drum).has_value()),
+      wound_(flight.state().on_drum > 0 && is_cooling_known(flight.design().tether.drum)),
       in_air_(flight.design().tether, radius, flight.wall(),
               around_airborne(flight, (sunlit_radius + flight.wall()) / (radius + flight.wall()))),
-      on_drum_(wound_ ? in_air_.in(around_wound(flight)) : in_air_),
+      on_drum_(wound_ ? wound_up(flight, in_air_, radius) : in_air_),
       at_zero_(flight.tether().resistance(radius, 0, 0)),
       per_kelvin_in_air_(flight.tether().resistance(radius, 1, 0) - at_zero_),
       per_kelvin_on_drum_(flight.tether().resistance(radius, 0, 1) - at_zero_) {}

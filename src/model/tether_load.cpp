@@ -27,13 +27,13 @@ StraightTether::StraightTether(const Tether& tether, double wall, const FlightSt
       gravity_(gravity) {
   const StrengthMemberData member = strength_member_data(tether.strength_member);
   const double insulation = 2 * deployed_ * tether.insulation.density * pi * wall;
-  mass_0_ = insulation * wall + deployed_ * member.mass_per_metre;
+  mass_0_ = insulation * wall + deployed_ * (member.mass_per_metre + tether.cover_mass);
   mass_1_ = 2 * insulation;
   mass_2_ = 2 * deployed_ * tether.conductor.density * pi;
   const double coldest_C =
       is_heated(tether) ? state.ambient_temperature_C : tether.conductor_temperature_C;
-  resistance_area_ = 2 * (deployed_ + on_drum_) * resistivity(tether.conductor, coldest_C) / pi;
-  width_ = wall + 0.25 * member.diameter;
+  resistance_area_ = 2 * (deployed_ + on_drum_) * effective_resistivity(tether, coldest_C) / pi;
+  width_ = wall + 0.25 * (member.diameter + tether.cover_width);
   set_airspeed(state.airspeed);
 }
 
@@ -48,7 +48,7 @@ double StraightTether::mass_of(double length, double radius) const {
   const double insulation_area = pi * wall_ * (2 * radius + wall_);  // π((r+s)² − r²)
   return length *
          (2 * (tether_->conductor.density * area + tether_->insulation.density * insulation_area) +
-          strength_member_data(tether_->strength_member).mass_per_metre);
+          strength_member_data(tether_->strength_member).mass_per_metre + tether_->cover_mass);
 }
 
 double StraightTether::radius_of_mass(double mass) const {
@@ -63,8 +63,8 @@ double StraightTether::resistance(double radius, double in_air_C, double on_drum
 double StraightTether::resistance(double radius, double in_air, double on_drum, double in_air_C,
                                   double on_drum_C) const {
   return contact_resistance() + 2 *
-                                    (in_air * resistivity(tether_->conductor, in_air_C) +
-                                     on_drum * resistivity(tether_->conductor, on_drum_C)) /
+                                    (in_air * effective_resistivity(*tether_, in_air_C) +
+                                     on_drum * effective_resistivity(*tether_, on_drum_C)) /
                                     conductor_area(radius);
 }
 

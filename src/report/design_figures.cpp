@@ -237,7 +237,7 @@ Mark mark_on(const MotorCurve& curve, double thrust, const std::string& style) {
 std::vector<Mark> marks_of(const MotorOptimum& motor, std::size_t index) {
   if (!motor.result.feasible) return {};
   const Requirements& need = motor.design.requirements;
-  const MotorCurve& curve = motor.design.drone.motor;
+  const MotorCurve curve = motor_in_flight(motor.design);
   const AreaPoints& points = motor.result;
   const std::string colour = fmt::format("lc rgb '{}'", gp::curve_colour(index));
   const double necessary = points.in(need.headroom_at).necessary_thrust;
@@ -435,7 +435,7 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
   std::vector<CurvePoint> points;  // of all curves
   gp::Plot plot;
   for (std::size_t i = 0; i < ranking.size(); ++i) {
-    curves.push_back(efficiency_of(ranking[i].design.drone.motor));
+    curves.push_back(efficiency_of(motor_in_flight(ranking[i].design)));
     const EfficiencyCurve& curve = curves.back();
     figure.script += gp::data_block(fmt::format("motor{}", i + 1), curve,
                                     {&CurvePoint::thrust, &CurvePoint::efficiency});

@@ -127,7 +127,8 @@ std::string battery_sentence(const Design& design, const OperatingPoint& point) 
         "No reserve battery could land the drone from {} m: it could not carry itself.",
         significant(design.tether.length, 3));
   }
-  const double power = landing_power(design.drone, point.takeoff_mass, design.flight.gravity);
+  const double power =
+      landing_power(drone_in_flight(design), point.takeoff_mass, design.flight.gravity);
   const bool by_energy = seconds / battery.usable_share >= 1 / battery.discharge_rate;
   constexpr double joules_per_Wh = 3600;
   return fmt::format(
@@ -158,10 +159,11 @@ std::string converter_sentence(const Design& design, const AreaPoints& points) {
 ordered_json battery_json(const Design& design, const OperatingPoint& point) {
   const ReserveBattery& battery = design.drone.reserve_battery;
   if (battery.specific_energy == 0) return nullptr;
-  return {{"mass_g", number_or_null(point.battery_mass / unit::gram)},
-          {"landing_time_s", landing_time(battery, design.tether.length)},
-          {"landing_power_W",
-           number_or_null(landing_power(design.drone, point.takeoff_mass, design.flight.gravity))}};
+  return {
+      {"mass_g", number_or_null(point.battery_mass / unit::gram)},
+      {"landing_time_s", landing_time(battery, design.tether.length)},
+      {"landing_power_W", number_or_null(landing_power(drone_in_flight(design), point.takeoff_mass,
+                                                       design.flight.gravity))}};
 }
 
 ordered_json converter_json(const Design& design, const AreaPoints& points) {
@@ -393,14 +395,40 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
   return sentences;
 }
 
+namespace {
+
+/// What is said of a motor's curve that the density of the air does not reach. The curve is silent
+/// at the published method's density, which is a little above the standard atmosphere's.
+std::optional<std::string> density_warning(const Design& design) {
+  constexpr double standard_density = 1.225;  // kg/m³, ISO 2533
+  constexpr double noticeable = 0.03;
+  const double density = design.flight.air_density;
+  const double ratio = density / standard_density;
+  if (bench_air_density(design.drone) || density == Flight{}.air_density ||
+      std::abs(ratio - 1) <= noticeable) {
+    return std::nullopt;
+  }
+  const double power = 1 / std::sqrt(ratio) - 1;
+  return fmt::format(
+      "the motors' curve counts as it was measured, not in air of {} kg/m³: of a bench at {} kg/m³ "
+      "an ideal rotor needs {} % {} power there for the same thrust and makes {} % {} at most; "
+      "state the bench's density (drone.motor_air_density_kg_m3) to have it scaled",
+      significant(density, 4), significant(standard_density, 4),
+      significant(100 * std::abs(power), 2), power > 0 ? "more" : "less",
+      significant(100 * std::abs(ratio - 1), 2), ratio < 1 ? "less" : "more");
+}
+
+}  // namespace
+
 std::vector<std::string> cable_warnings(const Design& design) {
   std::vector<std::string> warnings;
   const Tether& tether = design.tether;
   if (!tether.ambient_temperature_C) return warnings;
-  if (tether.spooled_length > 0 && !drum_derating(tether.drum)) {
+  if (tether.spooled_length > 0 && !is_cooling_known(tether.drum)) {
     warnings.push_back(fmt::format(
         "{} m lie on a drum of which neither layers nor derating are stated: the wound part is the "
-        "hot one, and its temperature is not known (tether.drum.layers or tether.drum.derating)",
+        "hot one, and its temperature is not known (tether.drum.core_diameter_mm and width_mm, "
+        "tether.drum.layers or tether.drum.derating)",
         significant(tether.spooled_length, 3)));
   }
   if (!tether.insulation.rated_temperature_C) {
@@ -411,8 +439,14 @@ std::vector<std::string> cable_warnings(const Design& design) {
   return warnings;
 }
 
-std::vector<std::string> all_warnings(const DesignFile& file) {
+std::vector<std::string> spec_warnings(const DesignFile& file) {
   std::vector<std::string> warnings = file.warnings;
+  if (auto density = density_warning(file.design)) warnings.push_back(std::move(*density));
+  return warnings;
+}
+
+std::vector<std::string> all_warnings(const DesignFile& file) {
+  std::vector<std::string> warnings = spec_warnings(file);
   for (std::string& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
   return warnings;
 }

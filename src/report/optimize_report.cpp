@@ -288,7 +288,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
     }
   }
   if (out.back() != '\n') out += "\n";
-  return out + notes_text(file.warnings, style);
+  return out + notes_text(spec_warnings(file), style);
 }
 
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {

@@ -36,7 +36,7 @@ class FlightDemands {
     const Design& design = flight.design();
     heated_ = is_heated(design.tether);
     convex_weight_ =
-        design.drone.reserve_battery.specific_energy == 0 || design.drone.motor.is_convex();
+        design.drone.reserve_battery.specific_energy == 0 || flight.motor().is_convex();
   }
 
   [[nodiscard]] const SteadyFlight& flight() const { return flight_; }
@@ -102,7 +102,7 @@ class FlightDemands {
   /// W at the converter's input for one more N of one motor, between a and b.
   [[nodiscard]] Range price_of_thrust(const ThrustAt& a, const ThrustAt& b) const {
     constexpr std::size_t most_pieces = 16;
-    const MotorCurve& motor = flight_.design().drone.motor;
+    const MotorCurve& motor = flight_.motor();
     const Converter& converter = flight_.design().supply.converter;
     const std::size_t first = motor.piece(headroom_ * a.thrust.value);
     const std::size_t last = motor.piece(headroom_ * b.thrust.value);
@@ -496,7 +496,7 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
   // that not even a millionth is left.
   const Design& design = flight.design();
   const double heaviest =
-      flight.radius_of_weight(1e6 * design.drone.motor_count * design.drone.motor.max_thrust());
+      flight.radius_of_weight(1e6 * design.drone.motor_count * flight.motor().max_thrust());
   BestHeadroomSearch search(flight);
   for (const Interval& range : radii_within_tilt(flight, heaviest)) {
     search.search(range.lo, range.hi);

@@ -268,7 +268,7 @@ class LeastPowerSearch {
   LeastPowerSearch(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& first,
                    bool bottom)
       : flight_(flight), tether_(tether), heated_(is_heated(flight.design().tether)) {
-    const MotorCurve& motor = flight.design().drone.motor;
+    const MotorCurve& motor = flight.motor();
     const double thrust = first.thrust.value;
     if (bottom && motor.power(thrust) <= motor.convex_hull().power(thrust)) bottom_ = first.radius;
     (void)consider(first);
@@ -313,7 +313,7 @@ class LeastPowerSearch {
   void improve(const Look& a, const Look& b) {
     constexpr int most_stretches = 5000;  // a hundred times more than usual
     constexpr double same_radius = 1 + 1e-13;
-    const MotorCurve& motor = flight_.design().drone.motor;
+    const MotorCurve& motor = flight_.motor();
     if (!(b.at.radius > a.at.radius * same_radius) || ++stretches_ > most_stretches) return;
     if (!(power_over(a.at, b.at.radius) < power_)) return;
     if (rises_from_bottom(a.at, b.at)) return;
@@ -389,7 +389,7 @@ class LeastPowerSearch {
         return thrust_at(flight_, beyond, best_.tan_guess(beyond));
       }
     }
-    const MotorCurve& motor = flight_.design().drone.motor;
+    const MotorCurve& motor = flight_.motor();
     const bool any_kink = !is_proportional(flight_.design().supply.converter);
     const double battery =
         motor.is_convex() && !any_kink ? nan : battery_kink(flight_, a.radius, b.radius, any_kink);
@@ -408,18 +408,17 @@ class LeastPowerSearch {
   /// ends all the way to the other.
   [[nodiscard]] bool rises_from_bottom(const ThrustAt& a, const ThrustAt& b) const {
     if (best_.radius != bottom_ || !(a.radius == bottom_ || b.radius == bottom_)) return false;
-    const Design& design = flight_.design();
-    if (!design.drone.motor.is_convex() && battery_bends(flight_, a.radius, b.radius)) {
+    if (!flight_.motor().is_convex() && battery_bends(flight_, a.radius, b.radius)) {
       return false;
     }
-    return bends_up(a, b, design.drone.motor.convex_hull(), false);
+    return bends_up(a, b, flight_.motor().convex_hull(), false);
   }
 
   [[nodiscard]] bool one_valley(const Look& from, const Look& to) const {
     const ThrustAt& a = from.at;
     const ThrustAt& b = to.at;
     constexpr double very_narrow = 1.01;
-    const MotorCurve& motor = flight_.design().drone.motor;
+    const MotorCurve& motor = flight_.motor();
     if (!motor.is_convex() && !on_one_piece(flight_, a, b)) return false;
     if (!bends_up(a, b, motor, true)) return false;
     return !heated_ || b.radius < very_narrow * a.radius || !(runs_away(from) || runs_away(to));
@@ -466,7 +465,7 @@ class LeastPowerSearch {
 /// power spent on carrying it. `thrust` and `power` are about those at the radius `lightest`.
 double first_guess(const SteadyFlight& flight, double lightest, double thrust, double power) {
   const Design& design = flight.design();
-  const MotorCurve& motor = design.drone.motor;
+  const MotorCurve& motor = flight.motor();
   const double voltage = design.supply.voltage;
   // With the current and the price of thrust of the lightest tether, and as if only the conductor
   // had mass: r⁴ = I²·saved/(price·curvature).
@@ -492,7 +491,7 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
-  const MotorCurve& motor = design.drone.motor;
+  const MotorCurve& motor = flight.motor();
   // Thick enough to deliver what the lightest tether needs in still air, light enough for the
   // motors there.
   const double lightest = radii.lo;
@@ -572,7 +571,7 @@ bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
   if (!hull_is_one_valley(flight.design())) return false;
   const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
   if (beyond.lo < beyond.hi) return false;
-  const MotorCurve& motor = flight.design().drone.motor;
+  const MotorCurve& motor = flight.motor();
   if (motor.is_convex()) return true;
   const double radius = conductor_radius(area);
   const double weight = flight.weight(radius);
@@ -582,8 +581,8 @@ bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
 }
 
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
-  const double heaviest = flight.radius_of_weight(flight.design().drone.motor_count *
-                                                  flight.design().drone.motor.max_thrust());
+  const double heaviest =
+      flight.radius_of_weight(flight.design().drone.motor_count * flight.motor().max_thrust());
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
   MinimumPower best{nan, nan};
   for (const Interval& part : intersection({radii}, radii_within_tilt(flight, heaviest))) {

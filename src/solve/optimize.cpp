@@ -131,9 +131,8 @@ Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double dema
   if (at_tilt_limit(evaluate(flight, best.area), flight.design())) return Limit::max_pitch;
   const double lightest = tilts && !(beyond.lo > 0) ? beyond.hi : 0;
   const double least_thrust = flight.balance(lightest, 0).thrust.value;
-  return flight.design().drone.motor.max_thrust() < demanded * least_thrust
-             ? Limit::motor_thrust
-             : Limit::available_power;
+  return flight.motor().max_thrust() < demanded * least_thrust ? Limit::motor_thrust
+                                                               : Limit::available_power;
 }
 
 /// The demand that is missed by least, tried at the ends and in the middle of `areas`.
@@ -265,7 +264,7 @@ Limit limit_of(Demand demand) {
 }
 
 Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand) {
-  const bool saturated = point.available_thrust >= design.drone.motor.max_thrust();
+  const bool saturated = point.available_thrust >= motor_in_flight(design).max_thrust();
   return demand == Demand::thrust_headroom && saturated ? Limit::motor_thrust : limit_of(demand);
 }
 

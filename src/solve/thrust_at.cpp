@@ -114,7 +114,7 @@ void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
 /// The first piece of the motor curve, of those that the reserve battery passes to strictly between
 /// two radii, at whose start its mass bends; 0 where there is none.
 std::size_t bent_battery_piece(const SteadyFlight& flight, double lo, double hi, bool either_way) {
-  const MotorCurve& motor = flight.design().drone.motor;
+  const MotorCurve& motor = flight.motor();
   const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
   for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
     if (either_way || motor.slope(i) < motor.slope(i - 1)) return i;
@@ -147,7 +147,7 @@ double converter_kink(const Converter& converter, double lo, double hi, bool of_
 }
 
 double thrust_kink(const SteadyFlight& flight, double lo, double hi) {
-  const MotorCurve& motor = flight.design().drone.motor;
+  const MotorCurve& motor = flight.motor();
   const Pieces pieces = pieces_between(motor, lo, hi);
   if (pieces.first != pieces.last) {
     return motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
@@ -165,7 +165,7 @@ bool battery_bends(const SteadyFlight& flight, double lo, double hi, bool either
 double battery_kink(const SteadyFlight& flight, double lo, double hi, bool either_way) {
   const std::size_t piece = bent_battery_piece(flight, lo, hi, either_way);
   if (piece == 0) return nan;
-  const Drone& drone = flight.design().drone;
+  const Drone& drone = flight.drone();
   const double landed = drone.motor.vertices()[piece].thrust * drone.motor_count;
   double kink = flight.radius_of_weight(landed + flight.tether().straight().winch_pull());
   // Rounding may take it to where the battery has leapt already.
@@ -178,7 +178,7 @@ double battery_kink(const SteadyFlight& flight, double lo, double hi, bool eithe
 
 bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
                   double headroom) {
-  const MotorCurve& motor = flight.design().drone.motor;
+  const MotorCurve& motor = flight.motor();
   const double lo = headroom * a.thrust.value;
   const double hi = headroom * b.thrust.value;
   const Pieces pieces = pieces_between(motor, lo, hi);

@@ -90,7 +90,8 @@ double lower_bound(Design design, const PointQuantity& objective) {
   const OperatingPoint bare = evaluate(design, 1e-9, condition);
   constexpr double rounding = 1e-6;
   if (std::isfinite(bare.drone_power)) return bare.drone_power * (1 - rounding);
-  const bool too_heavy = bare.necessary_thrust > design.drone.motor.max_thrust() * (1 + rounding);
+  const bool too_heavy =
+      bare.necessary_thrust > motor_in_flight(design).max_thrust() * (1 + rounding);
   return too_heavy ? infinity : -infinity;
 }
 

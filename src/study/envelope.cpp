@@ -19,7 +19,7 @@ double search_start(Reach reach) { return reach == Reach::height ? shortest_leng
 double search_end(const Design& design, Reach reach) {
   if (reach == Reach::height) return 1e4;
   if (reach != Reach::payload) return 100;
-  return design.drone.motor.max_thrust() * design.drone.motor_count / design.flight.gravity;
+  return motor_in_flight(design).max_thrust() * design.drone.motor_count / design.flight.gravity;
 }
 
 Design at_reach(Design design, Reach reach, double value) {

@@ -273,3 +273,32 @@ TEST_CASE("help and version exit with 0") {
   CHECK_THAT(run_tethercalc({"--version"}).out, Catch::StartsWith("tethercalc "));
   CHECK(run_tethercalc({"optimize", "--help"}).exit_code == 0);
 }
+
+TEST_CASE("air that the motors' curve was not measured in is told, or the curve is scaled") {
+  const auto told = [](std::vector<std::string> changes) {
+    std::vector<std::string> arguments{"evaluate", published,  "--area-mm2",
+                                       "1.0886",   "--format", "json"};
+    for (const std::string& change : changes) arguments.insert(arguments.end(), {"--set", change});
+    return json::parse(run_tethercalc(arguments).out);
+  };
+  // The published density is nobody's choice, and the standard atmosphere's is near enough.
+  CHECK(told({})["warnings"].empty());
+  CHECK(told({"flight.air_density_kg_m3=1.225"})["warnings"].empty());
+  CHECK(told({"flight.air_density_kg_m3=1.19"})["warnings"].empty());
+  const json high = told({"flight.air_density_kg_m3=1.0"});
+  REQUIRE(high["warnings"].size() == 1);
+  CHECK_THAT(high["warnings"][0].get<std::string>(),
+             Contains("not in air of 1.000 kg/m³") && Contains("11 % more power") &&
+                 Contains("18 % less at most") && Contains("drone.motor_air_density_kg_m3"));
+  CHECK_THAT(run_tethercalc({"optimize", published, "--set", "flight.air_density_kg_m3=1.0"}).out,
+             Contains("Note: the motors' curve counts as it was measured"));
+
+  const json scaled = told({"flight.air_density_kg_m3=1.0", "drone.motor_air_density_kg_m3=1.293"});
+  CHECK(scaled["warnings"].empty());
+  const auto hover = [](const json& answer, const char* key) {
+    return answer["table"][0]["hover"][key].get<double>();
+  };
+  CHECK(hover(scaled, "drone_power_W") > 1.07 * hover(high, "drone_power_W"));
+  CHECK(hover(scaled, "available_thrust_g") < 0.93 * hover(high, "available_thrust_g"));
+  CHECK(hover(scaled, "necessary_thrust_g") == hover(high, "necessary_thrust_g"));
+}

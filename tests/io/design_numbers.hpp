@@ -25,6 +25,7 @@ inline std::vector<double> numbers_of(const Design& design) {
   for (const MotorPoint& point : design.drone.motor.vertices()) {
     numbers.insert(numbers.end(), {point.thrust, point.power});
   }
+  numbers.push_back(design.drone.motor.measured_in().value_or(-1e9));
   for (const EfficiencyPoint& point : design.supply.converter.efficiency) {
     numbers.insert(numbers.end(), {point.output_power, point.efficiency});
   }

@@ -1,13 +1,16 @@
 #include "tethercalc/model/conductor_heat.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
 #include "support/straight_tether.hpp"
 #include "tethercalc/model/operating_point.hpp"
+#include "tethercalc/model/tether_heat.hpp"
 
 using namespace tethercalc;
 using std::numbers::pi;
@@ -18,13 +21,6 @@ namespace {
 double cigre601_stranded(double reynolds, double roughness) {
   if (reynolds < 2650) return 0.641 * std::pow(reynolds, 0.471);
   return roughness <= 0.05 ? 0.178 * std::pow(reynolds, 0.633) : 0.048 * std::pow(reynolds, 0.8);
-}
-
-/// Share of it left where the wind meets the conductor at an angle, CIGRE TB 601.
-double cigre601_attack_factor(double angle) {
-  const double sine = std::sin(angle);
-  return angle <= 24 * pi / 180 ? 0.42 + 0.68 * std::pow(sine, 1.08)
-                                : 0.42 + 0.58 * std::pow(sine, 0.9);
 }
 
 /// A worked example of CIGRE TB 601 (2014), annex E: "Drake" conductor at 100 °C.
@@ -341,4 +337,261 @@ TEST_CASE("a converter has its mass, its rating and its ratio") {
         Approx((75 - p.tether_loss / p.current) / 4).epsilon(1e-12));
   design.supply.converter.fixed_ratio.reset();
   CHECK(std::isnan(converter_output_voltage(design.supply.converter, 60)));
+}
+
+namespace {
+
+/// Rise of the hottest place of an annulus over its surface, finite differences: heat of 1 W/m³,
+/// conductivity 1 W/(m·K), none through the core, the other three sides at 0.
+double hottest_of_annulus(double inner, double outer, double width) {
+  constexpr int n = 24;
+  const double dr = (outer - inner) / n;
+  const double dx = 0.5 * width / n;  // from a face to the middle, which is a mirror
+  std::vector<double> t((n + 1) * (n + 1), 0.0);
+  const auto at = [&](int i, int j) -> double& {
+    return t[static_cast<std::size_t>(i * (n + 1) + j)];
+  };
+  for (int sweep = 0; sweep < 4000; ++sweep) {
+    for (int i = 0; i < n; ++i) {
+      const double r = inner + i * dr;
+      for (int j = 1; j <= n; ++j) {
+        const double beyond = j == n ? at(i, n - 1) : at(i, j + 1);
+        const double inwards = i == 0 ? at(1, j) : at(i - 1, j);
+        const double curved = i == 0 ? 0 : (at(i + 1, j) - at(i - 1, j)) / (2 * r * dr);
+        const double sum =
+            (at(i + 1, j) + inwards) / (dr * dr) + (at(i, j - 1) + beyond) / (dx * dx) + curved + 1;
+        at(i, j) += 1.7 * (sum / (2 / (dr * dr) + 2 / (dx * dx)) - at(i, j));
+      }
+    }
+  }
+  return *std::max_element(t.begin(), t.end());
+}
+
+Tether wound_tether() {
+  Tether tether = published_tether();
+  tether.spooled_length = 100;
+  tether.drum.core_diameter = 0.2;
+  tether.drum.width = 0.15;
+  return tether;
+}
+
+}  // namespace
+
+TEST_CASE("a wound package is as warm inside as a grid of its section finds") {
+  // Of the same wires on drums from narrow to wide; k = 1 and 1 W/m³ make the rise the geometry's.
+  constexpr double wall = 0.75e-3;
+  constexpr double radius = 0.6e-3;
+  const double side = std::sqrt(8.0) * (radius + wall);
+  for (const double width : {0.02, 0.05, 0.1, 0.3}) {
+    Tether tether = wound_tether();
+    tether.drum.width = width;
+    tether.drum.package_conductivity = 1;
+    const DrumPackage package = drum_package(tether, radius, wall, 100);
+    const double rise = package.thermal_resistance * side * side / 2;
+    const double grid = hottest_of_annulus(0.1, package.outer_radius, width);
+    INFO(width << " m, outer radius " << package.outer_radius);
+    CHECK(rise < 1.02 * grid);
+    CHECK(rise > 0.83 * grid);
+  }
+}
+
+TEST_CASE("the wires of a package fill it in layers, one at least") {
+  constexpr double wall = 0.5e-3;
+  constexpr double radius = 0.5e-3;
+  const double side = std::sqrt(8.0) * 1e-3;
+  Tether tether = wound_tether();
+  const DrumPackage package = drum_package(tether, radius, wall, 100);
+  CHECK(pi * (package.outer_radius * package.outer_radius - 0.01) * 0.15 ==
+        Approx(100 * side * side).epsilon(1e-12));
+  CHECK(package.layers == Approx((package.outer_radius - 0.1) / side));
+  // A few turns stay one layer.
+  const DrumPackage few = drum_package(tether, radius, wall, 5);
+  CHECK(few.layers == Approx(1).epsilon(1e-12));
+  CHECK(few.outer_radius == Approx(0.1 + side).epsilon(1e-12));
+  // By hand: λ·(1 + c)/(1 − c) with c = 1/4, then 0.026·(1.785 + 0.215·q)/(0.215 + 1.785·q) with
+  // q = 0.0918; bare metal leaves 0.026·1.785/0.215.
+  tether.insulation.thermal_conductivity = 0.17;
+  CHECK(package.conductivity == Approx(0.1240).epsilon(1e-3));
+  CHECK(drum_package(tether, radius, 1e-9, 100).conductivity ==
+        Approx(0.026 * (1 + pi / 4) / (1 - pi / 4)).epsilon(1e-4));
+}
+
+TEST_CASE("what a package has by the conductor's radius are slopes") {
+  test::each_random(100, [](test::Random& random) {
+    Tether tether = wound_tether();
+    tether.drum.core_diameter = random.magnitude(0.02, 0.5);
+    tether.drum.width = random.magnitude(0.02, 0.5);
+    if (random.chance(0.3)) tether.drum.package_conductivity = random.uniform(0.05, 1);
+    if (random.chance(0.3)) tether.strength_member = {StrengthMaterial::aramid, 1e-6};
+    const double length = random.magnitude(1, 500);
+    const double wall = random.uniform(0.1e-3, 1e-3);
+    const double radius = random.magnitude(0.2e-3, 2e-3);
+    const double step = 1e-6 * radius;
+    const DrumPackage at = drum_package(tether, radius, wall, length);
+    const DrumPackage less = drum_package(tether, radius - step, wall, length);
+    const DrumPackage more = drum_package(tether, radius + step, wall, length);
+    if (less.layers < 1 + 1e-9 && more.layers > 1 + 1e-9) return;  // a kink
+    CHECK(at.outer_radius_slope ==
+          Approx((more.outer_radius - less.outer_radius) / (2 * step)).epsilon(1e-4));
+    CHECK(at.surface_slope == Approx((more.surface - less.surface) / (2 * step)).epsilon(1e-4));
+    CHECK(at.thermal_resistance_slope ==
+          Approx((more.thermal_resistance - less.thermal_resistance) / (2 * step))
+              .epsilon(1e-3)
+              .margin(1e-3 * at.thermal_resistance / radius));
+  });
+}
+
+TEST_CASE(
+    "a conductor on a described drum is in balance, warmer than laid out, cooler if thicker") {
+  test::each_random(200, [](test::Random& random) {
+    Design design = test::published_design();
+    design.tether = wound_tether();
+    design.tether.drum.core_diameter = random.magnitude(0.05, 0.5);
+    design.tether.drum.width = random.magnitude(0.03, 0.5);
+    design.tether.spooled_length = random.magnitude(2, 300);
+    design.supply.voltage = random.uniform(100, 400);
+    const SteadyFlight flight(design, Condition::hover);
+    const double radius = random.magnitude(0.3e-3, 1.2e-3);
+    const double current = random.uniform(0.5, 4);
+    const TetherHeat heat(flight, radius);
+    const auto warm = heat.temperatures(current);
+    if (!warm) return;
+    REQUIRE(warm->on_drum);
+    // The package's surface, solved for with the plain formulas.
+    const double wall = design.tether.insulation.thickness;
+    const DrumPackage p = drum_package(design.tether, radius, wall, design.tether.spooled_length);
+    const double heat_made = current * current *
+                             resistivity(design.tether.conductor, *warm->on_drum) /
+                             conductor_area(radius);
+    const double surface = *warm->on_drum - heat_made * p.thermal_resistance;
+    const double film = 0.5 * (surface + 30);
+    const AirProperties air = air_properties(film, 1.293 * (1 + 0.00367 * 30));
+    const double diameter = 2 * p.outer_radius;
+    const double rayleigh = 9.80665 * (surface - 30) / (film + 273.15) * std::pow(diameter, 3) /
+                            std::pow(air.kinematic_viscosity, 2) * air.prandtl;
+    const double convected = churchill_chu(rayleigh, air.prandtl) * air.conductivity / diameter *
+                             (surface - 30) * p.surface;
+    CHECK(convected + radiated_heat(p.surface, 0.9, surface, 30) ==
+          Approx(heat_made).epsilon(1e-6));
+    const auto thicker = TetherHeat(flight, 1.02 * radius).temperatures(current);
+    REQUIRE(thicker);
+    CHECK(*thicker->on_drum < *warm->on_drum);
+    CHECK(*warm->on_drum > warm->in_air - 1e-9);
+  });
+}
+
+TEST_CASE("one layer of a tether carries about 0.4 of what it carries laid out, not 0.85") {
+  // The factors for layers come from thick cables, whose own surface is large beside the drum's.
+  Design design = test::published_design();
+  design.tether = wound_tether();
+  design.tether.spooled_length = 15;
+  design.tether.drum.width = 0.2;
+  Design by_layers = design;
+  by_layers.tether.drum = {.layers = 1};
+  for (const double area : {0.25e-6, 0.5e-6, 1e-6, 1.5e-6}) {
+    const double radius = conductor_radius(area);
+    const SteadyFlight wound(design, Condition::hover);
+    const SteadyFlight factored(by_layers, Condition::hover);
+    const DrumPackage package = drum_package(design.tether, radius, wound.wall(), 15);
+    CHECK(package.layers == Approx(1));
+    Surroundings around;
+    around.temperature_C = 30;
+    const ConductorHeat laid_out(design.tether, radius, wound.wall(), around);
+    const double carried = laid_out.wound(around, package).current_at(70);
+    const double share = carried / laid_out.current_at(70);
+    INFO(area << ": " << share);
+    CHECK(share > 0.35);
+    CHECK(share < 0.6);
+    // The current with which the factor makes the wound part 16 K warmer than the air.
+    around.cooling = 0.85 * 0.85;
+    const double current = laid_out.in(around).current_at(46);
+    const auto warm = TetherHeat(wound, radius).temperatures(current);
+    REQUIRE(warm);
+    INFO("rise " << *warm->on_drum - 30);
+    CHECK(*TetherHeat(factored, radius).temperatures(current)->on_drum == Approx(46));
+    CHECK(*warm->on_drum > 30 + 40);
+    CHECK(*warm->on_drum < 30 + 80);
+  }
+}
+
+TEST_CASE("a vertical wire is cooled as the measured ones of the literature") {
+  // Wires, by their Ra·d/H: Nu = 0.87·(Ra·d/H)^0.05 below 0.05 (Nagendra, Tirunarayanan and
+  // Ramachandran 1969, Chem. Eng. Sci. 24, 1491–1495).
+  constexpr double prandtl = 0.71;
+  for (const double rayleigh : {20.0, 50.0, 100.0}) {
+    for (const double slenderness : {1e-4, 3e-4}) {
+      const double measured = 0.87 * std::pow(rayleigh * slenderness, 0.05);
+      CHECK(slender_vertical_cylinder(rayleigh, prandtl, slenderness) ==
+            Approx(measured).epsilon(0.06));
+    }
+  }
+  // By hand: 4·(272 + 223.65)/(35·(64 + 44.73)) and 4/3·(1.4·50·0.71·1e-4/34.91)^¼.
+  CHECK(slender_vertical_cylinder(0, prandtl, 1e-4) == Approx(0.52097).epsilon(1e-4));
+  CHECK(slender_vertical_cylinder(50, prandtl, 1e-4) == Approx(0.52097 + 0.14564).epsilon(1e-3));
+}
+
+TEST_CASE(
+    "a wire that hangs in still air is about 1.6 times as warm as by the inclined conductor's") {
+  Surroundings around;
+  around.temperature_C = 25;
+  for (const double area : {0.5e-6, 1e-6, 1.5e-6}) {
+    const ConductorHeat usual(published_tether(), conductor_radius(area), 0.75e-3, around);
+    Surroundings upright = around;
+    upright.inclination = pi / 2;
+    const double current = usual.current_at(45);
+    const double rise = *ConductorHeat(published_tether(), conductor_radius(area), 0.75e-3, upright)
+                             .temperature(current) -
+                        25;
+    INFO(area << " " << rise);
+    CHECK(rise / 20 > 1.4);
+    CHECK(rise / 20 < 1.75);
+  }
+}
+
+TEST_CASE(
+    "an inclined conductor is horizontal at 0, meets the wind by CIGRE's factor, and balances") {
+  Surroundings around;
+  around.temperature_C = 20;
+  const Tether tether = published_tether();
+  const double radius = conductor_radius(1e-6);
+  const auto given_off = [&](std::optional<double> inclination, double wind) {
+    Surroundings there = around;
+    there.inclination = inclination;
+    there.wind = wind;
+    return ConductorHeat(tether, radius, 0.75e-3, there).given_off(50);
+  };
+  const double radiated =
+      (pi + 2) / (2 * pi) * radiated_heat(2 * pi * (radius + 0.75e-3), 0.9, 50, 20);
+  CHECK(given_off(pi / 2, 5) == given_off({}, 5));
+  CHECK((given_off(pi / 6, 8) - radiated) / (given_off({}, 8) - radiated) ==
+        Approx(0.42 + 0.58 * std::pow(0.5, 0.9)).epsilon(1e-12));
+  CHECK((given_off({}, 0) - radiated) / (given_off(0.0, 0) - radiated) ==
+        Approx(cigre601_inclination_factor(pi / 3)).epsilon(1e-12));
+  double before = given_off(0.0, 0);
+  for (int degrees = 10; degrees <= 80; degrees += 10) {
+    const double now = given_off(degrees * unit::degree, 0);
+    CHECK(now <= before);
+    before = now;
+  }
+  // Where tangents lead is where the balance is.
+  test::each_random(200, [&](test::Random& random) {
+    Surroundings there = around;
+    there.inclination = random.uniform(0, pi / 2);
+    there.length = random.magnitude(1, 300);
+    there.wind = random.chance(0.3) ? random.magnitude(0.01, 5) : 0;
+    const ConductorHeat heat(tether, radius, 0.75e-3, there);
+    const double surface = random.uniform(25, 90);
+    const double current = random.uniform(1, 10);
+    const double step = 1e-4;
+    const ConductorHeat::Balance at = heat.balance(surface, current);
+    const ConductorHeat::Balance more = heat.balance(surface + step, current);
+    const double made = current * current * resistivity(tether.conductor, at.inside_C) / 1e-6;
+    const double slope =
+        (heat.given_off(surface + step) - heat.given_off(surface - step)) / (2 * step);
+    const double made_slope = current * current * resistivity(tether.conductor, 20) / 1e-6 *
+                              tether.conductor.temperature_coefficient * at.inside_per_surface;
+    CHECK(at.surface_change ==
+          Approx((made - heat.given_off(surface)) / (slope - made_slope)).epsilon(1e-4));
+    CHECK((more.inside_C - at.inside_C) / step == Approx(at.inside_per_surface).epsilon(1e-4));
+  });
 }

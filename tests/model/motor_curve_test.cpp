@@ -85,3 +85,49 @@ TEST_CASE("the convex hull lies nowhere above the curve, is convex and meets it 
     }
   });
 }
+
+namespace {
+
+/// A rotor whose power goes with thrust to the 3/2, at many points.
+MotorCurve ideal_rotor(double most) {
+  std::vector<MotorPoint> points;
+  for (int i = 1; i <= 400; ++i) {
+    const double thrust = most * i / 400;
+    points.push_back({thrust, 5 * std::pow(thrust, 1.5)});
+  }
+  return MotorCurve(points);
+}
+
+}  // namespace
+
+TEST_CASE("in thinner air an ideal rotor needs 1/sqrt(density) times the power for a thrust") {
+  // Momentum theory: P = T^1.5/√(2ρA).
+  const MotorCurve bench = ideal_rotor(20);
+  for (const double ratio : {0.6, 1 / 1.293, 0.9, 1.0, 1.1}) {
+    const MotorCurve flown = bench.in_air(ratio);
+    for (const double thrust : {3.0, 6.5, 11.0}) {
+      CHECK(flown.power(thrust) == Approx(bench.power(thrust) / std::sqrt(ratio)).epsilon(2e-4));
+    }
+    CHECK(flown.max_thrust() == Approx(20 * ratio).epsilon(1e-14));
+    CHECK(flown.max_power() == Approx(bench.max_power() * ratio).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("a curve in other air is the same curve in thrusts and powers times the ratio") {
+  test::each_random(100, [](test::Random& random) {
+    MotorCurve bench = test::random_motor(random, 0.9);
+    bench.set_measured_in(1.2);
+    const double ratio = random.uniform(0.5, 1.5);
+    const MotorCurve flown = bench.in_air(ratio);
+    CHECK(flown.is_convex() == bench.is_convex());
+    CHECK(*flown.measured_in() == Approx(1.2 * ratio).epsilon(1e-15));
+    for (int i = 0; i < 20; ++i) {
+      const double thrust = random.uniform(0, 0.999) * bench.max_thrust();
+      CHECK(flown.power(ratio * thrust) == Approx(ratio * bench.power(thrust)).epsilon(1e-10));
+      CHECK(flown.thrust(ratio * bench.power(thrust)) == Approx(ratio * thrust).epsilon(1e-10));
+      CHECK(flown.convex_hull().power(ratio * thrust) ==
+            Approx(ratio * bench.convex_hull().power(thrust)).epsilon(1e-10));
+    }
+  });
+  CHECK(MotorCurve().in_air(0.5).max_thrust() == 0);
+}

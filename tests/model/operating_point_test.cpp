@@ -169,3 +169,59 @@ TEST_CASE("the slope of the necessary thrust is that of its secant") {
     CHECK(tangent.slope == Approx(secant).epsilon(1e-5).margin(1e-9 * tangent.value / step));
   });
 }
+
+TEST_CASE("a bench in the air of the flight, or in an unknown one, changes no digit") {
+  test::each_random(200, [](test::Random& random) {
+    Design design = test::random_design(random);
+    const double area = random.magnitude(0.1e-6, 10e-6);
+    const OperatingPoint plain = evaluate(design, area, Condition::forward);
+    design.drone.motor_air_density = design.flight.air_density;
+    const OperatingPoint stated = evaluate(design, area, Condition::forward);
+    for (const auto member : {&OperatingPoint::available_thrust, &OperatingPoint::headroom,
+                              &OperatingPoint::total_power}) {
+      const bool same = plain.*member == stated.*member ||
+                        (std::isnan(plain.*member) && std::isnan(stated.*member));
+      CHECK(same);
+    }
+  });
+}
+
+TEST_CASE("where the bench's air is known, thinner air asks for more power and makes less thrust") {
+  test::each_random(200, [](test::Random& random) {
+    Design design = test::random_design(random);
+    design.drone.motor = test::random_motor(random, 0);
+    design.drone.mass =
+        design.drone.motor.max_thrust() * design.drone.motor_count / standard_gravity / 5;
+    design.drone.motor_air_density = 1.225;
+    design.flight.headwind = 0;
+    const double area = random.magnitude(0.1e-6, 10e-6);
+    design.flight.air_density = random.uniform(0.8, 1.3);
+    const OperatingPoint thick = evaluate(design, area, Condition::hover);
+    design.flight.air_density *= random.uniform(0.7, 1);
+    const OperatingPoint thin = evaluate(design, area, Condition::hover);
+    CHECK(thin.necessary_thrust == thick.necessary_thrust);
+    if (std::isnan(thin.drone_power)) return;
+    CHECK(thin.drone_power >= thick.drone_power * (1 - 1e-12));
+    CHECK(thin.available_thrust <= thick.available_thrust * (1 + 1e-12));
+  });
+}
+
+TEST_CASE(
+    "the published drone hovers at the power that its curve has at thrust over density ratio") {
+  Design design = test::published_design();
+  design.drone.motor_air_density = 1.225;
+  design.flight.air_density = 1.0;
+  const double ratio = 1 / 1.225;
+  const OperatingPoint point = evaluate(design, 1.0886e-6, Condition::hover);
+  const double motors = 4 * ratio * design.drone.motor.power(point.necessary_thrust / ratio);
+  CHECK(point.drone_power == Approx(motors / 0.9 + 15).epsilon(1e-12));
+  // The motor's own density counts where the design states none.
+  design.drone.motor_air_density.reset();
+  design.drone.motor.set_measured_in(1.225);
+  CHECK(evaluate(design, 1.0886e-6, Condition::hover).drone_power ==
+        Approx(point.drone_power).epsilon(1e-14));
+  // And a drone already put into the air of its flight stays there.
+  Design put = design;
+  put.drone = drone_in_flight(design);
+  CHECK(evaluate(put, 1.0886e-6, Condition::hover).drone_power == Approx(point.drone_power));
+}

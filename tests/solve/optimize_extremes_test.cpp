@@ -146,3 +146,16 @@ TEST_CASE("no area is better than the optimum on a solved tether") {
     CHECK((at_hover ? hover : forward).total_power <= tried.power * (1 + 1e-5));
   });
 }
+
+TEST_CASE("no area is better than the optimum where the drum and the bench are described") {
+  test::each_random(test::draws(200), [](test::Random& random) {
+    Design design = test::random_extreme_design(random);
+    design.drone.motor_air_density = design.flight.air_density * random.uniform(0.6, 1.6);
+    design.tether.ambient_temperature_C = random.uniform(-20, 50);
+    design.tether.spooled_length = random.magnitude(0.1, 1000);
+    design.tether.drum.core_diameter = random.magnitude(0.02, 1);
+    design.tether.drum.width = random.magnitude(0.02, 1);
+    if (random.chance(0.5)) design.tether.inclination = random.uniform(0, 90) * unit::degree;
+    check_against_areas(design, 300);
+  });
+}

@@ -223,3 +223,20 @@ TEST_CASE("an empty motor curve is an infeasible design, not a crash") {
   design.drone.motor = MotorCurve();
   CHECK_FALSE(optimize(design).feasible);
 }
+
+TEST_CASE("a bench of another density gives the optimum of the curve scaled beforehand") {
+  test::each_random(200, [](test::Random& random) {
+    Design design = test::random_extreme_design(random);
+    design.drone.motor_air_density = design.flight.air_density * random.uniform(0.6, 1.6);
+    Design scaled = design;
+    scaled.drone.motor = motor_in_flight(design);
+    scaled.drone.motor_air_density.reset();
+    scaled.drone.motor.set_measured_in({});
+    const Optimization a = optimize(design);
+    const Optimization b = optimize(scaled);
+    CHECK(a.feasible == b.feasible);
+    CHECK(a.limited_by == b.limited_by);
+    const bool same = a.area == b.area || (std::isnan(a.area) && std::isnan(b.area));
+    CHECK(same);
+  });
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/model/tether.hpp"
 
 namespace tethercalc {
@@ -33,6 +34,18 @@ struct AirProperties {
 /// π/3), CIGRE TB 601.
 [[nodiscard]] double cigre601_inclination_factor(double inclination);
 
+/// Share of the forced convection left where the wind meets a conductor at `angle` (rad, 0 to π/2)
+/// to its axis, over that across it, CIGRE TB 601: 0.42 + 0.68·sin^1.08 up to 24°, 0.42 +
+/// 0.58·sin^0.9 above.
+[[nodiscard]] double cigre601_attack_factor(double angle);
+
+/// Nusselt number, of the diameter, of a slender vertical cylinder in still air (Le Fevre and Ede
+/// 1956, Proc. 9th Int. Congress of Applied Mechanics 4, 175–183; in the review by Popiel 2008,
+/// Heat Transfer Engineering 29, 521–536, doi:10.1080/01457630801891557); the Rayleigh number is
+/// that of the diameter, `slenderness` the diameter over the height. For a wire the second term,
+/// 0.52 in air, is nearly all: the warm air that rises along it grows far thicker than the wire.
+[[nodiscard]] double slender_vertical_cylinder(double rayleigh, double prandtl, double slenderness);
+
 /// Heat in W/m that a surface of `perimeter` m radiates, `emissivity` in [0, 1], to surroundings at
 /// the temperature of the air.
 [[nodiscard]] double radiated_heat(double perimeter, double emissivity, double surface_C,
@@ -49,7 +62,14 @@ struct Surroundings {
   double wind = 0;             ///< m/s across the conductor, ≥ 0
   double sun = 0;              ///< W/m² across it
   double gravity = 9.80665;    ///< m/s²
-  double cooling = 1;          ///< in (0, 1]: share of the heat that a wound conductor gives off
+  /// rad over the ground, in [0, π/2], of the conductor. Set, the wind along the ground meets it at
+  /// this angle, and in still air it has the greater of the convection of a horizontal cylinder in
+  /// the part of gravity across it and of a vertical one in the part along it. Unset, the wind
+  /// blows across, and in still air it has that of a horizontal cylinder times the least factor of
+  /// CIGRE TB 601.
+  std::optional<double> inclination{};
+  double length = 30;  ///< m, > 0, of the conductor so inclined
+  double cooling = 1;  ///< in (0, 1]: share of the heat that a wound conductor gives off
 };
 
 /// Temperatures above this are not looked at: no insulation stands them.
@@ -59,11 +79,12 @@ inline constexpr double highest_conductor_temperature_C = 400;
 ///
 /// Heat flows through the insulation, T_c − T_s = q·ln((r + s)/r)/(2πλ), and off its surface by
 /// convection, forced or natural, whichever is more (as in CIGRE TB 601), and by radiation with an
-/// emissivity of 0.9. The tether hangs: natural convection is that of a horizontal cylinder times
-/// the least that CIGRE TB 601 leaves of it, at 60°. The two conductors touch: of the surface of
-/// two cylinders only that of their convex hull, (π + 2)/(2π), takes part. The sun, of which a dark
-/// sheath takes 0.9, shines on both broadside. Where the insulation's conductivity is unknown it is
-/// taken as 0.17 W/(m·K), the least of common materials (PVC).
+/// emissivity of 0.9. The tether hangs: unless an inclination is stated, natural convection is that
+/// of a horizontal cylinder times the least that CIGRE TB 601 leaves of it, at 60°. The two
+/// conductors touch: of the surface of two cylinders only that of their convex hull, (π + 2)/(2π),
+/// takes part. The sun, of which a dark sheath takes 0.9, shines on both broadside. Where the
+/// insulation's conductivity is unknown it is taken as 0.17 W/(m·K), the least of common materials
+/// (PVC).
 class ConductorHeat {
  public:
   /// `wall` in m, `radius` in m of the metal.
@@ -71,6 +92,10 @@ class ConductorHeat {
 
   /// The same conductor in another place.
   [[nodiscard]] ConductorHeat in(const Surroundings& around) const;
+
+  /// The same conductor in a wound package: its hottest turn, with its share of the package's
+  /// surface, which is cooled like a horizontal cylinder of the package's diameter, faces included.
+  [[nodiscard]] ConductorHeat wound(const Surroundings& around, const DrumPackage& package) const;
 
   /// Conductor temperature in °C at `current` A (≥ 0); nothing where no state below
   /// `highest_conductor_temperature_C` is steady. Exact to 1e-9 K.
@@ -133,7 +158,12 @@ class ConductorHeat {
   double radius_;
   double resistance_at_zero_;        ///< Ω/m of one conductor, at 0 °C
   double resistance_per_kelvin_;     ///< Ω/(m·K)
-  double diameter_;                  ///< m, over the insulation
+  double diameter_;                  ///< m, over the insulation, or of the package
+  double diameter_slope_ = 2;        ///< m of it per m of the metal's radius
+  double surface_share_;             ///< surface that is cooled, over that of the diameter
+  double surface_share_slope_ = 0;   ///< per m of the metal's radius
+  double wind_share_ = 1;            ///< of the convection of wind across
+  double still_air_share_;           ///< of a horizontal cylinder's natural convection
   double thermal_resistance_;        ///< K·m/W of the insulation
   double thermal_resistance_slope_;  ///< K/W, by the radius
   double density_0C_;

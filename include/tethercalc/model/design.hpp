@@ -21,9 +21,12 @@ enum class Condition { hover, forward };
 
 /// What flies, without its tether.
 struct Drone {
-  double mass = 0;                ///< kg, ready to fly, without tether
-  int motor_count = 4;            ///< motors sharing the thrust equally
-  MotorCurve motor;               ///< of one motor with its propeller
+  double mass = 0;      ///< kg, ready to fly, without tether
+  int motor_count = 4;  ///< motors sharing the thrust equally
+  MotorCurve motor;     ///< of one motor with its propeller
+  /// kg/m³ of the air that the motor's curve was measured in; nothing: what the curve itself
+  /// states.
+  std::optional<double> motor_air_density{};
   double motor_power_factor = 1;  ///< motors draw this times what the curve says
   double auxiliary_power = 0;     ///< W at the converter input: flight controller and payload
   AirframeDrag drag;              ///< of the airframe, not of the tether
@@ -78,6 +81,17 @@ struct Design {
   Flight flight;              ///< where and how fast it flies
   Requirements requirements;  ///< what the optimum must satisfy
 };
+
+/// kg/m³ of the air that the motors' curve was measured in; nothing where nobody states it, and the
+/// curve counts in any air.
+[[nodiscard]] std::optional<double> bench_air_density(const Drone& drone);
+
+/// The curve of one motor in the air that the design flies in: scaled from the air it was measured
+/// in (see `MotorCurve::in_air`), where that is known.
+[[nodiscard]] MotorCurve motor_in_flight(const Design& design);
+
+/// The drone with that curve.
+[[nodiscard]] Drone drone_in_flight(const Design& design);
 
 /// Wind at the drone in m/s, `tether.length` over its station: `headwind`, or what the profile
 /// makes of it from the reference height to there.

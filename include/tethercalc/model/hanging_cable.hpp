@@ -119,8 +119,8 @@ struct CableShape {
 /// the cable (it is taken to follow at once).
 class CableSolver {
  public:
-  /// Gives up after `most_steps` steps along cables: a usual one takes a hundred, one that is hard to
-  /// find thousands, of a few microseconds each.
+  /// Gives up after `most_steps` steps along cables: a usual one takes a hundred, one that is hard
+  /// to find thousands, of a few microseconds each.
   explicit CableSolver(int most_steps = 100000) : most_steps_(most_steps) {}
 
   /// Solves a cable between (0, 0, 0) and `drone` (m; not the same place). `cable` and `air` as

@@ -63,6 +63,21 @@ class MotorCurve {
   /// Slope of `power` on piece `index`, W/N.
   [[nodiscard]] double slope(std::size_t index) const { return line_->slopes[index]; }
 
+  /// The same motor and propeller in air of `density_ratio` (> 0) times the density: every point at
+  /// the same speed of rotation, where thrust and shaft power both go with the density (T = C_T·ρ·
+  /// n²·D⁴, P = C_P·ρ·n³·D⁵: Leishman, Principles of Helicopter Aerodynamics, 2nd ed., section 2.3;
+  /// McCormick, Aerodynamics, Aeronautics and Flight Mechanics, 2nd ed., section 6.3), so that T
+  /// and P become ratio·T and ratio·P and a thrust costs ratio·P(T/ratio). Where P goes with T^1.5,
+  /// as an ideal rotor's does, that is P(T)/√ratio, which momentum theory has at equal thrust.
+  ///
+  /// The electrical power is taken to go like the shaft's: the motor keeps its efficiency at a
+  /// speed of rotation. In thinner air it turns a little faster at full throttle, since less torque
+  /// costs less voltage in the winding; that is not counted, and the last point is where the
+  /// measured one turned. A power given for a thrust is then within about a percent, and the
+  /// greatest thrust a little low in thin air (and a little high in dense air). Reynolds and Mach
+  /// numbers move the coefficients of small propellers by a few percent, likewise not counted.
+  [[nodiscard]] MotorCurve in_air(double density_ratio) const;
+
   /// The largest convex curve nowhere above this one, through some of its vertices and with the
   /// same limits (its lower convex hull). A convex curve is its own. Lives as long as this curve.
   [[nodiscard]] const MotorCurve& convex_hull() const;
@@ -77,6 +92,11 @@ class MotorCurve {
 
   /// The points with (0, 0) in front. At least one.
   [[nodiscard]] std::span<const MotorPoint> vertices() const { return line_->vertices; }
+
+  /// kg/m³ of the air that the points were measured in; nothing where that is not known.
+  [[nodiscard]] std::optional<double> measured_in() const { return measured_in_; }
+  /// States it: > 0.
+  void set_measured_in(std::optional<double> air_density) { measured_in_ = air_density; }
 
  private:
   /// A rising piecewise-linear curve: vertices from (0, 0) on and the slope of each piece.
@@ -102,6 +122,7 @@ class MotorCurve {
 
   explicit MotorCurve(std::shared_ptr<const Polyline> line);
   std::shared_ptr<const Polyline> line_;  ///< never null
+  std::optional<double> measured_in_{};   ///< kg/m³
 };
 
 /// A motor with its propeller. Texts are empty and numbers absent where the file gives none.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 
 #include "tethercalc/model/design.hpp"
 #include "tethercalc/model/tether_load.hpp"
@@ -36,6 +37,10 @@ class SteadyFlight {
 
   /// The design this was made of.
   [[nodiscard]] const Design& design() const { return *design_; }
+  /// What flies, with its motors' curve as it is in the air of this flight (`motor_in_flight`).
+  [[nodiscard]] const Drone& drone() const { return rescaled_ ? *rescaled_ : design_->drone; }
+  /// The curve of one motor in this air.
+  [[nodiscard]] const MotorCurve& motor() const { return drone().motor; }
   /// The state it flies in.
   [[nodiscard]] const FlightState& state() const { return state_; }
   /// Its tether.
@@ -155,7 +160,7 @@ class SteadyFlight {
 
   /// Power at the converter's input for a thrust, +infinity where the motors cannot make it.
   [[nodiscard]] double drone_power(double thrust) const {
-    return input_power(design_->drone.motor.power(thrust));
+    return input_power(motor().power(thrust));
   }
   /// The same for one motor's data-sheet power in W.
   [[nodiscard]] double input_power(double motor_power) const {
@@ -179,6 +184,7 @@ class SteadyFlight {
   [[nodiscard]] double landed_mass(double radius) const;
 
   const Design* design_;
+  std::shared_ptr<const Drone> rescaled_;  ///< null where the motors' curve counts as it stands
   FlightState state_;
   double wall_;
   TetherInFlight tether_;

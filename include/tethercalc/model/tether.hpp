@@ -37,11 +37,16 @@ struct Insulation {
 /// the breakdown strength is 0.
 [[nodiscard]] double insulation_wall(const Insulation& insulation, double voltage);
 
-/// How the part of the tether on the drum is cooled: by its number of layers, or by a factor that
-/// its user knows. Neither: nothing is known.
+/// How the part of the tether on the drum is cooled: by a factor that its user knows, else by the
+/// package that it is wound to (drum_package.hpp), else by its number of layers. None of them:
+/// nothing is known.
 struct Drum {
   int layers = 0;                    ///< 1 to 4; 0: not stated
   std::optional<double> derating{};  ///< in (0, 1], current wound up over current laid out
+  double core_diameter = 0;          ///< m, that the tether is wound on; 0: not stated
+  double width = 0;                  ///< m between the flanges; 0: not stated
+  /// W/(m·K) across the wound wires; nothing: that of the wires and the air between them.
+  std::optional<double> package_conductivity{};
 
   bool operator==(const Drum&) const = default;  ///< member by member
 };
@@ -104,6 +109,9 @@ struct Tether {
                                         ///< asked for: without current
   Insulation insulation;                ///< of each conductor
   double contact_resistance = 0;        ///< Ω, plugs and slip rings of the whole loop
+  double stranding_factor = 1;          ///< ≥ 1, resistance over that of solid wire of that area
+  double cover_mass = 0;                ///< kg/m of jacket, fillers and fibres that carry nothing
+  double cover_width = 0;               ///< m, that these add to the width of both conductors
   double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
   double projection_factor = 0.75;      ///< k, mean projected width of the turning pair over 4(r+s)
   std::optional<double> cross_section;  ///< m² of one conductor, where the cable is already chosen
@@ -111,7 +119,10 @@ struct Tether {
   /// °C of the air. Set, the conductor's temperature is that of a steady heat balance, and
   /// `conductor_temperature_C` is not used; unset, it is what that says.
   std::optional<double> ambient_temperature_C{};
-  MeasuredHeating heating{};         ///< takes the place of the balance where it was measured
+  MeasuredHeating heating{};  ///< takes the place of the balance where it was measured
+  /// rad over the ground, in [0, π/2], of the tether in the air, for its heat; π/2 hangs straight
+  /// down. Nothing: as Surroundings has it without.
+  std::optional<double> inclination{};
   double sun = 0;                    ///< W/m² of sunlight across the tether in the air
   Drum drum;                         ///< of the length on it
   StrengthMember strength_member{};  ///< beside the conductors
@@ -141,6 +152,10 @@ struct Tether {
 
 /// Resistivity in Ω·m at `temperature` in °C: ρ = ρ20·(1 + α(T − 20 °C)) (IEC 60287-1-1, 2.1.1).
 [[nodiscard]] double resistivity(const Conductor& conductor, double temperature_C);
+
+/// Ω·m of the tether's conductors over the area of their metal: that of the material times
+/// `stranding_factor`, since strands lie askew and are thinner than their sum is measured.
+[[nodiscard]] double effective_resistivity(const Tether& tether, double temperature_C);
 
 /// Radius in m of a round conductor of `area` m².
 [[nodiscard]] double conductor_radius(double area);

@@ -38,8 +38,10 @@ struct TetherHeatState {
 
 /// The heat of a tether with one conductor in one flight: by the balance of conductor_heat.hpp in
 /// the flight's air, wind and sun, or by the heating that was measured where the design has one.
-/// The wound part lies in the shade, in still air, and gives off the square of its current derating
-/// of what it would laid out. For a design that `is_heated`; the flight must outlive this.
+/// The wound part lies in the shade, in still air. By its package it is as warm as the hottest turn
+/// (drum_package.hpp), which also its resistance is taken for; by a derating it gives off the
+/// square of that of what it would laid out. For a design that `is_heated`; the flight must outlive
+/// this.
 class TetherHeat {
  public:
   /// `radius` in m of the conductors. All but the sun makes a thicker cable cooler at the same

@@ -54,7 +54,11 @@ namespace tethercalc {
 /// What the heat balance of this design does not know and the user should, a sentence each.
 [[nodiscard]] std::vector<std::string> cable_warnings(const Design& design);
 
-/// What the reader of the spec noted, then these.
+/// What the reader of the spec noted, and whether the motors' curve should have been scaled to the
+/// density of the air.
+[[nodiscard]] std::vector<std::string> spec_warnings(const DesignFile& file);
+
+/// `spec_warnings`, then `cable_warnings`.
 [[nodiscard]] std::vector<std::string> all_warnings(const DesignFile& file);
 
 // --- `optimize`, `evaluate` and `compare` ---
