@@ -45,8 +45,9 @@ double time_of(const Plan& plan, const std::vector<Manoeuvre>& candidates) {
 
 /// Rows of logs and candidates by the columns of one question.
 struct Grams {
-  std::vector<MatrixXd> logged;     ///< one a block
-  std::vector<MatrixXd> manoeuvre;  ///< one a candidate
+  std::vector<MatrixXd> logged;  ///< one a block
+  /// Of each candidate one a piece as long as a block.
+  std::vector<std::vector<MatrixXd>> manoeuvre;
 };
 
 /// One effect that is to be settled.
@@ -163,7 +164,7 @@ class Forecast {
     double rows = terms_.logged_rows;
     for (std::size_t k = 0; k < plan.size(); ++k) {
       if (plan[k] == 0) continue;
-      gram += plan[k] * question.grams.manoeuvre[k];
+      for (const MatrixXd& piece : question.grams.manoeuvre[k]) gram += plan[k] * piece;
       rows += plan[k] * terms_.manoeuvre_rows[k];
     }
     const Beside beside(gram, question.nuisances);
@@ -234,8 +235,9 @@ class Forecast {
     for (const MatrixXd& block : question.grams.logged) add(block, 1, 1);
     for (std::size_t k = 0; k < plan.size(); ++k) {
       if (plan[k] == 0) continue;
-      add(question.grams.manoeuvre[k], std::max(1.0, candidates_[k].duration / shortest_block),
-          plan[k]);
+      const auto pieces = static_cast<double>(question.grams.manoeuvre[k].size());
+      const double share = std::max(1.0, candidates_[k].duration / shortest_block) / pieces;
+      for (const MatrixXd& piece : question.grams.manoeuvre[k]) add(piece, share, plan[k]);
     }
     return std::sqrt(blocks / (blocks - 1) * std::max(0.0, squares - sum * sum / blocks));
   }
@@ -452,7 +454,8 @@ class Planning {
   [[nodiscard]] Forecast forecast(const std::vector<Open>& open,
                                   const std::vector<Manoeuvre>& candidates) const {
     std::vector<FlightData> all = logged_;
-    all.push_back(further_flight(candidates));
+    std::vector<std::size_t> pieces;
+    all.push_back(further_flight(candidates, pieces));
     const FlightModel joint(design_, all, effects_, options_.base);
     const Record rows(joint.problem);
     Terms terms;
@@ -460,13 +463,17 @@ class Planning {
     terms.row_variance = std::pow(diagnosis_.extended.holdout_rmse, 2);
     terms.correlated = std::max(1.0, logged_rows / std::max(1.0, diagnosis_.effective_samples));
     terms.logged_rows = logged_rows;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-      terms.manoeuvre_rows.push_back(static_cast<double>(rows.block_size(record_.blocks() + k)));
+    for (std::size_t k = 0, block = record_.blocks(); k < candidates.size(); ++k) {
+      double count = 0;
+      for (std::size_t i = 0; i < pieces[k]; ++i) {
+        count += static_cast<double>(rows.block_size(block++));
+      }
+      terms.manoeuvre_rows.push_back(count);
     }
     terms.options = options_.selection;
     for (const ParameterGroup& group : joint.problem.groups) terms.tested += group.fitted ? 0 : 1;
     std::vector<Question> questions;
-    for (const Open& o : open) questions.push_back(question(o, joint, rows, terms));
+    for (const Open& o : open) questions.push_back(question(o, joint, rows, terms, pieces));
     return {std::move(questions), std::move(terms), candidates};
   }
 
@@ -500,8 +507,9 @@ class Planning {
     return drone;
   }
 
-  /// Every candidate once, each a block of its own.
-  [[nodiscard]] FlightData further_flight(const std::vector<Manoeuvre>& candidates) const {
+  /// Every candidate once, cut into pieces as long as the blocks of a log: `pieces` of each.
+  [[nodiscard]] FlightData further_flight(const std::vector<Manoeuvre>& candidates,
+                                          std::vector<std::size_t>& pieces) const {
     const FlownBy flown_by = drone();
     const NominalFlight nominal = nominal_flight(candidates, limits_, heading_, flown_by);
     FlightData data;
@@ -509,14 +517,26 @@ class Planning {
     data.observations = observe(nominal.log, {0, size}, 0, flown_by.gravity);
     data.record =
         flight_record(data.observations, flown_by.mass, flown_by.air_density, flown_by.gravity);
-    for (std::size_t i = 0; i < size; ++i) {
-      const bool inside = i > 0 && i + 1 < size;
-      data.block.push_back(inside ? static_cast<int>(record_.blocks() + nominal.manoeuvre[i]) : -1);
+    std::size_t block = record_.blocks();
+    for (std::size_t first = 0; first < size;) {
+      std::size_t last = first;
+      while (last < size && nominal.manoeuvre[last] == nominal.manoeuvre[first]) ++last;
+      const std::size_t samples = last - first;
+      const double duration = nominal.log.time[last - 1] - nominal.log.time[first];
+      pieces.push_back(
+          std::max<std::size_t>(1, static_cast<std::size_t>(duration / shortest_block)));
+      for (std::size_t i = first; i < last; ++i) {
+        const bool inside = i > 0 && i + 1 < size;
+        const std::size_t piece = block + (i - first) * pieces.back() / samples;
+        data.block.push_back(inside ? static_cast<int>(piece) : -1);
+      }
+      block += pieces.back();
+      first = last;
     }
     data.faults.sample.assign(size, false);
     data.step = median_step(data.observations.time);
     data.usable = data.step * static_cast<double>(size);
-    data.blocks = candidates.size();
+    data.blocks = block - record_.blocks();
     return data;
   }
 
@@ -549,7 +569,8 @@ class Planning {
   }
 
   [[nodiscard]] Question question(const Open& open, const FlightModel& joint, const Record& rows,
-                                  const Terms& terms) const {
+                                  const Terms& terms,
+                                  const std::vector<std::size_t>& pieces) const {
     const Effect& effect = model_.effect(open.group);
     Question q;
     q.decision = {effect.id, model_.flight_of(open.group), effect.own_in_each_flight,
@@ -641,10 +662,16 @@ class Planning {
       const ModelParameter& p = joint.problem.groups[target].parameters[k];
       q.sizes += p.is_free() && !p.shape_only ? 1 : 0;
     }
-    for (std::size_t b = 0; b < rows.blocks(); ++b) {
-      const auto part = all.middleRows(rows.block_begin(b), rows.block_size(b));
-      (b < record_.blocks() ? q.grams.logged : q.grams.manoeuvre)
-          .push_back(part.transpose() * part);
+    std::size_t block = 0;
+    const auto next_gram = [&]() -> MatrixXd {
+      const auto part = all.middleRows(rows.block_begin(block), rows.block_size(block));
+      ++block;
+      return part.transpose() * part;
+    };
+    while (block < record_.blocks()) q.grams.logged.push_back(next_gram());
+    for (const std::size_t count : pieces) {
+      std::vector<MatrixXd>& grams = q.grams.manoeuvre.emplace_back();
+      while (grams.size() < count) grams.push_back(next_gram());
     }
     q.grams.logged.front() += small(all.cols(), weight);
     return q;

@@ -232,7 +232,8 @@ FlightLog fly(const HiddenFlight& h) {
     const double old_down = down;
     const double climbing = -h.climb * std::numbers::pi / climb_period *
                             std::sin(2 * std::numbers::pi * time / climb_period);
-    down += (sinking.next(random) + climbing + autopilot.sinking() - down) * step / 0.6;  // smooth: inertia
+    down += (sinking.next(random) + climbing + autopilot.sinking() - down) * step /
+            0.6;  // smooth: inertia
     const double down_acceleration = (down - old_down) / step;
     height -= down * step;
     const double ahead = std::cos(yaw - first_heading);

@@ -60,12 +60,12 @@ struct HiddenFlight {
   /// takes; the roll then moves the drone.
   std::vector<Leg> course{};
   double course_acceleration = 2.5;  ///< m/s², speeding up and braking
-  double lateral_std = 0.35;   ///< m/s, speed to the right
-  double gust_with_speed = 0;  ///< s/m: gusts grow by this part with each m/s of speed
-  double pitch_drift = 0;      ///< deg, slow wave of the logged pitch, period 200 s
-  double speed_digit = 0;      ///< m/s, speeds are rounded to this
-  double steepest_pitch = 30;  ///< deg
-  int steps_per_sample = 10;   ///< of 10 ms: 10 Hz
+  double lateral_std = 0.35;         ///< m/s, speed to the right
+  double gust_with_speed = 0;        ///< s/m: gusts grow by this part with each m/s of speed
+  double pitch_drift = 0;            ///< deg, slow wave of the logged pitch, period 200 s
+  double speed_digit = 0;            ///< m/s, speeds are rounded to this
+  double steepest_pitch = 30;        ///< deg
+  int steps_per_sample = 10;         ///< of 10 ms: 10 Hz
   /// m/s, white noise of an anemometer on board; 0: there is none.
   double anemometer_noise = 0;
   double climb = 0;  ///< m, a climb to this height and back every two minutes
