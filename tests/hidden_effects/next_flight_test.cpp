@@ -23,7 +23,8 @@ const std::vector<std::string> turning_base{"linear_drag", "turning_wind"};
 /// cable and an askew drag from each other.
 HiddenFlight poor_flight(int draw) {
   HiddenFlight hidden;
-  hidden.seed = 1000 + 17 * static_cast<std::uint64_t>(draw / 2);
+  // Draws whose plans are short: minutes are what this test costs.
+  hidden.seed = 1068 + 17 * static_cast<std::uint64_t>(draw / 2);
   hidden.duration = 120;
   hidden.wind = 0;
   (draw % 2 == 0 ? hidden.pitch_trim : hidden.fore_aft_asymmetry) = draw % 2 == 0 ? 2.5 : 0.2;

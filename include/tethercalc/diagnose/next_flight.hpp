@@ -64,7 +64,7 @@ struct FinerBase {
 
 /// The plan.
 struct NextFlight {
-  FlightLimits limits;
+  FlightLimits limits;                ///< that it keeps to
   std::vector<Manoeuvre> manoeuvres;  ///< in the order they are flown; none where nothing is open
   double duration = 0;                ///< s, of all manoeuvres
   std::vector<Decision> decides;      ///< what for

@@ -11,13 +11,14 @@ namespace tethercalc {
 
 /// The place over ground and the heights that its waypoints take up, m from home.
 struct FlightArea {
-  double south = 0;  ///< not above 0, as is `west`
-  double north = 0;  ///< not below 0, as is `east`
-  double west = 0;
-  double east = 0;
-  double lowest = 0;  ///< over home
-  double highest = 0;
+  double south = 0;    ///< not above 0, as is `west`
+  double north = 0;    ///< not below 0, as is `east`
+  double west = 0;     ///< likewise
+  double east = 0;     ///< likewise
+  double lowest = 0;   ///< over home
+  double highest = 0;  ///< over home
 };
+/// What the flight takes up.
 [[nodiscard]] FlightArea area_of(const NextFlight& flight);
 
 /// minutes, area, manoeuvres, decides, undecided and more; `file` is where its mission was written,
