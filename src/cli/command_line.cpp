@@ -292,6 +292,15 @@ class CommandLine {
         .option_or_flag("--into", diagnose_.into_file,
                         "Write the extended spec to this file; without a name print it instead of "
                         "the diagnosis")
+        .option("--next-flight", diagnose_.next_flight_file,
+                "Write the shortest flight that settles what stays open as a mission: .waypoints "
+                "(ArduPilot) or .plan (QGroundControl)")
+        .option("--home", diagnose_.home,
+                "Where it begins, LAT,LON in degrees (default: where the log took off)")
+        .option("--height-m", diagnose_.height_m,
+                "Of its passes over home, m (default: the log's median, at least 10)")
+        .option("--reach-m", diagnose_.reach_m,
+                "How far from home it may go, m (default: as far as the log did)")
         .output(output_);
     add("log", "What a DataFlash log holds", [this] { return run_log(what_, message_, output_); })
         .argument("LOG", what_, "DataFlash log (.bin)")

@@ -18,6 +18,7 @@
 #include "tethercalc/study/cable_shape.hpp"
 #include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
+#include "tethercalc/study/next_flight.hpp"
 
 namespace tethercalc::cli {
 
@@ -204,13 +205,18 @@ struct DiagnoseOptions {
   std::vector<std::string> base;          ///< ids of effects that are part of the base model
   std::vector<std::string> effect_files;  ///< effects to try beside those of the catalogue
   FlightOptions flight;
-  bool into = false;      ///< print the extended spec instead of the diagnosis
-  std::string into_file;  ///< write it there instead, beside the diagnosis
+  bool into = false;             ///< print the extended spec instead of the diagnosis
+  std::string into_file;         ///< write it there instead, beside the diagnosis
+  std::string next_flight_file;  ///< write the mission of a further flight there
+  std::string home;              ///< where it begins: "LAT,LON" in degrees
+  std::optional<double> height_m;
+  std::optional<double> reach_m;
 };
 
 /// What the logs say; either may be absent.
 struct ToldDiagnosis : DiagnosisStudy {
-  nlohmann::ordered_json spec;  ///< of the extended design
+  nlohmann::ordered_json spec;              ///< of the extended design
+  std::optional<NextFlight> next_flight{};  ///< where it was asked for
 };
 
 /// Compares each log that `options` name with the spec as it stands; what both together do to the

@@ -20,10 +20,12 @@
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
+#include "tethercalc/io/mission.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 #include "tethercalc/report/log_report.hpp"
+#include "tethercalc/report/next_flight_report.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -172,18 +174,26 @@ DiagnosisStudy studied(const DiagnoseOptions& options, const DiagnosisQuestion& 
   }
 }
 
-void tell(const ToldDiagnosis& told, const Output& output) {
+/// `mission` is where the next flight was written, if anywhere.
+void tell(const ToldDiagnosis& told, const std::string& mission, const Output& output) {
   const Diagnosis& only = told.power ? *told.power : *told.flight;
   const bool both = told.flight && told.power;
   emit(
       output,
       [&] {
-        return both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
-                    : diagnosis_text(only, style_for(output));
+        std::string text = both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
+                                : diagnosis_text(only, style_for(output));
+        if (told.next_flight) {
+          text += next_flight_text(*told.next_flight, mission, style_for(output));
+        }
+        return text;
       },
       [&] {
-        return both ? joint_diagnosis_json(*told.flight, *told.power, told.spec)
-                    : diagnosis_json(only, told.spec);
+        nlohmann::ordered_json json =
+            both ? joint_diagnosis_json(*told.flight, *told.power, told.spec)
+                 : diagnosis_json(only, told.spec);
+        if (told.next_flight) json["next_flight"] = next_flight_json(*told.next_flight, mission);
+        return json;
       },
       [&] {
         std::vector<Finding> findings = told.flight ? told.flight->findings : only.findings;
@@ -194,19 +204,88 @@ void tell(const ToldDiagnosis& told, const Output& output) {
       });
 }
 
-/// Refuses to write the extended spec over what it is made from.
-void check_into(const DiagnoseOptions& options) {
-  if (options.into_file.empty()) return;
+/// Refuses to write a file over what it is made from.
+void check_not_read(const DiagnoseOptions& options, const char* option, const std::string& file) {
+  if (file.empty()) return;
   std::vector<std::string> inputs = options.flight_logs;
   inputs.insert(inputs.end(), {options.spec.file, options.power_log});
   inputs.insert(inputs.end(), options.effect_files.begin(), options.effect_files.end());
   for (const std::string& read : inputs) {
     std::error_code ignored;
-    if (std::filesystem::equivalent(options.into_file, read, ignored)) {
-      throw InputError(
-          "--into", fmt::format("\"{}\" is read; give another file to write", options.into_file));
+    if (std::filesystem::equivalent(file, read, ignored)) {
+      throw InputError(option, fmt::format("\"{}\" is read; give another file to write", file));
     }
   }
+}
+
+/// "LAT,LON" in degrees.
+Home given_home(const std::string& text) {
+  const char* at = text.c_str();
+  double numbers[2] = {};
+  bool fits = true;
+  for (int k = 0; k < 2 && fits; ++k) {
+    char* end = nullptr;
+    numbers[k] = std::strtod(at, &end);
+    fits = end != at && *end == (k == 0 ? ',' : '\0') && std::isfinite(numbers[k]);
+    at = end + 1;
+  }
+  if (!fits || std::abs(numbers[0]) > 85 || std::abs(numbers[1]) > 180) {
+    throw InputError("--home",
+                     fmt::format("\"{}\" is no place; allowed are a latitude from -85 to 85 and a "
+                                 "longitude from -180 to 180, in degrees: 47.3977,8.5456",
+                                 text));
+  }
+  return {numbers[0], numbers[1], 0};
+}
+
+/// Where the first flight that knows took off.
+std::optional<Home> home_of(const std::vector<std::string>& flight_logs) {
+  for (const std::string& name : flight_logs) {
+    const MappedFile log(name);
+    if (!looks_like_dataflash(log.bytes())) continue;
+    if (const auto home = logged_home(log.bytes())) return home;
+  }
+  return std::nullopt;
+}
+
+/// Where and how the next flight's mission is written.
+struct MissionTarget {
+  MissionFormat format = MissionFormat::waypoints;
+  Home home;
+};
+
+/// What the options say of it, checked before anything takes time; nothing where none is asked for.
+std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
+  if (options.next_flight_file.empty()) {
+    if (!options.home.empty() || options.height_m || options.reach_m) {
+      throw InputError(!options.home.empty() ? "--home"
+                       : options.height_m    ? "--height-m"
+                                             : "--reach-m",
+                       "is of the next flight; give --next-flight FILE as well");
+    }
+    return std::nullopt;
+  }
+  MissionTarget target{mission_format(options.next_flight_file), {}};
+  check_not_read(options, "--next-flight", options.next_flight_file);
+  if (options.into && options.into_file.empty()) {
+    throw InputError("--next-flight",
+                     "goes with the diagnosis, which --into without a file "
+                     "replaces; give --into a file");
+  }
+  if (options.flight_logs.empty()) {
+    throw InputError("--next-flight", "needs a flight to follow up: --flight LOG");
+  }
+  if (options.height_m) check_range("--height-m", *options.height_m, 1, 500, "m");
+  if (options.reach_m) check_range("--reach-m", *options.reach_m, 1, 5000, "m");
+  if (!options.home.empty()) {
+    target.home = given_home(options.home);
+  } else if (const auto home = home_of(options.flight_logs)) {
+    target.home = *home;
+  } else {
+    throw InputError("--next-flight",
+                     "needs the place of take-off, which no log holds: --home LAT,LON in degrees");
+  }
+  return target;
 }
 
 }  // namespace
@@ -374,21 +453,32 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   if (study.flight) {
     study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
   }
+  std::optional<NextFlight> next;
+  if (!options.next_flight_file.empty()) {
+    next = study_next_flight(
+        {std::move(question), study.flight.value(), options.height_m, options.reach_m});
+  }
   // Checked as if a person had written it.
   DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);
-  return {std::move(study), std::move(extended.document)};
+  return {std::move(study), std::move(extended.document), std::move(next)};
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
-  check_into(options);
+  check_not_read(options, "--into", options.into_file);
+  const std::optional<MissionTarget> target = mission_target(options);
   const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
     emit(output, json_text(told.spec));
     return done;
   }
   if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.spec));
-  tell(told, output);
-  return done;
+  const bool planned = told.next_flight && !told.next_flight->manoeuvres.empty();
+  if (planned) {
+    write_whole_file(options.next_flight_file,
+                     mission_text(*told.next_flight, target->home, target->format));
+  }
+  tell(told, planned ? options.next_flight_file : "", output);
+  return told.next_flight && !planned && !told.next_flight->undecided.empty() ? answer_is_no : done;
 }
 
 }  // namespace tethercalc::cli

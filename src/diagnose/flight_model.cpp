@@ -14,9 +14,6 @@
 namespace tethercalc {
 namespace {
 
-/// More blocks sharpen the spread between them only a little: with 30, Student's factor is 4 %
-/// above the normal one.
-constexpr std::size_t most_blocks = 30;
 /// A yaw that stays within this never turned; its noise would only be a regressor of noise.
 constexpr double steady_yaw = 0.1;  // rad
 

@@ -29,7 +29,7 @@ constexpr double fastest_m_s = 500;
 constexpr double furthest_yaw_deg = 360'000;
 
 /// Samples as logged: time in s, angles in degrees, velocities in m/s.
-enum Channel : std::size_t {
+enum LogColumn : std::size_t {
   time_s,
   roll_deg,
   pitch_deg,
@@ -45,7 +45,7 @@ enum Channel : std::size_t {
 using Samples = std::vector<std::vector<double>>;
 
 bool is_plausible(const Samples& samples, std::size_t i) {
-  const auto within = [&](Channel channel, double limit) {
+  const auto within = [&](LogColumn channel, double limit) {
     return std::abs(samples[channel][i]) <= limit;  // false for NaN
   };
   return std::isfinite(samples[time_s][i]) && within(roll_deg, furthest_roll_deg) &&
@@ -77,7 +77,7 @@ std::size_t remove_implausible(Samples& samples) {
 bool is_leap(const Samples& samples, std::size_t i) {
   const std::vector<double>& time = samples[time_s];
   const double most = std::max(10.0, 200 * (time[i + 1] - time[i - 1]) / 2);
-  return std::ranges::any_of(std::array{vn, ve, vd}, [&](Channel channel) {
+  return std::ranges::any_of(std::array{vn, ve, vd}, [&](LogColumn channel) {
     const std::vector<double>& v = samples[channel];
     if (v.empty()) return false;
     const double up = v[i] - v[i - 1];
@@ -302,7 +302,7 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
                                                  within("wind_north_m_s", fastest_m_s),
                                                  within("wind_east_m_s", fastest_m_s),
                                                  within("airspeed_forward_m_s", fastest_m_s)};
-  for (const Channel measured : {wind_north, wind_east, airspeed_forward}) {
+  for (const LogColumn measured : {wind_north, wind_east, airspeed_forward}) {
     wanted[measured].required = false;
   }
   FlightLogReading reading;

@@ -82,11 +82,6 @@ std::string name_of(const Told& told) {
   return told.flight > 0 ? fmt::format("{} (flight {})", told.effect, told.flight) : told.effect;
 }
 
-std::string with_stop(std::string sentence) {
-  if (!sentence.ends_with('.')) sentence += '.';
-  return sentence;
-}
-
 constexpr const char* impact_heading = "What it does to the design";
 
 std::string impact_sentence(const DesignImpact& impact) {

@@ -27,6 +27,11 @@ ordered_json operating_point_json(const OperatingPoint& point) {
   return out;
 }
 
+std::string with_stop(std::string sentence) {
+  if (!sentence.ends_with('.')) sentence += '.';
+  return sentence;
+}
+
 std::string csv_text(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string out = "\"";

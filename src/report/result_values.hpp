@@ -30,6 +30,9 @@ template <typename Values, typename Of>
 /// An operating point under the keys of `operating_point_fields`.
 [[nodiscard]] ordered_json operating_point_json(const OperatingPoint& point);
 
+/// A sentence that ends in a full stop, whether it did or not.
+[[nodiscard]] std::string with_stop(std::string sentence);
+
 /// A text as one cell of CSV, quoted where it has to be (RFC 4180).
 [[nodiscard]] std::string csv_text(std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "study/as_flown.hpp"
 #include "tethercalc/model/units.hpp"
 #include "tethercalc/solve/optimize.hpp"
 
@@ -44,6 +45,20 @@ AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& chan
 
 }  // namespace
 
+Design as_flown(const Design& design, const LoggedFlight& flight) {
+  Design flown = design;
+  flown.drone.mass = flight.mass.value_or(design.drone.mass);
+  flown.flight.air_density = flight.air_density.value_or(design.flight.air_density);
+  return flown;
+}
+
+FlightDiagnosisOptions flight_options(const DiagnosisQuestion& question) {
+  FlightDiagnosisOptions options = question.flight->options;
+  options.hypotheses.insert(options.hypotheses.end(), question.hypotheses.begin(),
+                            question.hypotheses.end());
+  return options;
+}
+
 DesignImpact design_impact(const Design& before, const Design& after) {
   DesignImpact impact;
   record(before, impact.cross_section_mm2.before, impact.total_power_W.before);
@@ -56,14 +71,9 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
   const Design& design = question.design;
   DiagnosisStudy study{{}, {}, design};
   if (const auto& flight = question.flight) {
-    Design flown = design;
-    flown.drone.mass = flight->mass.value_or(design.drone.mass);
-    flown.flight.air_density = flight->air_density.value_or(design.flight.air_density);
-    FlightDiagnosisOptions options = flight->options;
-    options.hypotheses.insert(options.hypotheses.end(), question.hypotheses.begin(),
-                              question.hypotheses.end());
     study.flight = of_suitable(LogKind::flight, [&] {
-      return diagnose_flights(flown, flight->flights, options, progress);
+      return diagnose_flights(as_flown(design, *flight), flight->flights, flight_options(question),
+                              progress);
     });
   }
   if (const auto& power = question.power) {

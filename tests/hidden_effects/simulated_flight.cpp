@@ -71,6 +71,66 @@ class Pilot {
   double actual_ = 0;
 };
 
+/// Flies legs: the wanted speed follows from time alone, the lean from what the speed and the place
+/// are behind, as a cascade of controllers does. Along both axes of the drone alike.
+class Autopilot {
+ public:
+  explicit Autopilot(const HiddenFlight& hidden) : hidden_(hidden) {}
+
+  [[nodiscard]] bool is_done() const { return leg_ >= hidden_.course.size(); }
+  [[nodiscard]] double yaw(double now) const { return is_done() ? now : leg().heading; }
+  [[nodiscard]] double tilt() const { return ahead_.actual; }
+  [[nodiscard]] double roll() const { return aside_.actual; }
+  [[nodiscard]] double sinking() const { return sinking_; }
+
+  void advance(double yaw, double speed, double right) {
+    if (is_done()) return;
+    const bool turned = std::abs(std::remainder(leg().heading - yaw, 2 * std::numbers::pi)) < 0.01;
+    const double length = std::hypot(leg().ahead, leg().aside, leg().climb);
+    const double a = hidden_.course_acceleration;
+    const double top = std::min(leg().speed, std::sqrt(a * length));
+    const double ramp = top / a;
+    const double flown = length > 0 ? length / top + ramp : 0;
+    if (turned || time_ > 0) time_ += step;
+    double wanted = 0;
+    if (time_ < flown) wanted = top * std::min({1.0, time_ / ramp, (flown - time_) / ramp});
+    const double part = length > 0 ? wanted / length : 0;
+    sinking_ = -part * leg().climb;
+    ahead_.follow(part * leg().ahead, speed);
+    aside_.follow(part * leg().aside, right);
+    if (time_ < flown + leg().hold) return;
+    time_ = 0;
+    ++leg_;
+  }
+
+ private:
+  struct Axis {
+    double smooth = 0;  ///< wanted speed, rounded
+    double behind = 0;  ///< m
+    double actual = 0;  ///< rad
+    double sum = 0;     ///< m/s², what wind and drag take
+    double commanded = 0;
+    void follow(double wanted, double speed) {
+      const double before = smooth;
+      smooth += (wanted - smooth) * step / 0.3;
+      behind += (smooth - speed) * step;
+      const double error = smooth - speed + 0.6 * behind;
+      sum = std::clamp(sum + 0.5 * error * step, -5.0, 5.0);
+      const double lean = std::atan(((smooth - before) / step + 1.5 * error + sum) / gravity);
+      commanded += std::clamp(lean - commanded, -2 * step, 2 * step);
+      actual += (commanded - actual) * step / response_time;
+    }
+  };
+  [[nodiscard]] const Leg& leg() const { return hidden_.course[leg_]; }
+
+  const HiddenFlight& hidden_;
+  std::size_t leg_ = 0;
+  double time_ = 0;
+  double sinking_ = 0;
+  Axis ahead_;
+  Axis aside_;
+};
+
 /// Forward; `aside` is the airspeed to the right, which makes the force along the airspeed larger.
 double drag(const HiddenFlight& h, double u, double aside, double tilt, double down, double roll,
             double height, bool late) {
@@ -120,7 +180,9 @@ FlightLog fly(const HiddenFlight& h) {
   Pilot pilot_aside(h.pattern, h.steepest_roll, h.duration);
   Wander gust(h.gust_std, h.gust_time);
   Wander gust_aside(h.gust_std, h.gust_time);
-  const bool both_axes = h.steepest_roll > 0;
+  const bool commanded = !h.course.empty();
+  const bool both_axes = h.steepest_roll > 0 || commanded;
+  Autopilot autopilot(h);
   Wander rolling(h.roll_std * degree, 1.0);
   Wander sideways(h.lateral_std, 4.5);
   Wander sinking(0.4, 1.5);
@@ -131,6 +193,7 @@ FlightLog fly(const HiddenFlight& h) {
   double down = 0;
   double height = 10;
   double yaw = uniform(random, 0, 2 * std::numbers::pi);
+  if (commanded) yaw = h.course.front().heading;
   const double first_heading = yaw;
   double drifting = 0;  // m/s to the right, where the roll moves the drone
   double lagging_forward = 0;
@@ -138,7 +201,7 @@ FlightLog fly(const HiddenFlight& h) {
   double next_turn = 40;
   double wanted_yaw = yaw;
   const auto steps = static_cast<std::size_t>(h.duration / step);
-  for (std::size_t k = 0; k < steps; ++k) {
+  for (std::size_t k = 0; commanded ? !autopilot.is_done() : k < steps; ++k) {
     const double time = static_cast<double>(k) * step;
     const bool late = time > 0.45 * h.duration;
     if (h.yaw_turns && time >= next_turn) {
@@ -148,7 +211,11 @@ FlightLog fly(const HiddenFlight& h) {
     if (h.pattern == Pattern::circles) wanted_yaw += 2 * std::numbers::pi / 60 * step;
     const double turn = std::clamp(wanted_yaw - yaw, -0.5 * step, 0.5 * step);
     yaw += turn;
-    const double tilt = pilot.tilt(time, random);
+    if (commanded) {
+      wanted_yaw = yaw + std::remainder(autopilot.yaw(yaw) - yaw, 2 * std::numbers::pi);
+      autopilot.advance(yaw, speed, drifting);
+    }
+    const double tilt = commanded ? autopilot.tilt() : pilot.tilt(time, random);
     double roll = rolling.next(random);
     double right = sideways.next(random);
     if (h.yaw_misalign != 0) {
@@ -159,13 +226,14 @@ FlightLog fly(const HiddenFlight& h) {
       right = drifting;
     }
     if (both_axes) {
-      roll = pilot_aside.tilt(time, random);
+      roll = commanded ? autopilot.roll() : pilot_aside.tilt(time, random);
       right = drifting;
     }
     const double old_down = down;
     const double climbing = -h.climb * std::numbers::pi / climb_period *
                             std::sin(2 * std::numbers::pi * time / climb_period);
-    down += (sinking.next(random) + climbing - down) * step / 0.6;  // smooth: inertia
+    down += (sinking.next(random) + climbing + autopilot.sinking() - down) * step /
+            0.6;  // smooth: inertia
     const double down_acceleration = (down - old_down) / step;
     height -= down * step;
     const double ahead = std::cos(yaw - first_heading);

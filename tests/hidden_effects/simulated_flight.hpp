@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "tethercalc/identify/observations.hpp"
 
@@ -15,6 +16,16 @@ enum class Pattern {
   hover_first,   ///< hover for a third of the flight, then passes
   long_forward,  ///< long stretches forward at a few tilts, seldom backward
   circles,       ///< passes while the yaw turns steadily, once a minute
+};
+
+/// Commanded by an autopilot: the nose turns first, then the drone moves, then it hovers.
+struct Leg {
+  double heading = 0;  ///< rad, of the nose, clockwise from north
+  double ahead = 0;    ///< m along the nose
+  double aside = 0;    ///< m to its right
+  double climb = 0;    ///< m
+  double speed = 1;    ///< m/s over ground at most
+  double hold = 0;     ///< s
 };
 
 /// What is true of a flight. Effects that are hidden in it have values other than zero.
@@ -45,12 +56,16 @@ struct HiddenFlight {
   double roll_std = 2.0;       ///< deg
   bool yaw_turns = false;      ///< a new heading every 40 s
   Pattern pattern = Pattern::passes;
-  double lateral_std = 0.35;   ///< m/s, speed to the right
-  double gust_with_speed = 0;  ///< s/m: gusts grow by this part with each m/s of speed
-  double pitch_drift = 0;      ///< deg, slow wave of the logged pitch, period 200 s
-  double speed_digit = 0;      ///< m/s, speeds are rounded to this
-  double steepest_pitch = 30;  ///< deg
-  int steps_per_sample = 10;   ///< of 10 ms: 10 Hz
+  /// Flown instead of the pattern, by an autopilot that also holds the track, however long that
+  /// takes; the roll then moves the drone.
+  std::vector<Leg> course{};
+  double course_acceleration = 2.5;  ///< m/s², speeding up and braking
+  double lateral_std = 0.35;         ///< m/s, speed to the right
+  double gust_with_speed = 0;        ///< s/m: gusts grow by this part with each m/s of speed
+  double pitch_drift = 0;            ///< deg, slow wave of the logged pitch, period 200 s
+  double speed_digit = 0;            ///< m/s, speeds are rounded to this
+  double steepest_pitch = 30;        ///< deg
+  int steps_per_sample = 10;         ///< of 10 ms: 10 Hz
   /// m/s, white noise of an anemometer on board; 0: there is none.
   double anemometer_noise = 0;
   double climb = 0;  ///< m, a climb to this height and back every two minutes
