@@ -106,24 +106,29 @@ class Command {
                "Cross-section of one conductor (default: the spec's tether.cross_section_mm2)")
         .option("--height", shape.height,
                 "Of the drone over the station, m (default: tether.length_m)")
-        .option("--offset", shape.offset, "Of the drone aside, m (default 0)")
+        .option("--offset", shape.offset,
+                "Of the drone aside, m (default: flight.horizontal_offset_m)")
         .comma_list("--wind", shape.winds, "m/s (default: flight.airspeed_m_s)")
         .option("--wind-from", shape.wind_from,
                 "Degrees, clockwise from above, 0 from where the drone stands aside (default 0)")
-        .comma_list("--slack", shape.slacks_percent,
-                    "Cable paid out beyond the distance, percent of it (default 1)")
+        .comma_list(
+            "--slack", shape.slacks_percent,
+            "Cable paid out beyond the distance, percent of it (default: tether.slack_percent)")
         .option("--length", shape.length, "Or: the cable paid out, m")
         .option("--winch-tension", shape.winch_tension,
                 "Or: N that a winch holds at the station (default: tether.winch_pull_N)")
-        .option("--stiffness", shape.axial_stiffness, "EA, N (default: the cable does not stretch)")
-        .option("--station-height", shape.station_height, "Over ground, m (default 0)")
+        .option("--stiffness", shape.axial_stiffness, "EA, N (default: tether.axial_stiffness_N)")
+        .option("--station-height", shape.station_height,
+                "Over ground, m (default: flight.station_height_m)")
         .option("--profile", shape.profile,
-                "How the wind grows with height: uniform (default), power-law or logarithmic")
+                "How the wind grows with height: uniform, power-law or logarithmic (default: "
+                "flight.wind_profile)")
         .option("--reference-height", shape.reference_height,
-                "m over ground at which --wind blows, with a profile (default 10)")
-        .option("--exponent", shape.exponent, "Of the power law (default 1/7)")
+                "m over ground at which --wind blows, with a profile (default: "
+                "flight.wind_reference_height_m, or 10)")
+        .option("--exponent", shape.exponent, "Of the power law (default: flight.wind_exponent)")
         .option("--roughness", shape.roughness_length,
-                "m, of the logarithmic profile (default 0.03)");
+                "m, of the logarithmic profile (default: flight.roughness_length_m)");
   }
 
   Command& output_file(Output& output) {

@@ -88,19 +88,19 @@ struct ShapeOptions {
   SpecOptions spec;
   std::string cases_file;  ///< empty: the spec's cable
   std::vector<std::string> areas_mm2;
-  std::optional<double> height;
-  double offset = 0;
+  std::optional<double> height;  ///< this and the others: nothing where the spec says it
+  std::optional<double> offset;
   std::vector<std::string> winds;
   double wind_from = 0;
   std::vector<std::string> slacks_percent;
   std::optional<double> length;
   std::optional<double> winch_tension;
   std::optional<double> axial_stiffness;
-  double station_height = 0;
-  std::string profile = "uniform";
-  double reference_height = 10;
-  double exponent = 1.0 / 7;
-  double roughness_length = 0.03;
+  std::optional<double> station_height;
+  std::optional<std::string> profile;
+  std::optional<double> reference_height;
+  std::optional<double> exponent;
+  std::optional<double> roughness_length;
 };
 
 /// A design's cable and what is asked of it: one request a wind and slack.

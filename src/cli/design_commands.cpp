@@ -252,11 +252,12 @@ std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& 
         of_tension(checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N"))};
   }
   if (given == 0 && design.tether.winch_pull > 0) return {of_tension(design.tether.winch_pull)};
-  const std::vector<std::string> one_percent{"1"};
+  if (given == 0) {
+    return {of_length(slack_length(design.tether.slack, request.height, request.offset))};
+  }
   std::vector<PaidOut> out;
   for (const double percent :
-       checked(problems, "--slack", given ? options.slacks_percent : one_percent, 1e-6, 1000,
-               "percent")) {
+       checked(problems, "--slack", options.slacks_percent, 1e-6, 1000, "percent")) {
     out.push_back(of_length(slack_length(percent / 100, request.height, request.offset)));
   }
   return out;
@@ -267,20 +268,30 @@ std::vector<ShapeRequest> parsed_requests(const ShapeOptions& options, const Des
   ShapeRequest request;
   request.height =
       checked(problems, "--height", options.height.value_or(design.tether.length), 0.01, 1e5, "m");
-  request.offset = checked(problems, "--offset", options.offset, 0, 1e5, "m");
+  const Flight& flight = design.flight;
+  request.offset =
+      checked(problems, "--offset", options.offset.value_or(flight.horizontal_offset), 0, 1e5, "m");
   request.wind_from =
       checked(problems, "--wind-from", options.wind_from, -360, 360, "degrees") * unit::degree;
   request.station_height =
-      checked(problems, "--station-height", options.station_height, 0, 1e5, "m");
-  problems.succeeds([&] { request.profile = parsed_profile(options.profile); });
-  request.reference_height =
-      checked(problems, "--reference-height", options.reference_height, 0.1, 1e4, "m");
-  request.exponent = checked(problems, "--exponent", options.exponent, 0, 1, "");
+      checked(problems, "--station-height", options.station_height.value_or(flight.station_height),
+              0, 1e5, "m");
+  request.profile = flight.wind_profile;
+  if (options.profile) {
+    problems.succeeds([&] { request.profile = parsed_profile(*options.profile); });
+  }
+  request.reference_height = checked(
+      problems, "--reference-height",
+      options.reference_height.value_or(flight.wind_reference_height.value_or(10)), 0.1, 1e4, "m");
+  request.exponent =
+      checked(problems, "--exponent", options.exponent.value_or(flight.wind_exponent), 0, 1, "");
   request.roughness_length =
-      checked(problems, "--roughness", options.roughness_length, 1e-6, 10, "m");
+      checked(problems, "--roughness", options.roughness_length.value_or(flight.roughness_length),
+              1e-6, 10, "m");
   if (request.roughness_length >= request.reference_height) {
     problems.add("--roughness", "has to be less than --reference-height");
   }
+  request.axial_stiffness = design.tether.axial_stiffness;
   if (options.axial_stiffness) {
     request.axial_stiffness =
         checked(problems, "--stiffness", *options.axial_stiffness, 1, 1e12, "N");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "model/constants.hpp"
 #include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"
@@ -62,7 +63,8 @@ class Mission {
     const bool moves =
         std::hypot(next.north - at_.north, next.east - at_.east, next.height - at_.height) > 0.01;
     const double heading = degrees(next.heading);
-    const double turn = heading_ ? std::abs(std::remainder(heading - *heading_, 360)) : 180;
+    const double turn =
+        std::isnan(heading_) ? 180 : std::abs(std::remainder(heading - heading_, 360));
     const double turning = turn / turn_rate_deg_s;
     if (!moves) {
       add_place(Command::loiter_time, std::ceil(turning + next.hold), at_);
@@ -99,7 +101,7 @@ class Mission {
 
   Home home_;
   Waypoint at_;
-  std::optional<double> heading_;
+  double heading_ = nan;  ///< none yet
   double speed_ = 0;
   std::vector<Item> items_;
 };

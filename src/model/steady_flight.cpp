@@ -93,11 +93,14 @@ double SteadyFlight::radius_of_solved_weight(double limit) const {
   constexpr double thickest = 1;
   double light = -1;
   double heavy = thinnest;
-  while (heavy <= thickest && (light < 0 || weight(heavy) <= limit)) {
-    if (weight(heavy) <= limit) light = heavy;
-    heavy *= 2;
+  // Beyond radii at which it cannot hang it may hang again.
+  for (; heavy <= thickest; heavy *= 2) {
+    const double here = weight(heavy);
+    if (here <= limit) light = heavy;
+    if (light > 0 && here > limit && here < std::numeric_limits<double>::infinity()) break;
   }
-  if (light < 0 || heavy > thickest) return light;
+  if (light < 0 || 2 * light > thickest) return light;
+  if (heavy > thickest) heavy = 2 * light;
   // By ratios, then down to the last digit.
   while (heavy > light * (1 + 1e-3)) {
     const double middle = std::sqrt(light * heavy);

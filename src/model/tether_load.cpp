@@ -325,18 +325,23 @@ double TetherInFlight::hanging_mass(double radius) const {
   return straight_.mass_of(1, radius) * hanging_->at(radius).value.length;
 }
 
+double TetherInFlight::hanging_length(double radius) const {
+  const std::optional<double> fixed = hanging_->fixed_length();
+  return fixed ? *fixed : hanging_->at(radius).value.length;
+}
+
 double TetherInFlight::on_drum(double in_air) const {
   return std::max(0.0, straight_.on_drum_ - (in_air - straight_.deployed_));
 }
 
 double TetherInFlight::circuit_share(double radius) const {
-  const double in_air = hanging_->at(radius).value.length;
+  const double in_air = hanging_length(radius);
   return (in_air + on_drum(in_air)) / (straight_.deployed_ + straight_.on_drum_);
 }
 
 double TetherInFlight::resistance(double radius, double in_air_C, double on_drum_C) const {
   if (!hanging_) return straight_.resistance(radius, in_air_C, on_drum_C);
-  const double in_air = hanging_->at(radius).value.length;
+  const double in_air = hanging_length(radius);
   return straight_.resistance(radius, in_air, on_drum(in_air), in_air_C, on_drum_C);
 }
 
@@ -357,6 +362,7 @@ double TetherInFlight::radius_of_resistance(double resistance) const {
   for (int step = 0; step < 60; ++step) {
     const double line = resistance - contact_resistance();
     const double next = std::sqrt(resistance_area(radius) / line);
+    if (!(next < std::numeric_limits<double>::infinity())) break;
     if (!(std::abs(next - radius) > 1e-15 * radius)) break;
     radius = next;
   }

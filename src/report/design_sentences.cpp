@@ -62,14 +62,12 @@ constexpr LimitWords all_limits[] = {
      "No cross-section works: a supply of {voltage} V is outside the converter's range.",
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"},
-    {"Limited by the winch: any thicker, and its pull of {winch_N} N does not hold the tether up "
-     "in "
+    {"Limited by the tether: any thicker, and no way is found for it to hang up to the drone in "
      "{where}.",
-     "No cross-section works: a tether that the winch pulls with {winch_N} N cannot hang between "
-     "station and drone in {where}.",
-     "The winch's pull of {winch_N} N",
-     "the tether can no longer hang between station and drone in {where}",
-     "tether cannot hang there"}};
+     "No cross-section works: no way is found for the tether to hang up to the drone in {where}.",
+     "The tether's way up to the drone",
+     "no way is found for the tether to hang up to the drone in {where}",
+     "tether not found to hang"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
@@ -89,7 +87,6 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
                                       3)),
       fmt::arg("factor", significant(need.strength_safety_factor, 3)),
       fmt::arg("rated_W", significant(converter.rated_output_power.value_or(0), 4)),
-      fmt::arg("winch_N", significant(design.tether.winch_pull, 3)),
       fmt::arg("voltage", significant(design.supply.voltage, 4)),
       fmt::arg("highest_input", significant(converter.max_input_voltage.value_or(0), 4)));
 }
@@ -262,7 +259,7 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
     case Demand::tether_strength:
       return "too weak for its tension";
     case Demand::tether_shape:
-      return "cannot hang between station and drone in " + where;
+      return "no way found for it to hang up to the drone in " + where;
     case Demand::converter_rating:
       break;
   }
@@ -341,15 +338,23 @@ ordered_json thermal_json(const Design& design, const AreaPoints& points) {
 ordered_json cable_json(const Design& design, const AreaPoints& points) {
   const double load = breaking_load(design.tether, points.area);
   const double breakdown = breakdown_voltage(design);
-  return {{"tension_N",
-           number_or_null(std::max(points.hover.tether_tension, points.forward.tether_tension))},
-          {"breaking_load_N", number_or_null(load > 0 ? load : nan)},
-          {"required_safety_factor", design.requirements.strength_safety_factor},
-          {"wall_mm",
-           insulation_wall(design.tether.insulation, design.supply.voltage) / unit::millimetre},
-          {"breakdown_voltage_V", number_or_null(breakdown > 0 ? breakdown : nan)},
-          {"converter", converter_json(design, points)},
-          {"reserve_battery", battery_json(design, points.hover)}};
+  ordered_json out{{"tension_N", number_or_null(std::max(points.hover.tether_tension,
+                                                         points.forward.tether_tension))},
+                   {"breaking_load_N", number_or_null(load > 0 ? load : nan)},
+                   {"required_safety_factor", design.requirements.strength_safety_factor},
+                   {"wall_mm", insulation_wall(design.tether.insulation, design.supply.voltage) /
+                                   unit::millimetre},
+                   {"breakdown_voltage_V", number_or_null(breakdown > 0 ? breakdown : nan)},
+                   {"converter", converter_json(design, points)},
+                   {"reserve_battery", battery_json(design, points.hover)}};
+  if (design.tether.model == TetherModel::solved) {
+    for (const auto& [name, point] :
+         {std::pair{"hover", &points.hover}, std::pair{"forward", &points.forward}}) {
+      out["hanging"][name] = {{"paid_out_m", number_or_null(point->tether_length)},
+                              {"tension_N", number_or_null(point->tether_tension)}};
+    }
+  }
+  return out;
 }
 
 std::vector<std::string> cable_sentences(const Design& design, const AreaPoints& points) {
@@ -363,6 +368,17 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
         temperature_words("forward flight", points.forward),
         rated ? fmt::format("rated for {} °C", significant(*rated, 3))
               : std::string("of no known rating")));
+  }
+  if (tether.model == TetherModel::solved) {
+    sentences.push_back(fmt::format(
+        "It hangs as weight and wind have it, {}: {} m are paid out in hover and {} m in forward "
+        "flight, and at the drone its tension is {} N and {} N.",
+        tether.winch_pull > 0
+            ? fmt::format("pulled by a winch with {} N", significant(tether.winch_pull, 3))
+            : fmt::format("with {} % slack", significant(100 * tether.slack, 3)),
+        significant(points.hover.tether_length, 4), significant(points.forward.tether_length, 4),
+        significant(points.hover.tether_tension, 3),
+        significant(points.forward.tether_tension, 3)));
   }
   if (design.requirements.strength_safety_factor > 0) {
     const double tension = std::max(points.hover.tether_tension, points.forward.tether_tension);

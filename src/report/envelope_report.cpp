@@ -25,9 +25,10 @@ ReachWords words_of(Reach reach) {
 }
 
 /// What a limit means to somebody who pushes one of these further.
-std::string beyond_end(const Design& design, const ReachEnd& end) {
-  return end.bounded ? beyond_words(design, end.limit, end.condition)
-                     : "nothing ends it within the search";
+std::string beyond_end(const Design& design, Reach reach, const ReachEnd& end) {
+  if (end.bounded) return beyond_words(design, end.limit, end.condition);
+  const bool unwinds = reach == Reach::height && design.tether.spooled_length > 0;
+  return unwinds ? "the drum is empty" : "nothing ends it within the search";
 }
 
 std::string sentence_of(const Design& design, const ReachResult& result) {
@@ -35,7 +36,7 @@ std::string sentence_of(const Design& design, const ReachResult& result) {
   if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
   return fmt::format("Greatest {}: {} {}; beyond it {}.", words.noun,
                      fixed(result.end->value / words.si_factor, words.decimals), words.unit,
-                     beyond_end(design, *result.end));
+                     beyond_end(design, result.reach, *result.end));
 }
 
 /// What ends a reach; null where nothing does.
@@ -71,7 +72,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     for (const EnvelopePoint& point : curve.points) {
       table.add({fixed(point.against / against.si_factor, against.decimals),
                  fixed(end_value(point.end) / of.si_factor, of.decimals),
-                 point.end ? beyond_end(file.design, *point.end)
+                 point.end ? beyond_end(file.design, curve.of, *point.end)
                            : std::string("the demands are not met")});
     }
     out += table.text(style);

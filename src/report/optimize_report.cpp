@@ -27,7 +27,7 @@ Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
   out.sentences.push_back(limit_sentence(design, result));
   out.sentences.push_back(fmt::format(
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",
-      significant(design.tether.length, 3), fixed(hover.tether_mass / unit::gram, 1),
+      significant(hover.tether_length, 3), fixed(hover.tether_mass / unit::gram, 1),
       significant(hover.tether_resistance, 4), fixed(hover.takeoff_mass / unit::gram, 0)));
   for (std::string& sentence : cable_sentences(design, study.result)) {
     out.sentences.push_back(std::move(sentence));

@@ -85,10 +85,11 @@ void collect_within_tilt(const SteadyFlight& flight, double a, double b, Interva
 void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
                                 IntervalSet& radii) {
   constexpr double close = 1.05;
+  constexpr double next = 1.2;  // about as far apart as the cable is solved
   const auto hangs = [&](double r) { return flight.weight(r) < infinity; };
   const auto within = [&](double r) { return hangs(r) && within_tilt(flight, r, r); };
-  if (!hangs(a) && !hangs(b)) return;
-  if (hangs(a) && hangs(b)) {
+  if (!hangs(a) && !hangs(b) && b < next * a) return;
+  if (hangs(a) && hangs(b) && b < next * a) {
     const double left = left_of_load(a, b);
     const auto down = [&](double r) { return flight.tether().load(r).down; };
     if (within_tilt(flight, a, b, (1 - left) * down(a), 1 / left)) return append(radii, {a, b});

@@ -17,7 +17,10 @@ double search_start(Reach reach) { return reach == Reach::height ? shortest_leng
 }  // namespace
 
 double search_end(const Design& design, Reach reach) {
-  if (reach == Reach::height) return 1e4;
+  const Tether& tether = design.tether;
+  if (reach == Reach::height) {
+    return tether.spooled_length > 0 ? tether.length + tether.spooled_length : 1e4;
+  }
   if (reach != Reach::payload) return 100;
   return motor_in_flight(design).max_thrust() * design.drone.motor_count / design.flight.gravity;
 }
@@ -26,6 +29,10 @@ Design at_reach(Design design, Reach reach, double value) {
   double* const pushed[] = {&design.tether.length, &design.drone.mass, &design.flight.headwind,
                             &design.flight.airspeed};  // in the order of Reach
   double& field = *pushed[static_cast<std::size_t>(reach)];
+  Tether& tether = design.tether;
+  if (reach == Reach::height && tether.spooled_length > 0) {
+    tether.spooled_length = std::max(0.0, tether.length + tether.spooled_length - value);
+  }
   field = reach == Reach::payload ? field + value : value;
   return design;
 }

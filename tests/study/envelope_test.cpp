@@ -75,3 +75,17 @@ TEST_CASE("more height leaves less payload and less wind") {
     }
   }
 }
+
+TEST_CASE("height unwinds the drum: the circuit stays as long, and ends with the cable") {
+  Design design = test::published_design();
+  design.tether.cross_section = 1.2e-6;
+  design.tether.spooled_length = 20;
+  const Design higher = at_reach(design, Reach::height, 40);
+  CHECK(higher.tether.length == 40);
+  CHECK(higher.tether.spooled_length == Approx(10));
+  CHECK(evaluate(higher, 1.2e-6, Condition::hover).tether_resistance ==
+        Approx(evaluate(design, 1.2e-6, Condition::hover).tether_resistance));
+  const auto end = greatest_reach(design, Reach::height);
+  REQUIRE(end);
+  CHECK(end->value <= 50);
+}

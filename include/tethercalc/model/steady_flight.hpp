@@ -129,6 +129,8 @@ class SteadyFlight {
   /// The balance at `radius`; `tan_guess` saves iterations.
   [[nodiscard]] Balance balance(double radius, double tan_guess) const {
     const Weight weight = weighed(radius);
+    constexpr double none = std::numeric_limits<double>::infinity();
+    if (weight.value == none) return {none, {none, 0, 0}};
     const double tangent =
         tan_pitch(radius, weight.value, std::numeric_limits<double>::infinity(), tan_guess);
     return {tangent, inclined_thrust(radius, weight, tangent)};

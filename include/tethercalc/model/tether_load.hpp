@@ -160,6 +160,9 @@ class HangingLoad {
     Parts value;  ///< N, m
     Parts slope;  ///< N/m, 1
   };
+  /// m in the air, where that does not depend on the radius.
+  [[nodiscard]] std::optional<double> fixed_length() const { return situation_.paid_out.length; }
+
   /// The load with conductors of `radius` ≥ 0; thinner ones than 10 µm have the forces of such over
   /// their own load.
   [[nodiscard]] const AtRadius& at(double radius) const;
@@ -256,6 +259,7 @@ class TetherInFlight {
 
  private:
   [[nodiscard]] double hanging_mass(double radius) const;
+  [[nodiscard]] double hanging_length(double radius) const;
   [[nodiscard]] double on_drum(double in_air) const;
   /// Length of the circuit over that of a straight tether's.
   [[nodiscard]] double circuit_share(double radius) const;

@@ -21,7 +21,8 @@ enum class Reach {
 inline constexpr std::array all_reaches{Reach::height, Reach::payload, Reach::headwind,
                                         Reach::airspeed};
 
-/// How far the search goes: 10 km, what the motors' greatest thrust lifts, 100 m/s.
+/// How far the search goes: all the cable there is where some is left on the drum, else 10 km; what
+/// the motors' greatest thrust lifts; 100 m/s.
 [[nodiscard]] double search_end(const Design& design, Reach reach);
 
 /// The end of one reach.
@@ -32,7 +33,8 @@ struct ReachEnd {
   Condition condition = Condition::hover;  ///< where
 };
 
-/// `design` with the reach at `value`.
+/// `design` with the reach at `value`. With cable left on the drum, height unwinds it; without, the
+/// cable is as long as it flies high.
 [[nodiscard]] Design at_reach(Design design, Reach reach, double value);
 
 /// The greatest value at which the cable (`tether.cross_section`, which must be set) meets all that
