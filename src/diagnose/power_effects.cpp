@@ -153,7 +153,15 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_lengths,
        .change = "L = h(1 + s)",
        .channel = "current_height",
-       .on_power = [](PowerModel& m, Values x) { m.slack += x[0]; },
+       .on_power =
+           [](PowerModel& m, Values x) {
+             // A solved tether hangs with its slack; a straight one is only longer.
+             Tether& tether = m.design.tether;
+             const bool solved = tether.model == TetherModel::solved;
+             (solved ? tether.slack : m.slack) += x[0];
+             constexpr double taut = 1e-4;
+             if (solved) tether.slack = std::max(tether.slack, taut);
+           },
        .shows_in = {Stage::tether, Stage::motors}},
 
       {.id = "height_bias",

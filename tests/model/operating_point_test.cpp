@@ -150,7 +150,7 @@ TEST_CASE("radii of a weight and of a resistance are the inverses of both") {
     const Design design = test::random_design(random);
     const SteadyFlight flight(design, Condition::hover);
     const double radius = random.magnitude(1e-5, 1e-2);
-    const StraightTether& tether = flight.tether();
+    const StraightTether& tether = flight.tether().straight();
     CHECK(flight.radius_of_weight(flight.weight(radius)) == Approx(radius).epsilon(1e-6));
     CHECK(tether.radius_of_resistance(tether.resistance(radius)) == Approx(radius).epsilon(1e-6));
     CHECK(flight.radius_of_weight(flight.weight(0) * 0.999) < 0);

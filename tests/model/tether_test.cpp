@@ -85,12 +85,13 @@ TEST_CASE("stranding adds resistance, a cover adds mass and width, and neither a
   const SteadyFlight bare(design, Condition::forward);
   const SteadyFlight wide(covered, Condition::forward);
   const double radius = conductor_radius(1.0886e-6);
-  CHECK(wide.tether().width(radius) ==
-        Approx(bare.tether().width(radius) + 0.75 * 2e-3).epsilon(1e-13));
+  CHECK(wide.tether().straight().width(radius) ==
+        Approx(bare.tether().straight().width(radius) + 0.75 * 2e-3).epsilon(1e-13));
   CHECK(wide.tether().drag(radius) / bare.tether().drag(radius) ==
-        Approx(wide.tether().width(radius) / bare.tether().width(radius)).epsilon(1e-13));
-  CHECK(wide.tether().mass_of(10, radius) ==
-        Approx(bare.tether().mass_of(10, radius) + 0.04).epsilon(1e-13));
+        Approx(wide.tether().straight().width(radius) / bare.tether().straight().width(radius))
+            .epsilon(1e-13));
+  CHECK(wide.tether().straight().mass_of(10, radius) ==
+        Approx(bare.tether().straight().mass_of(10, radius) + 0.04).epsilon(1e-13));
   CHECK(breaking_load(covered.tether, 1e-6) == breaking_load(design.tether, 1e-6));
 }
 
