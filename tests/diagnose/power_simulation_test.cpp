@@ -134,7 +134,11 @@ double value_off_neutral(const SpecField& field, const Design& d) {
       {"/supply/converter/specific_mass_kg_per_kW", 0.4},
       {"/supply/converter/fixed_ratio", 0.25},
       {"/supply/converter/min_output_voltage_V", 10},
+      {"/tether/axial_stiffness_N", 20000},
       {"/flight/headwind_m_s", 3},
+      {"/flight/horizontal_offset_m", 5},
+      {"/flight/station_height_m", 3},
+      {"/flight/wind_reference_height_m", 10},
       {"/requirements/strength_safety_factor", 5}};
   if (const auto given = values.find(field.pointer); given != values.end()) return given->second;
   const double now = field_value(d, field).value_or(0);

@@ -86,6 +86,8 @@ void settle(Design& design, const Design& base) {
     design.supply.voltage = base.supply.voltage;
     design.supply.converter = base.supply.converter;
     design.tether.insulation.dielectric_safety_factor = 0;
+    design.flight.horizontal_offset = base.flight.horizontal_offset;
+    design.flight.roughness_length = base.flight.roughness_length;
     const Drum& drum = design.tether.drum;
     if ((drum.core_diameter > 0) != (drum.width > 0)) design.tether.drum = base.tether.drum;
   }

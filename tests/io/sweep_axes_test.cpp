@@ -103,9 +103,13 @@ TEST_CASE("every field of a spec that changes the result can vary") {
         CHECK(value_count(axis_of(path + "=true,false")) == 2U);
         CHECK_THAT(refusal_of(path + "=tru"), Contains("did you mean \"true\""));
         break;
-      case FieldKind::strength_material:
       case FieldKind::tether_model:
+        CHECK(value_count(axis_of(path + "=straight,solved")) == 2U);
+        break;
       case FieldKind::wind_profile:
+        CHECK(value_count(axis_of(path + "=uniform,power_law,logarithmic")) == 3U);
+        break;
+      case FieldKind::strength_material:
         CHECK(value_count(axis_of(path + "=none,aramid,uhmwpe")) == 3U);
         CHECK_THAT(refusal_of(path + "=armid"),
                    Contains("none, aramid or uhmwpe") && Contains("did you mean \"aramid\""));

@@ -80,6 +80,7 @@ TEST_CASE("height unwinds the drum: the circuit stays as long, and ends with the
   Design design = test::published_design();
   design.tether.cross_section = 1.2e-6;
   design.tether.spooled_length = 20;
+  design.requirements.thrust_headroom = 1.2;
   const Design higher = at_reach(design, Reach::height, 40);
   CHECK(higher.tether.length == 40);
   CHECK(higher.tether.spooled_length == Approx(10));

@@ -145,6 +145,7 @@ struct HangingSituation {
 /// Remembers what it solved; not for two threads at once.
 class HangingLoad {
  public:
+  /// Of the cable in this situation; nothing is solved yet.
   explicit HangingLoad(const HangingSituation& situation) : situation_(situation) {}
 
   /// The parts of a load, N, and m of cable in the air.
