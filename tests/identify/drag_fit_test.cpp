@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "support/random.hpp"
@@ -160,13 +161,20 @@ TEST_CASE("no random start finds a better minimum than the built-in one") {
   const std::uint64_t seed = test::run_seed();
   CAPTURE(seed);
   test::Dice dice(seed);
+  int determined = 0;
   for (int i = 0; i < 10; ++i) {
     // Winds up to a storm, and noise up to that of the drag itself.
     const Truth truth{dice.between(0.002, 0.05), dice.between(0.002, 0.05), dice.between(0.5, 60),
                       dice.between(-12, 12)};
     const Observations flight =
         exact_observations(truth, seed + static_cast<std::uint64_t>(i), dice.between(0.1, 2));
-    const DragFit fit = fit_one(flight);
+    std::optional<DragFit> fit;
+    try {
+      fit = fit_one(flight);
+    } catch (const UnsuitableFlight&) {
+      continue;  // so much noise on so little drag that it determines nothing
+    }
+    ++determined;
     for (int k = 0; k < 20; ++k) {
       DragFitOptions options;
       options.start = DragParameters{dice.between(0.001, 0.1),
@@ -175,9 +183,10 @@ TEST_CASE("no random start finds a better minimum than the built-in one") {
                                      {dice.between(-20, 20)}};
       // In the flattest of these valleys iterations end within a twentieth of a standard error:
       // 0.05²/N in the sum of squares.
-      CHECK(fit.quality.rmse <= rmse_of(flight, options) * (1 + 2e-6));
+      CHECK(fit->quality.rmse <= rmse_of(flight, options) * (1 + 2e-6));
     }
   }
+  CHECK(determined >= 7);
 }
 
 TEST_CASE("several flights share the drag and keep their own winds") {
