@@ -112,21 +112,24 @@ CableOutcome HangingLoad::solve(CableSolver& solver, double radius, Values& valu
                     .diameter = situation_.width[0] + situation_.width[1] * radius,
                     .drag_coefficient = situation_.drag_coefficient,
                     .axial_stiffness = situation_.axial_stiffness};
-  MovingAir air = situation_.air;
   const Vector3 drone{situation_.offset, 0, situation_.height};
-  CableOutcome outcome = solver.solve(cable, air, paid_out, drone);
+  // The wind swings a fold above its station aside by half of drag over weight. With a fiftieth of
+  // its slack it stays a fold, and no solution is needed; with three times its slack nearly so.
+  const double speed = situation_.air.wind.x;
+  const double drag =
+      0.5 * situation_.air.density * cable.drag_coefficient * cable.diameter * speed * speed;
+  const double slack =
+      situation_.offset == 0 ? paid_out.length.value_or(0) / situation_.height - 1 : 0;
+  const auto swings_less_than = [&](double slacks) { return drag < slacks * slack * cable.weight; };
+  const bool folded = swings_less_than(0.02);
+  CableOutcome outcome = CableOutcome::not_found;
+  if (!folded) outcome = solver.solve(cable, situation_.air, paid_out, drone);
   double drag_of_fold = 0;
-  if (outcome == CableOutcome::not_found && situation_.offset == 0 && paid_out.length) {
-    // The wind swings it aside by half of drag over weight. With less than its slack it stays a
-    // fold, or nearly so.
-    const double slack = *paid_out.length / situation_.height - 1;
-    const double speed = std::abs(air.wind.x);
-    const double drag = 0.5 * air.density * cable.drag_coefficient * cable.diameter * speed * speed;
-    if (drag < 3 * slack * cable.weight) {
-      drag_of_fold = drag * situation_.height;
-      air.wind = {};
-      outcome = solver.solve(cable, air, paid_out, drone);
-    }
+  if (folded || (outcome == CableOutcome::not_found && swings_less_than(3))) {
+    drag_of_fold = drag * situation_.height;
+    MovingAir still = situation_.air;
+    still.wind = {};
+    outcome = solver.solve(cable, still, paid_out, drone);
   }
   if (outcome != CableOutcome::hangs) return outcome;
   const HangingCable hangs = solver.result();
@@ -258,8 +261,8 @@ namespace {
 
 /// The load in a situation, which the one asked for later shares with its solutions.
 std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situation) {
-  // A flight log has tens of thousands of states; a sweep has few at a time.
-  constexpr std::size_t most_kept = 1 << 15;
+  // A flight log has thousands of states; a sweep over the wind solves up to fifty cables for each.
+  constexpr std::size_t most_kept = 1 << 13;
   thread_local std::map<HangingSituation, std::shared_ptr<const HangingLoad>> known;
   if (known.size() >= most_kept) known.clear();
   auto& load = known[situation];
