@@ -214,7 +214,8 @@ const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
   if (radius == last_radius_) return last_;
   last_radius_ = radius;
   const double x = std::clamp(std::log(radius), log_thinnest, log_thickest);
-  const auto places = places_about(x);
+  // What asks for the point of no area at all gets a tether that does not hang.
+  const auto places = std::isnan(x) ? std::nullopt : places_about(x);
   if (!places) {
     constexpr double none = std::numeric_limits<double>::infinity();
     last_ = {{none, none, none, none, none}, {}};
