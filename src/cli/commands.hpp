@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tethercalc/identify/observations.hpp"
@@ -39,6 +40,13 @@ enum ExitCode : int { done = 0, answer_is_no = 1, bad_input = 2, internal_error 
 /// How figures and pages name a file that they are made of: without folders, which say nothing to
 /// others.
 [[nodiscard]] std::string base_name(const std::string& file);
+
+/// Writes lines to standard error, without characters that would command a terminal.
+void remark(std::string_view lines);
+
+/// Ends the program as one whose reader has enough, `head` perhaps: by the signal that says so to
+/// the shell, without a word.
+[[noreturn]] void die_of_closed_pipe();
 
 /// Writes the answer, to the file whole or not at all. Throws InputError where it cannot.
 void emit(const Output& output, const std::string& text);

@@ -12,6 +12,7 @@
 #include "files/output_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "report/characters.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
@@ -101,13 +102,23 @@ std::vector<fs::path> reference_specs(std::span<const std::string> paths) {
   return specs;
 }
 
+/// A pipe beside specs would be waited for without end.
+void refuse_pipe(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_other(fs::status(path, ignored))) {
+    throw InputError(path.string(), "is a pipe, socket or device, not a file");
+  }
+}
+
 std::optional<LoadedText> record_of(const fs::path& spec) {
   const std::string record = record_path(spec);
+  refuse_pipe(record);
   return fs::exists(record) ? std::optional(read_text_file(record)) : std::nullopt;
 }
 
 ReferenceCheck checked(const fs::path& spec) {
   try {
+    refuse_pipe(spec);
     return check_reference(spec.string(), read_design(spec.string()), record_of(spec));
   } catch (const InputError& error) {
     ReferenceCheck check;
@@ -359,8 +370,10 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
   for (const std::string& name : files) {
     try {
       const DesignFile file = read_design(name, overrides);
-      text += file.file + ": valid\n";
-      for (const std::string& warning : file.warnings) text += "  Note: " + warning + "\n";
+      text += printable(file.file) + ": valid\n";
+      for (const std::string& warning : file.warnings) {
+        text += "  Note: " + printable(warning) + "\n";
+      }
       json.push_back({{"file", file.file}, {"valid", true}, {"warnings", file.warnings}});
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

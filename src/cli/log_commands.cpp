@@ -30,28 +30,36 @@
 namespace tethercalc::cli {
 namespace {
 
+/// A spec that was read at `read_at`, as the file `written` has to hold it; where that is empty, as
+/// a command reads it from standard input.
+std::string spec_text(nlohmann::ordered_json spec, const std::string& read_at,
+                      const std::string& written) {
+  return json_text(
+      spec_for_folder(std::move(spec), read_at, std::filesystem::path(written).parent_path()));
+}
+
 /// The spec with its drag replaced, checked as if a person had edited it.
-std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
+nlohmann::ordered_json spec_with_drag(const std::string& spec, const DragFit& fit) {
   const DesignFile file = read_design(spec);
   Design design = file.design;
   const double asymmetry = design.drone.drag.fore_aft_asymmetry;
   design.drone.drag = fit.drag();
   design.drone.drag.fore_aft_asymmetry = asymmetry;
-  return json_text(read_design_document(spec_with(file, design), file.file, file.load).document);
+  return read_design_document(spec_with(file, design), file.file, file.load).document;
 }
 
 /// What was not said and moves the answer, on standard error so that no format hides it.
 void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptions& taken) {
   if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
-    fmt::print(stderr,
-               "drag: no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
-               "--temperature-C)\n",
-               taken.conditions.air_density);
+    remark(fmt::format(
+        "drag: no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
+        "--temperature-C)\n",
+        taken.conditions.air_density));
   }
   if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
-    fmt::print(stderr,
-               "drag: no pitch offset given, 0° taken; what it misses ends up in the wind "
-               "(--trim-log or --pitch-offset-deg)\n");
+    remark(
+        "drag: no pitch offset given, 0° taken; what it misses ends up in the wind "
+        "(--trim-log or --pitch-offset-deg)\n");
   }
 }
 
@@ -398,10 +406,10 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, i
   for (const std::string& name : names) {
     FlightLogReading reading = read_flight_log(name, {core});
     for (const std::string& note : reading.notes) {
-      fmt::print(stderr, "{}: {}\n", name, note);
+      remark(fmt::format("{}: {}\n", name, note));
     }
     if (!reading.log.north_wind.empty()) {
-      fmt::print(stderr, "{}: the measured wind is not used: a steady one is fitted\n", name);
+      remark(name + ": the measured wind is not used: a steady one is fitted\n");
     }
     logs.push_back(std::move(reading.log));
   }
@@ -424,9 +432,9 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
   tell_assumptions(flight, result.options);
   if (!into.empty()) {
     for (const std::string& warning : drag_warnings(result.fit)) {
-      fmt::print(stderr, "drag: {}\n", warning);
+      remark("drag: " + warning + "\n");
     }
-    emit(output, spec_with_drag(into, result.fit));
+    emit(output, spec_text(spec_with_drag(into, result.fit), into, output.file));
     return done;
   }
   emit(
@@ -468,10 +476,12 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   const std::optional<MissionTarget> target = mission_target(options);
   const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
-    emit(output, json_text(told.spec));
+    emit(output, spec_text(told.spec, options.spec.file, output.file));
     return done;
   }
-  if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.spec));
+  if (!options.into_file.empty()) {
+    write_whole_file(options.into_file, spec_text(told.spec, options.spec.file, options.into_file));
+  }
   const bool planned = told.next_flight && !told.next_flight->manoeuvres.empty();
   if (planned) {
     write_whole_file(options.next_flight_file,

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -79,9 +80,10 @@ class Progress {
     const auto done = static_cast<double>(row - range_.begin);
     const auto all = static_cast<double>(range_.end - range_.begin);
     const double rate = done / seconds;
-    fmt::print(stderr, "\r\x1b[K{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done, all,
-               100 * done / all, rate, duration_words((all - done) / rate));
-    std::fflush(stderr);
+    std::fputs(fmt::format("\r\x1b[K{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done,
+                           all, 100 * done / all, rate, duration_words((all - done) / rate))
+                   .c_str(),
+               stderr);
     drawn_ = true;
   }
 
@@ -260,13 +262,14 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
     });
     file.close();
   } catch (const std::system_error& error) {
+    if (error.code().value() == EPIPE) die_of_closed_pipe();
     throw InputError(file.name(), fmt::format("cannot be written: {}; {}", error.code().message(),
                                               how_to_continue(file)));
   }
   if (interrupting_signal == 0) return true;
-  fmt::print(stderr, "tethercalc: interrupted after {} of {} designs; {}\n",
-             written - sweep.range.begin, sweep.range.end - sweep.range.begin,
-             how_to_continue(file));
+  remark(fmt::format("tethercalc: interrupted after {} of {} designs; {}\n",
+                     written - sweep.range.begin, sweep.range.end - sweep.range.begin,
+                     how_to_continue(file)));
   return false;
 }
 
@@ -306,7 +309,7 @@ int run_sweep(const SweepOptions& options) {
     if (!options.summary_file.empty()) {
       write_whole_file(options.summary_file, json_text(summary_json(summary, space)));
     }
-    std::fputs(summary_text(summary, space, {}).c_str(), stderr);
+    remark(summary_text(summary, space, {}));
   }
   return done;
 }
