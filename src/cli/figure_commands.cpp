@@ -1,9 +1,6 @@
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -136,11 +133,9 @@ constexpr std::array kinds{
 };
 
 const Kind& find_kind(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Kind& kind : kinds) {
-    if (kind.name == name) return kind;
-    names.emplace_back(kind.name);
-  }
+  const auto found = std::ranges::find(kinds, name, &Kind::name);
+  if (found != kinds.end()) return *found;
+  const std::vector<std::string> names = plot_kinds();
   throw InputError("plot", fmt::format("there is no kind of figure \"{}\"; allowed are {}{}", name,
                                        fmt::join(names, ", "), did_you_mean(name, names)));
 }
@@ -172,21 +167,6 @@ void check_options(const PlotOptions& options) {
   problems.throw_if_any();
 }
 
-/// Columns of the terminal: COLUMNS, what the terminal says, or 100 where there is none.
-int text_columns() {
-  constexpr int least = 40;
-  constexpr int most = 400;
-  if (const char* given = std::getenv("COLUMNS")) {
-    const int columns = std::atoi(given);
-    if (columns > 0) return std::clamp(columns, least, most);
-  }
-  winsize window{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0) {
-    return std::clamp<int>(window.ws_col, least, most);
-  }
-  return 100;
-}
-
 /// The drag that the flight shows, mass and air as the spec has them where the options do not say.
 DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
   FlightOptions flight = options.flight;
@@ -207,6 +187,12 @@ std::string shell_word(std::string_view word) {
 }
 
 }  // namespace
+
+std::vector<std::string> plot_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
 
 std::string plot_kinds_help() {
   std::string out;
@@ -230,7 +216,8 @@ int run_plot(const PlotOptions& options, const Output& output) {
     throw InputError("--width-mm", std::to_string(options.width_mm) +
                                        " is out of range; allowed is 85 to 400 mm");
   }
-  const FigureSize size{options.width_mm, text_columns(), style_for(output).colour};
+  const FigureSize size{options.width_mm, std::clamp(terminal_columns(), 40, 400),
+                        style_for(output).colour};
   emit(output, render(kind.draw(options), format, run_gnuplot, size));
   return done;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -71,12 +70,12 @@ void check_range(const char* option, double value, double least, double most, co
 
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
-  if (::isatty(STDERR_FILENO) != 1) return {};
+  if (!shows_progress()) return {};
   return [](const std::string& doing) { std::fprintf(stderr, "\r\x1b[K%s", doing.c_str()); };
 }
 
 void clear_progress() {
-  if (::isatty(STDERR_FILENO) == 1) std::fprintf(stderr, "\r\x1b[K");
+  if (shows_progress()) std::fprintf(stderr, "\r\x1b[K");
 }
 
 /// The effects of the files given, no id twice.
@@ -212,20 +211,6 @@ void tell(const ToldDiagnosis& told, const std::string& mission, const Output& o
       });
 }
 
-/// Refuses to write a file over what it is made from.
-void check_not_read(const DiagnoseOptions& options, const char* option, const std::string& file) {
-  if (file.empty()) return;
-  std::vector<std::string> inputs = options.flight_logs;
-  inputs.insert(inputs.end(), {options.spec.file, options.power_log});
-  inputs.insert(inputs.end(), options.effect_files.begin(), options.effect_files.end());
-  for (const std::string& read : inputs) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, read, ignored)) {
-      throw InputError(option, fmt::format("\"{}\" is read; give another file to write", file));
-    }
-  }
-}
-
 /// "LAT,LON" in degrees.
 Home given_home(const std::string& text) {
   const char* at = text.c_str();
@@ -274,7 +259,6 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
     return std::nullopt;
   }
   MissionTarget target{mission_format(options.next_flight_file), {}};
-  check_not_read(options, "--next-flight", options.next_flight_file);
   if (options.into && options.into_file.empty()) {
     throw InputError("--next-flight",
                      "goes with the diagnosis, which --into without a file "
@@ -472,7 +456,6 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
-  check_not_read(options, "--into", options.into_file);
   const std::optional<MissionTarget> target = mission_target(options);
   const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,6 +21,7 @@ namespace tethercalc::cli {
 TextStyle style_for(const Output& output) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
+  if (output.colour != Colour::automatic) return {output.colour == Colour::always};
   const bool wanted = no_color == nullptr || *no_color == '\0';
   const bool able = terminal != nullptr && std::string_view(terminal) != "dumb";
   return {output.file.empty() && wanted && able && ::isatty(STDOUT_FILENO) == 1};
@@ -29,10 +31,33 @@ std::string base_name(const std::string& file) {
   return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
-void remark(std::string_view lines) {
+namespace {
+
+bool quiet = false;
+
+void print_on_error(std::string_view lines) {
   // Where nobody can be told, that is no reason to fail.
   const std::string text = printable_lines(lines);
   [[maybe_unused]] const std::size_t ignored = std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace
+
+void remark(std::string_view lines) {
+  if (!quiet) print_on_error(lines);
+}
+
+void be_quiet() { quiet = true; }
+
+bool shows_progress() { return !quiet && ::isatty(STDERR_FILENO) == 1; }
+
+int terminal_columns() {
+  if (const char* given = std::getenv("COLUMNS")) {
+    if (const int columns = std::atoi(given); columns > 0) return columns;
+  }
+  winsize window{};
+  const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
+  return known ? window.ws_col : 100;
 }
 
 void die_of_closed_pipe() {
@@ -97,10 +122,10 @@ int main(int argc, char** argv) {
   try {
     return cli::run(argc, argv);
   } catch (const InputError& error) {
-    cli::remark(std::string(error.what()) + "\n");
+    cli::print_on_error(std::string(error.what()) + "\n");
     return cli::bad_input;
   } catch (const std::exception& error) {
-    cli::remark(std::string("tethercalc: internal error: ") + error.what() + "\n");
+    cli::print_on_error(std::string("tethercalc: internal error: ") + error.what() + "\n");
     return cli::internal_error;
   }
 }

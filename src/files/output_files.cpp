@@ -7,7 +7,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -131,6 +133,31 @@ void write_whole_file(const std::filesystem::path& path, std::string_view conten
     ::unlink(temporary.c_str());
     refuse(path, error);
   }
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(a, ignored) && std::filesystem::equivalent(a, b, ignored);
+}
+
+void check_can_be_written(const std::filesystem::path& path) {
+  if (own_descriptor(path)) return;
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) refuse(path, EISDIR);
+  const bool replaced = !std::filesystem::is_other(status);
+  const std::filesystem::path folder = end_of_links(path).parent_path();
+  const std::filesystem::path written = !replaced ? path : folder.empty() ? "." : folder;
+  if (::access(written.c_str(), W_OK) != 0) refuse(path, errno);
+}
+
+void check_unedited(const std::filesystem::path& path, std::string_view unedited) {
+  std::error_code ignored;
+  if (own_descriptor(path) || !std::filesystem::is_regular_file(path, ignored)) return;
+  std::ostringstream there;
+  there << std::ifstream(path, std::ios::binary).rdbuf();
+  if (there.str() == unedited) return;
+  throw InputError(path.string(), "is there and was edited; --force writes over it");
 }
 
 RowFile::RowFile(int file, std::string name, bool owned)

@@ -253,8 +253,12 @@ class Builder {
     if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#")) {
       return "JSON has no comments; put remarks under the key \"notes\"";
     }
+    if (what.find("invalid number") != std::string::npos) {
+      return "this is no number as JSON writes it, with digits after a sign and a point";
+    }
     if (rest.starts_with("'")) return "JSON wants double quotes (\") around keys and texts";
-    if (last_event_ == Event::value && !fault.after_comma && is_digit(fault.offset)) {
+    if (last_event_ == Event::value && !fault.after_comma && is_digit(fault.offset) &&
+        text_[fault.offset - 1] == '0') {
       return "a number may not begin with a zero before other digits";
     }
     if (fault.after_comma && (rest.starts_with("}") || rest.starts_with("]"))) {
