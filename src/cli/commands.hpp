@@ -264,7 +264,8 @@ struct PlotOptions {
 
 [[nodiscard]] std::vector<std::string> plot_kinds();
 
-/// Draws one figure, without a file of characters on standard output.
+/// Draws one figure, without a file of characters on standard output. Exit code 1 where it is of a
+/// design that cannot fly as required.
 int run_plot(const PlotOptions& options, const Output& output);
 
 /// Writes the page. `options` names the spec and the logs, which may both be there; `command` is

@@ -14,12 +14,14 @@
 
 #include "files/input_files.hpp"
 #include "files/output_files.hpp"
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/effect_file.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/io/mission.hpp"
+#include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
@@ -317,14 +319,12 @@ double pitch_offset(const FlightOptions& options) {
 
 std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
-  constexpr double lightest = 10;  // no drone that flies outdoors weighs less
-  const double in_grams = 1000 * *options.mass_g;
-  if (*options.mass_g > 0 && *options.mass_g < lightest && in_grams >= lightest) {
-    throw InputError("--mass-g", fmt::format("{:g} g is no drone; did you mean {:g}? The unit is "
-                                             "the gram",
-                                             *options.mass_g, in_grams));
+  const SpecField& field = *find_field("drone.mass_g");
+  if (!field.range.contains(*options.mass_g)) {
+    throw InputError(
+        "--mass-g", fmt::format("{:g} is out of range; allowed is {}{}", *options.mass_g,
+                                describe_range(field), meant_in_thousands(field, *options.mass_g)));
   }
-  check_range("--mass-g", *options.mass_g, lightest, 1000000, "g");
   return *options.mass_g * unit::gram;
 }
 

@@ -32,6 +32,9 @@ Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
   for (std::string& sentence : cable_sentences(design, study.result)) {
     out.sentences.push_back(std::move(sentence));
   }
+  if (std::string sentence = unchecked_sentence(design); !sentence.empty()) {
+    out.sentences.push_back(std::move(sentence));
+  }
   const double speed = airspeed(design, Condition::forward);
   out.sentences.push_back(
       fmt::format("It draws {} W in hover and {} W in forward flight at {} m/s ({} km/h).",
@@ -326,7 +329,7 @@ TitledTable motor_table(const Design& design, std::span<const MotorOptimum> rank
                fixed(r.hover.tether_mass / unit::gram, 0), fixed(r.hover.total_power, 1),
                fixed(r.forward.total_power, 1),
                fixed(entry.result.in(design.requirements.headroom_at).headroom, 2),
-               std::string(limit_name(r.limited_by))});
+               limit_in_short(r.limited_by)});
   }
   return {fmt::format("Motors by power in {}, each with its own best tether",
                       condition_words(design.requirements.power_at)),
