@@ -32,14 +32,14 @@ Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
   for (std::string& sentence : cable_sentences(design, study.result)) {
     out.sentences.push_back(std::move(sentence));
   }
-  if (std::string sentence = unchecked_sentence(design); !sentence.empty()) {
-    out.sentences.push_back(std::move(sentence));
-  }
   const double speed = airspeed(design, Condition::forward);
   out.sentences.push_back(
       fmt::format("It draws {} W in hover and {} W in forward flight at {} m/s ({} km/h).",
                   fixed(hover.total_power, 1), fixed(result.forward.total_power, 1),
                   fixed(speed, 2), fixed(3.6 * speed, 1)));
+  if (std::string sentence = unchecked_sentence(design); !sentence.empty()) {
+    out.sentences.push_back(std::move(sentence));
+  }
   return out;
 }
 
