@@ -278,12 +278,14 @@ class CommandLine {
 
   void add_log_commands() {
     add("drag", "The drone's drag, learned from its own flight logs",
-        [this] { return run_drag(files_, flight_, what_, output_); })
+        [this] { return run_drag(files_, flight_, what_, autopilot_, output_); })
         .argument("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")
         .flight(flight_)
         .flag("--published-kinematics", flight_.published_kinematics,
               "The forward axis alone, by the paper's formulas: reproduces its digits")
         .option("--into", what_, "Print this spec with its drag replaced, instead of the fit")
+        .option("--parameters", autopilot_,
+                "ardupilot or px4: print the drag as parameters of its wind estimate instead")
         .output(output_);
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
@@ -398,6 +400,7 @@ class CommandLine {
   ShapeOptions shape_;
   std::vector<std::string> files_;
   std::string what_;
+  std::string autopilot_;
   FlightOptions flight_;
   DiagnoseOptions diagnose_;
   std::span<const char* const> arguments_;  ///< what was typed, the program's name first

@@ -194,9 +194,10 @@ int run_log(const std::string& file, const std::string& message, const Output& o
 [[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
                                      const FlightOptions& flight);
 
-/// Reports the drag or, where `into` names a spec, prints that with its drag block replaced.
+/// Reports the drag or, where `into` names a spec, prints that with its drag block replaced or,
+/// where `autopilot` is "ardupilot" or "px4", prints its parameter file.
 int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
-             const std::string& into, const Output& output);
+             const std::string& into, const std::string& autopilot, const Output& output);
 
 struct DiagnoseOptions {
   SpecOptions spec;
