@@ -202,6 +202,23 @@ class CommandLine {
         .comma_list("--motors", motors_,
                     "all, or names of the library and files, separated by commas (default: all)")
         .output(output_);
+    add("motor", "A motor file from thrust-stand tables, or from what is known of a propeller",
+        [this] { return run_motor(motor_, output_); })
+        .option("FILE", motor_.files,
+                "Tables (CSV) of bench runs of one motor, or a motor file (JSON) to check")
+        .comma_list("--columns", motor_.columns,
+                    "What a header's words do not say: thrust_g=HEADER,power_W=HEADER,...")
+        .repeatable("--where", motor_.where,
+                    "COLUMN=VALUE: only these rows of the tables; repeatable")
+        .option("--id", motor_.id, "What specs call it (default: the file's name)")
+        .option("--name", motor_.name, "What people call it (default: the file's name)")
+        .option("--propeller-in", motor_.propeller_in, "Diameter of the propeller, inch")
+        .option("--air-density", motor_.air_density_kg_m3,
+                "Of the air on the bench, kg/m³ (default: not known)")
+        .option("--figure-of-merit", motor_.figure_of_merit,
+                "Without a file: ideal over electrical power of the motor to estimate")
+        .option("--max-thrust-g", motor_.max_thrust_g, "Without a file: its greatest thrust")
+        .output(output_);
     add("sweep", "One row a design, for every combination or a sample of values",
         [this] { return run_sweep(sweep_); })
         .spec(sweep_.spec)
@@ -396,6 +413,7 @@ class CommandLine {
   CheckOptions check_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
+  MotorOptions motor_;
   DesignRequest request_;
   ShapeOptions shape_;
   std::vector<std::string> files_;

@@ -70,9 +70,11 @@ int run_optimize(const SpecOptions& spec, const Output& output);
 int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
-/// The motors that `--motors` names: "all", names of the library, or files. Throws InputError with
-/// every name that there is none of.
-[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names);
+/// The motors that `--motors` names: "all" (of the library, and the spec's own where that is none
+/// of them), names of the library, or files. Throws InputError with every name that there is none
+/// of.
+[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
+                                                    const DesignFile& file);
 
 int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
                 const Output& output);
@@ -145,6 +147,22 @@ int run_check(const CheckOptions& options, const Output& output);
 /// Reads specs and says what is wrong with them, or that nothing is.
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
                  const Output& output);
+
+/// A motor from files, or from what is known of one that nobody measured.
+struct MotorOptions {
+  std::vector<std::string> files;    ///< tables of bench runs of one motor, or one motor file
+  std::vector<std::string> columns;  ///< see MotorBenchOptions
+  std::vector<std::string> where;    ///< likewise
+  std::string id;
+  std::string name;
+  std::optional<double> propeller_in;
+  std::optional<double> air_density_kg_m3;
+  std::optional<double> figure_of_merit;  ///< of a motor without files, with
+  std::optional<double> max_thrust_g;
+};
+
+/// Shows a motor, or writes it as a motor file: as JSON, which an output file ending in .json is.
+int run_motor(const MotorOptions& options, Output output);
 
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
