@@ -134,8 +134,9 @@ HeaderParts parts_of(std::string_view header) {
     if (slash == std::string::npos) return {all, ""};
     return {spaced(all.substr(0, slash)), spaced(all.substr(slash + 1))};
   }
-  const std::string words_before = all.substr(0, all.size() - unit->name.size());
-  return {spaced(words_before), std::string(unit->name)};
+  std::string before = spaced(all.substr(0, all.size() - unit->name.size()));
+  if (before.ends_with('/')) before = spaced(before.substr(0, before.size() - 1));  // "Thrust / g"
+  return {before, std::string(unit->name)};
 }
 
 std::string without_qualifiers(std::string text) {
