@@ -218,6 +218,11 @@ class CommandLine {
         .option("--figure-of-merit", motor_.figure_of_merit,
                 "Without a file: ideal over electrical power of the motor to estimate")
         .option("--max-thrust-g", motor_.max_thrust_g, "Without a file: its greatest thrust")
+        .option("--power-log", motor_.power_log,
+                "Instead of a file: a free flight (CSV: time_s, airspeed_m_s, bus_voltage_V, "
+                "bus_current_A)")
+        .option("--spec", motor_.spec.file, "The drone that flew it: mass, motors, drag, air")
+        .repeatable("--set", motor_.spec.overrides, "Change a field of that spec: path=value")
         .output(output_);
     add("sweep", "One row a design, for every combination or a sample of values",
         [this] { return run_sweep(sweep_); })

@@ -159,6 +159,8 @@ struct MotorOptions {
   std::optional<double> air_density_kg_m3;
   std::optional<double> figure_of_merit;  ///< of a motor without files, with
   std::optional<double> max_thrust_g;
+  std::string power_log;  ///< or: of a free flight, with the greatest thrust and
+  SpecOptions spec;       ///< the drone that flew
 };
 
 /// Shows a motor, or writes it as a motor file: as JSON, which an output file ending in .json is.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
@@ -31,12 +32,30 @@ void check(const MotorOptions& options) {
   check_between(problems, "--figure-of-merit", options.figure_of_merit, 0, 0.99,
                 "(1 is an ideal propeller on an ideal motor)");
   check_between(problems, "--max-thrust-g", options.max_thrust_g, 0, 1e6, "g");
-  const bool generic = options.figure_of_merit || options.max_thrust_g;
+  const bool flown = !options.power_log.empty();
+  if (flown && (options.spec.file.empty() || !options.max_thrust_g)) {
+    problems.add(
+        "--power-log",
+        "needs --spec SPEC, the drone that flew, and --max-thrust-g, the greatest thrust of "
+        "one motor");
+  }
+  if (flown && options.figure_of_merit) {
+    problems.add("--figure-of-merit", "is what --power-log measures; give one of them");
+  }
+  if (flown && options.air_density_kg_m3) {
+    problems.add("--air-density", "of a flight is the spec's: --set flight.air_density_kg_m3=X");
+  }
+  if (!flown && !(options.spec.file.empty() && options.spec.overrides.empty())) {
+    problems.add("--spec", "is the drone that flew a --power-log; give one");
+  }
+  const bool generic = options.figure_of_merit || options.max_thrust_g || flown;
   if (!options.files.empty() && generic) {
-    problems.add(options.figure_of_merit ? "--figure-of-merit" : "--max-thrust-g",
+    problems.add(flown                     ? "--power-log"
+                 : options.figure_of_merit ? "--figure-of-merit"
+                                           : "--max-thrust-g",
                  "is of a motor that nobody measured; a file already says it");
   }
-  if (options.files.empty()) {
+  if (options.files.empty() && !flown) {
     const auto need = [&](const char* option, const std::optional<double>& value) {
       if (!value) {
         problems.add(option,
@@ -47,6 +66,8 @@ void check(const MotorOptions& options) {
     need("--propeller-in", options.propeller_in);
     need("--figure-of-merit", options.figure_of_merit);
     need("--max-thrust-g", options.max_thrust_g);
+  }
+  if (options.files.empty()) {
     if (!options.columns.empty()) problems.add("--columns", "names columns of a file; give one");
     if (!options.where.empty()) problems.add("--where", "chooses rows of a file; give one");
   }
@@ -84,6 +105,51 @@ ShownMotor generic_motor(const MotorOptions& options) {
   motor.warnings.push_back(fmt::format(
       "an estimate, not measured: its power may be off by about {:g} % either way", band));
   out.band = band;
+  return out;
+}
+
+std::string forward_words(const FlownForward& forward) {
+  return fmt::format(
+      "in forward flight ({} rows, mean airspeed {:.1f} m/s) the motors drew {:.2f} times what "
+      "this "
+      "curve gives for the thrust flown{}",
+      forward.rows, forward.airspeed, forward.ratio,
+      forward.ratio < 1 ? " (drone.translational_lift of a spec accounts for that)" : "");
+}
+
+/// The motor of a free flight.
+ShownMotor motor_of_flight(const MotorOptions& options) {
+  const DesignFile file = read_spec(options.spec);
+  const MappedFile log(options.power_log);
+  const FlownPower flight = parse_flown_power(log.text(), options.power_log);
+  const double density = file.design.flight.air_density;
+  FlownMotor flown;
+  try {
+    flown = flown_motor(flight, file.design.drone, density,
+                        *options.max_thrust_g * unit::gram_force, library_motors());
+  } catch (const UnsuitablePowerFlight& error) {
+    throw InputError(options.power_log, error.what());
+  }
+  ShownMotor out;
+  MotorEntry& motor = out.motor;
+  const std::string name = base_name(options.power_log);
+  motor.id = std::filesystem::path(name).stem().string();
+  motor.name = motor.id + ", flown";
+  motor.source = fmt::format(
+      "Free flight {}: in {:.0f} s of hover {:.1f} W for {:.0f} g a motor, +-{:.1f} % (95 %), "
+      "{:.0f} g in all, air of {:g} kg/m3; from there P = k T^1.5 (momentum theory)",
+      name, flown.hover_seconds, flown.hover_power, flown.hover_thrust / unit::gram_force,
+      100 * flown.hover_interval, file.design.drone.mass / unit::gram, density);
+  motor.curve = flown.curve;
+  out.band = std::ceil(100 * flown.band);
+  motor.warnings.push_back(
+      fmt::format("known at its hover only, to ±{:.1f} % (95 %); elsewhere its power may be off by "
+                  "about {:g} % "
+                  "either way",
+                  100 * flown.hover_interval, *out.band));
+  motor.warnings.emplace_back(
+      "all of the bus's power is taken for the motors': what else it feeds counts as theirs");
+  if (flown.forward) motor.warnings.push_back(forward_words(*flown.forward));
   return out;
 }
 
@@ -141,6 +207,7 @@ void check_merit(const MotorEntry& motor) {
 bool is_motor_file(const std::string& file) { return file.ends_with(".json"); }
 
 ShownMotor shown_motor(const MotorOptions& options) {
+  if (!options.power_log.empty()) return motor_of_flight(options);
   if (options.files.empty()) return generic_motor(options);
   if (std::ranges::any_of(options.files, is_motor_file)) return motor_of_json(options);
   std::vector<LoadedText> tables;

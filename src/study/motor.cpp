@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace tethercalc {
 
@@ -41,20 +42,25 @@ FigureOfMeritSpread figure_of_merit_spread(std::span<const MotorEntry> motors) {
   return out;
 }
 
-MotorCurve generic_motor_curve(const GenericMotorRequest& request) {
-  const bool in_range = request.diameter > 0 && request.max_thrust > 0 && request.air_density > 0 &&
-                        request.figure_of_merit > 0 && request.figure_of_merit < 1;
-  if (!in_range) throw std::invalid_argument("no such motor");
+MotorCurve momentum_curve(double factor, double max_thrust) {
   // Chords of T^1.5 between thrusts of ratio r lie at most 3/32·(ln r)² above it.
   constexpr int steps = 30;
   constexpr double least = 0.05;
   std::vector<MotorPoint> points;
   for (int i = steps; i >= 0; --i) {
-    const double thrust = request.max_thrust * std::pow(least, double(i) / steps);
-    points.push_back({thrust, ideal_hover_power(thrust, request.diameter, request.air_density) /
-                                  request.figure_of_merit});
+    const double thrust = max_thrust * std::pow(least, double(i) / steps);
+    points.push_back({thrust, factor * thrust * std::sqrt(thrust)});
   }
-  MotorCurve curve(std::move(points));
+  return MotorCurve(std::move(points));
+}
+
+MotorCurve generic_motor_curve(const GenericMotorRequest& request) {
+  const bool in_range = request.diameter > 0 && request.max_thrust > 0 && request.air_density > 0 &&
+                        request.figure_of_merit > 0 && request.figure_of_merit < 1;
+  if (!in_range) throw std::invalid_argument("no such motor");
+  MotorCurve curve = momentum_curve(
+      ideal_hover_power(1, request.diameter, request.air_density) / request.figure_of_merit,
+      request.max_thrust);
   curve.set_measured_in(request.air_density);
   return curve;
 }

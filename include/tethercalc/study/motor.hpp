@@ -46,9 +46,13 @@ struct GenericMotorRequest {
   double air_density = standard_air_density;  ///< kg/m³, > 0
 };
 
-/// The curve of such a motor, by momentum theory: P = T^1.5/√(2ρA)/figure of merit, at 31 thrusts
-/// from a twentieth of the greatest to it, between which it is at most 0.1 % above the formula. It
-/// counts as measured in that air. Throws std::invalid_argument outside the ranges.
+/// The curve P = `factor`·T^1.5 (W/N^1.5, > 0) of momentum theory, at 31 thrusts from a twentieth
+/// of the greatest (N, > 0) to it, between which it is at most 0.1 % above the formula.
+[[nodiscard]] MotorCurve momentum_curve(double factor, double max_thrust);
+
+/// The curve of such a motor, by momentum theory: P = T^1.5/√(2ρA)/figure of merit, see
+/// `momentum_curve`. It counts as measured in that air. Throws std::invalid_argument outside the
+/// ranges.
 [[nodiscard]] MotorCurve generic_motor_curve(const GenericMotorRequest& request);
 
 }  // namespace tethercalc
