@@ -121,12 +121,17 @@ ReferenceCheck checked(const fs::path& spec) {
 
 DesignFile read_spec(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
 
-std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
+std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
+                                      const DesignFile& file) {
   std::vector<MotorEntry> motors;
   Problems problems;
   for (const std::string& name : names) {
     if (name == "all") {
-      for (MotorEntry& motor : library_motors()) motors.push_back(std::move(motor));
+      const std::vector<MotorEntry> library = library_motors();
+      motors.insert(motors.end(), library.begin(), library.end());
+      if (std::ranges::find(library, file.motor.id, &MotorEntry::id) == library.end()) {
+        motors.push_back(file.motor);
+      }
       continue;
     }
     try {
@@ -163,7 +168,8 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
 int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
                 const Output& output) {
   const DesignFile file = read_spec(spec);
-  const std::vector<MotorOptimum> ranking = compare_motors(file.design, chosen_motors(motors));
+  const std::vector<MotorOptimum> ranking =
+      compare_motors(file.design, chosen_motors(motors, file));
   emit(
       output, [&] { return compare_text(file, ranking, style_for(output)); },
       [&] { return compare_json(file, ranking); }, [&] { return compare_csv(ranking); });

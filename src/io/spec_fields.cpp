@@ -331,6 +331,9 @@ const std::array all_motor_fields{
     SpecField{"/measured_air_density_kg_m3", optional_number, "kg/m³", between(0.001, 100), "null",
               "Density of the air in which it was measured; where unknown, the curve counts in any "
               "air."},
+    SpecField{"/power_uncertainty_percent", optional_number, "%", above(0, 100), "null",
+              "Where the points are an estimate: the power may be off by about this much, which "
+              "every answer then says."},
     SpecField{"/points", motor_points, "", any_number, "",
               "Measured points of one motor with its propeller, two at least."}};
 

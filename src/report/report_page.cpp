@@ -204,7 +204,7 @@ Section other_motors(const PageContent& content) {
   if (!ranking.table.rows().empty()) body += html::table(ranking, "table-motors");
   const std::vector<std::string> refused = refused_motors(content.motors);
   if (!refused.empty()) body += html::element("h3", "Not feasible") + "\n" + html::list(refused);
-  return {"motors", "The same drone with motors of the library", std::move(body)};
+  return {"motors", "The same drone, motor by motor", std::move(body)};
 }
 
 Section drag_section(const DragStudy& drag, const GnuplotRunner& gnuplot) {
