@@ -357,6 +357,31 @@ class CommandLine {
         .output(output_)
         .examples({"tethercalc compare my.json",
                    "tethercalc compare my.json --motors holybro-air2216-920kv-10in,my-motor.json"});
+    add("motor", "A motor file from thrust-stand tables, or from what is known of a propeller",
+        [this] { return run_motor(motor_, output_); })
+        .optional_argument(
+            "FILE", motor_.files,
+            "Tables (CSV) of bench runs of one motor, or a motor file (JSON) to check")
+        .comma_list("--columns COLUMNS", motor_.columns,
+                    "What a header's words do not say: thrust_g=HEADER,power_W=HEADER,...")
+        .repeatable("--where COLUMN=VALUE", motor_.where,
+                    "COLUMN=VALUE: only these rows of the tables; repeatable")
+        .option("--id ID", motor_.id, "What specs call it (default: the file's name)")
+        .option("--name WORDS", motor_.name, "What people call it (default: the file's name)")
+        .option("--propeller-in INCH", motor_.propeller_in, "Diameter of the propeller, inch")
+        .option("--air-density KG/M3", motor_.air_density_kg_m3,
+                "Of the air on the bench, kg/m³ (default: not known)")
+        .option("--figure-of-merit X", motor_.figure_of_merit,
+                "Without a file: ideal over electrical power of the motor to estimate")
+        .option("--max-thrust-g G", motor_.max_thrust_g, "Without a file: its greatest thrust")
+        .option("--power-log LOG", motor_.power_log,
+                "Instead of a file: a free flight (CSV: time_s, airspeed_m_s, bus_voltage_V, "
+                "bus_current_A)")
+        .option("--spec SPEC", motor_.spec.file, "The drone that flew it: mass, motors, drag, air")
+        .repeatable("--set PATH=VALUE", motor_.spec.overrides,
+                    "Change a field of that spec: path=value")
+        .output(output_)
+        .examples({"tethercalc motor bench.csv --output my-motor.json"});
     add("sweep", "One row a design, for every combination or a sample of values",
         [this] { return run_sweep(sweep_); })
         .spec(sweep_.spec)
@@ -465,12 +490,14 @@ class CommandLine {
 
   void add_log_commands() {
     add("drag", "The drone's drag, learned from its own flight logs",
-        [this] { return run_drag(files_, flight_, what_, output_); })
-        .argument("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")
+        [this] { return run_drag(files_, flight_, what_, autopilot_, output_); })
+        .argument("LOG", files_, "Flight logs: ArduPilot (.bin, .log), PX4 (.ulg) or CSV")
         .flight(flight_)
         .flag("--published-kinematics", flight_.published_kinematics,
               "The forward axis alone, by the paper's formulas: reproduces its digits")
         .option("--into SPEC", what_, "Print this spec with its drag replaced, instead of the fit")
+        .option("--parameters ardupilot|px4", autopilot_,
+                "Print the drag as parameters of this autopilot's wind estimate instead")
         .output(output_)
         .examples(
             {"tethercalc drag flight.bin --mass-g 1550 --pitch-offset-deg 0.8",
@@ -482,7 +509,8 @@ class CommandLine {
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,
-              "Flight log: DataFlash (.bin) or CSV; repeatable, for flights of one drone",
+              "Flight log: ArduPilot (.bin, .log), PX4 (.ulg) or CSV; repeatable, for flights of "
+              "one drone",
               "Power log (CSV)")
         .option_or_flag("--into FILE", diagnose_.into_file,
                         "Write the extended spec to this file; without a name print it instead of "
@@ -499,8 +527,9 @@ class CommandLine {
         .output(output_)
         .examples({"tethercalc diagnose my.json --flight flight.bin",
                    "tethercalc diagnose my.json --power power.csv --into extended.json"});
-    add("log", "What a DataFlash log holds", [this] { return run_log(what_, message_, output_); })
-        .argument("LOG", what_, "DataFlash log (.bin)")
+    add("log", "What an autopilot's log holds",
+        [this] { return run_log(what_, message_, output_); })
+        .argument("LOG", what_, "ArduPilot's .bin or .log, PX4's .ulg; also as .gz, .xz or .zip")
         .option("--csv NAME", message_, "Export all messages of this name, such as XKF1")
         .output(output_)
         .examples({"tethercalc log flight.bin",
@@ -545,7 +574,8 @@ class CommandLine {
     add("report", "One page with everything about a design, to be mailed or printed",
         [this] { return run_report(diagnose_, shell_command(arguments_), output_); })
         .spec(diagnose_.spec)
-        .logs(diagnose_, "With what this flight log says: DataFlash (.bin) or CSV",
+        .logs(diagnose_,
+              "With what this flight log says: ArduPilot (.bin, .log), PX4 (.ulg) or CSV",
               "With what this power log says (CSV)")
         .output_file(output_)
         .examples({"tethercalc report my.json --flight flight.bin --output report.html"});
@@ -602,7 +632,7 @@ class CommandLine {
   /// What else is wrong, while at it.
   void add_problems_of_spec() {
     for (const SpecOptions* spec :
-         {&spec_, &sweep_.spec, &shape_.spec, &diagnose_.spec, &plot_.made_of.spec}) {
+         {&spec_, &sweep_.spec, &shape_.spec, &motor_.spec, &diagnose_.spec, &plot_.made_of.spec}) {
       if (spec->file.empty()) continue;
       problems_.succeeds([spec] { [[maybe_unused]] const DesignFile read = read_spec(*spec); });
     }
@@ -692,10 +722,12 @@ class CommandLine {
   CheckOptions check_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
+  MotorOptions motor_;
   DesignRequest request_;
   ShapeOptions shape_;
   std::vector<std::string> files_;
   std::string what_;
+  std::string autopilot_;
   FlightOptions flight_;
   DiagnoseOptions diagnose_;
   std::span<const char* const> arguments_;  ///< what was typed, the program's name first

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "files/input_files.hpp"
+#include "files/log_file.hpp"
 #include "files/output_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
@@ -47,6 +47,17 @@ nlohmann::ordered_json spec_with_drag(const std::string& spec, const DragFit& fi
   design.drone.drag = fit.drag();
   design.drone.drag.fore_aft_asymmetry = asymmetry;
   return read_design_document(spec_with(file, design), file.file, file.load).document;
+}
+
+/// The autopilot whose parameters `--parameters` asks for, if any.
+std::optional<Autopilot> parameters_of(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const std::vector<std::string> names{"ardupilot", "px4"};  // as in Autopilot
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<Autopilot>(found - names.begin());
+  throw InputError("--parameters",
+                   fmt::format("\"{}\" is no autopilot; allowed are {}{}", name,
+                               fmt::join(names, " and "), did_you_mean(name, names)));
 }
 
 /// What was not said and moves the answer, on standard error so that no format hides it.
@@ -236,9 +247,9 @@ Home given_home(const std::string& text) {
 /// Where the first flight that knows took off.
 std::optional<Home> home_of(const std::vector<std::string>& flight_logs) {
   for (const std::string& name : flight_logs) {
-    const MappedFile log(name);
-    if (!looks_like_dataflash(log.bytes())) continue;
-    if (const auto home = logged_home(log.bytes())) return home;
+    const LogFile file(name);
+    if (looks_like_text(file.bytes()) && !looks_like_dataflash_text(file.bytes())) continue;
+    if (const auto home = logged_home(AutopilotLog(file.bytes(), name))) return home;
   }
   return std::nullopt;
 }
@@ -351,19 +362,15 @@ std::optional<double> air_density(const FlightOptions& options) {
 }
 
 int run_log(const std::string& file, const std::string& message, const Output& output) {
-  const MappedFile log(file);
-  if (log.bytes().empty()) throw InputError(file, "the file is empty");
-  if (!looks_like_dataflash(log.bytes())) {
-    throw InputError(file, "is no DataFlash log (.bin): it begins like a text");
-  }
+  const LogFile content(file);
+  const AutopilotLog log(content.bytes(), file);
   if (!message.empty()) {
     std::ostringstream csv;
-    write_messages_csv(log.bytes(), message, file, csv);
+    write_messages_csv(log, message, csv);
     emit(output, csv.str());
     return done;
   }
-  const LogSummary summary = summarize_log(log.bytes());
-  require_messages(summary, file);
+  const LogSummary summary = summarize_log(log);
   emit(
       output, [&] { return log_text(summary, file, style_for(output)); },
       [&] { return log_json(summary, file); }, [&] { return log_csv(summary); });
@@ -411,7 +418,12 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
 }
 
 int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
-             const std::string& into, const Output& output) {
+             const std::string& into, const std::string& autopilot, const Output& output) {
+  const std::optional<Autopilot> parameters = parameters_of(autopilot);
+  if (parameters && (!into.empty() || output.format != Format::table)) {
+    throw InputError("--parameters", fmt::format("and {} each ask for another answer; give one",
+                                                 into.empty() ? "--format" : "--into"));
+  }
   const DragIdentification result = studied_drag("", logs, flight).identified;
   tell_assumptions(flight, result.options);
   if (!into.empty()) {
@@ -419,6 +431,10 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
       remark("drag: " + warning + "\n");
     }
     emit(output, spec_text(spec_with_drag(into, result.fit), into, output.file));
+    return done;
+  }
+  if (parameters) {
+    emit(output, autopilot_parameter_file(result, *parameters));
     return done;
   }
   emit(

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "files/input_files.hpp"
+#include "files/log_file.hpp"
 #include "io/closest_name.hpp"
 #include "io/entry_readers.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -165,12 +166,12 @@ nlohmann::ordered_json spec_for_folder(nlohmann::ordered_json spec, const std::s
 
 FlightLogReading read_flight_log(const std::filesystem::path& path,
                                  const FlightLogOptions& options) {
-  const MappedFile file(path);
+  const LogFile file(path);
   return parse_flight_log(file.bytes(), path.string(), options);
 }
 
 PowerLog read_power_log(const std::filesystem::path& path) {
-  const MappedFile file(path);
+  const LogFile file(path);
   return parse_power_log(file.text(), path.string());
 }
 
