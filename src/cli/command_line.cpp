@@ -202,6 +202,28 @@ class CommandLine {
         .comma_list("--motors", motors_,
                     "all, or names of the library and files, separated by commas (default: all)")
         .output(output_);
+    add("motor", "A motor file from thrust-stand tables, or from what is known of a propeller",
+        [this] { return run_motor(motor_, output_); })
+        .option("FILE", motor_.files,
+                "Tables (CSV) of bench runs of one motor, or a motor file (JSON) to check")
+        .comma_list("--columns", motor_.columns,
+                    "What a header's words do not say: thrust_g=HEADER,power_W=HEADER,...")
+        .repeatable("--where", motor_.where,
+                    "COLUMN=VALUE: only these rows of the tables; repeatable")
+        .option("--id", motor_.id, "What specs call it (default: the file's name)")
+        .option("--name", motor_.name, "What people call it (default: the file's name)")
+        .option("--propeller-in", motor_.propeller_in, "Diameter of the propeller, inch")
+        .option("--air-density", motor_.air_density_kg_m3,
+                "Of the air on the bench, kg/m³ (default: not known)")
+        .option("--figure-of-merit", motor_.figure_of_merit,
+                "Without a file: ideal over electrical power of the motor to estimate")
+        .option("--max-thrust-g", motor_.max_thrust_g, "Without a file: its greatest thrust")
+        .option("--power-log", motor_.power_log,
+                "Instead of a file: a free flight (CSV: time_s, airspeed_m_s, bus_voltage_V, "
+                "bus_current_A)")
+        .option("--spec", motor_.spec.file, "The drone that flew it: mass, motors, drag, air")
+        .repeatable("--set", motor_.spec.overrides, "Change a field of that spec: path=value")
+        .output(output_);
     add("sweep", "One row a design, for every combination or a sample of values",
         [this] { return run_sweep(sweep_); })
         .spec(sweep_.spec)
@@ -278,12 +300,14 @@ class CommandLine {
 
   void add_log_commands() {
     add("drag", "The drone's drag, learned from its own flight logs",
-        [this] { return run_drag(files_, flight_, what_, output_); })
+        [this] { return run_drag(files_, flight_, what_, autopilot_, output_); })
         .argument("LOG", files_, "Flight logs: ArduPilot (.bin, .log), PX4 (.ulg) or CSV")
         .flight(flight_)
         .flag("--published-kinematics", flight_.published_kinematics,
               "The forward axis alone, by the paper's formulas: reproduces its digits")
         .option("--into", what_, "Print this spec with its drag replaced, instead of the fit")
+        .option("--parameters", autopilot_,
+                "ardupilot or px4: print the drag as parameters of its wind estimate instead")
         .output(output_);
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
@@ -397,10 +421,12 @@ class CommandLine {
   CheckOptions check_;
   std::vector<std::string> areas_;
   std::vector<std::string> motors_{"all"};
+  MotorOptions motor_;
   DesignRequest request_;
   ShapeOptions shape_;
   std::vector<std::string> files_;
   std::string what_;
+  std::string autopilot_;
   FlightOptions flight_;
   DiagnoseOptions diagnose_;
   std::span<const char* const> arguments_;  ///< what was typed, the program's name first

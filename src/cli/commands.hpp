@@ -70,9 +70,11 @@ int run_optimize(const SpecOptions& spec, const Output& output);
 int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
-/// The motors that `--motors` names: "all", names of the library, or files. Throws InputError with
-/// every name that there is none of.
-[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names);
+/// The motors that `--motors` names: "all" (of the library, and the spec's own where that is none
+/// of them), names of the library, or files. Throws InputError with every name that there is none
+/// of.
+[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
+                                                    const DesignFile& file);
 
 int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
                 const Output& output);
@@ -146,6 +148,24 @@ int run_check(const CheckOptions& options, const Output& output);
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
                  const Output& output);
 
+/// A motor from files, or from what is known of one that nobody measured.
+struct MotorOptions {
+  std::vector<std::string> files;    ///< tables of bench runs of one motor, or one motor file
+  std::vector<std::string> columns;  ///< see MotorBenchOptions
+  std::vector<std::string> where;    ///< likewise
+  std::string id;
+  std::string name;
+  std::optional<double> propeller_in;
+  std::optional<double> air_density_kg_m3;
+  std::optional<double> figure_of_merit;  ///< of a motor without files, with
+  std::optional<double> max_thrust_g;
+  std::string power_log;  ///< or: of a free flight, with the greatest thrust and
+  SpecOptions spec;       ///< the drone that flew
+};
+
+/// Shows a motor, or writes it as a motor file: as JSON, which an output file ending in .json is.
+int run_motor(const MotorOptions& options, Output output);
+
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
 
@@ -194,9 +214,10 @@ int run_log(const std::string& file, const std::string& message, const Output& o
 [[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
                                      const FlightOptions& flight);
 
-/// Reports the drag or, where `into` names a spec, prints that with its drag block replaced.
+/// Reports the drag or, where `into` names a spec, prints that with its drag block replaced or,
+/// where `autopilot` is "ardupilot" or "px4", prints its parameter file.
 int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
-             const std::string& into, const Output& output);
+             const std::string& into, const std::string& autopilot, const Output& output);
 
 struct DiagnoseOptions {
   SpecOptions spec;

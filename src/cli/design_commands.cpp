@@ -121,12 +121,17 @@ ReferenceCheck checked(const fs::path& spec) {
 
 DesignFile read_spec(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
 
-std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names) {
+std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
+                                      const DesignFile& file) {
   std::vector<MotorEntry> motors;
   Problems problems;
   for (const std::string& name : names) {
     if (name == "all") {
-      for (MotorEntry& motor : library_motors()) motors.push_back(std::move(motor));
+      const std::vector<MotorEntry> library = library_motors();
+      motors.insert(motors.end(), library.begin(), library.end());
+      if (std::ranges::find(library, file.motor.id, &MotorEntry::id) == library.end()) {
+        motors.push_back(file.motor);
+      }
       continue;
     }
     try {
@@ -163,7 +168,8 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
 int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
                 const Output& output) {
   const DesignFile file = read_spec(spec);
-  const std::vector<MotorOptimum> ranking = compare_motors(file.design, chosen_motors(motors));
+  const std::vector<MotorOptimum> ranking =
+      compare_motors(file.design, chosen_motors(motors, file));
   emit(
       output, [&] { return compare_text(file, ranking, style_for(output)); },
       [&] { return compare_json(file, ranking); }, [&] { return compare_csv(ranking); });
@@ -231,12 +237,6 @@ std::vector<double> checked(Problems& problems, const char* option,
 /// What decides how much cable is out; several where several slacks are asked for.
 std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& design,
                                      const ShapeRequest& request, Problems& problems) {
-  const auto of_length = [](double length) {
-    return PaidOut{.length = length, .winch_tension = {}};
-  };
-  const auto of_tension = [](double tension) {
-    return PaidOut{.length = {}, .winch_tension = tension};
-  };
   const int given = int(!options.slacks_percent.empty()) + int(options.length.has_value()) +
                     int(options.winch_tension.has_value());
   if (given > 1) {
@@ -245,20 +245,22 @@ std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& 
     return {};
   }
   if (options.length) {
-    return {of_length(checked(problems, "--length", *options.length, 1e-3, 1e6, "m"))};
+    return {{.length = checked(problems, "--length", *options.length, 1e-3, 1e6, "m"),
+             .winch_tension = {}}};
   }
   if (options.winch_tension) {
-    return {
-        of_tension(checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N"))};
+    return {{.length = {},
+             .winch_tension =
+                 checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N")}};
   }
-  if (given == 0 && design.tether.winch_pull > 0) return {of_tension(design.tether.winch_pull)};
-  if (given == 0) {
-    return {of_length(slack_length(design.tether.slack, request.height, request.offset))};
-  }
+  if (given == 0) return {paid_out_to(design.tether, request.height, request.offset)};
   std::vector<PaidOut> out;
   for (const double percent :
        checked(problems, "--slack", options.slacks_percent, 1e-6, 1000, "percent")) {
-    out.push_back(of_length(slack_length(percent / 100, request.height, request.offset)));
+    Tether tether = design.tether;
+    tether.winch_pull = 0;
+    tether.slack = percent / 100;
+    out.push_back(paid_out_to(tether, request.height, request.offset));
   }
   return out;
 }

@@ -42,7 +42,7 @@ Figure optimum(const PlotOptions& options) {
 
 Figure motors(const PlotOptions& options) {
   const DesignFile file = titled_spec(options);
-  return motors_figure(file, compare_motors(file.design, chosen_motors(options.motors)));
+  return motors_figure(file, compare_motors(file.design, chosen_motors(options.motors, file)));
 }
 
 Figure log(const PlotOptions& options) {
@@ -248,9 +248,12 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
       content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
   }
-  content.motors = compare_motors(file.design, library_motors());
+  content.motors = compare_motors(file.design, chosen_motors({"all"}, file));
   content.optimum = study_optimum(file.design, wire_sizes());
   content.curve = area_curve(content.optimum);
+  if (content.optimum.result.feasible) {
+    content.cable = shapes_in_flight(file.design, content.optimum.result.area);
+  }
   emit(output, report_page(content));
   return content.optimum.result.feasible ? done : answer_is_no;
 }

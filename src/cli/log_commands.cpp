@@ -40,6 +40,17 @@ std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
   return json_text(read_design_document(spec_with(file, design), file.file, file.load).document);
 }
 
+/// The autopilot whose parameters `--parameters` asks for, if any.
+std::optional<Autopilot> parameters_of(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const std::vector<std::string> names{"ardupilot", "px4"};  // as in Autopilot
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<Autopilot>(found - names.begin());
+  throw InputError("--parameters",
+                   fmt::format("\"{}\" is no autopilot; allowed are {}{}", name,
+                               fmt::join(names, " and "), did_you_mean(name, names)));
+}
+
 /// What was not said and moves the answer, on standard error so that no format hides it.
 void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptions& taken) {
   if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
@@ -415,7 +426,12 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
 }
 
 int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
-             const std::string& into, const Output& output) {
+             const std::string& into, const std::string& autopilot, const Output& output) {
+  const std::optional<Autopilot> parameters = parameters_of(autopilot);
+  if (parameters && (!into.empty() || output.format != Format::table)) {
+    throw InputError("--parameters", fmt::format("and {} each ask for another answer; give one",
+                                                 into.empty() ? "--format" : "--into"));
+  }
   const DragIdentification result = studied_drag("", logs, flight).identified;
   tell_assumptions(flight, result.options);
   if (!into.empty()) {
@@ -423,6 +439,10 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
       fmt::print(stderr, "drag: {}\n", warning);
     }
     emit(output, spec_with_drag(into, result.fit));
+    return done;
+  }
+  if (parameters) {
+    emit(output, autopilot_parameter_file(result, *parameters));
     return done;
   }
   emit(

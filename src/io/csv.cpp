@@ -172,8 +172,8 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
   return columns;
 }
 
-CsvRows::CsvRows(std::string_view text, std::string file)
-    : rest_(without_byte_order_mark(text)), file_(std::move(file)) {}
+CsvRows::CsvRows(std::string_view text, std::string file, char separator)
+    : rest_(without_byte_order_mark(text)), file_(std::move(file)), separator_(separator) {}
 
 std::string CsvRows::where() const { return fmt::format("{}:{}", file_, row_line_); }
 
@@ -203,22 +203,23 @@ bool CsvRows::next(std::vector<std::string>& cells) {
   }
   if (rest_.empty()) return false;
   row_line_ = line_;
+  const std::string ends{separator_, '\n'};
   while (true) {
     if (rest_.starts_with('"')) {
       cells.push_back(quoted_cell());
-      if (!rest_.empty() && rest_.find_first_of(",\r\n") != 0) {
+      if (!rest_.empty() && rest_.find_first_of(ends + "\r") != 0) {
         throw InputError(
             fmt::format("{}:{}", file_, line_),
             fmt::format("there is text after the quoted cell \"{}\"", cells.back().substr(0, 40)));
       }
     } else {
-      const std::size_t end = std::min(rest_.find_first_of(",\n"), rest_.size());
+      const std::size_t end = std::min(rest_.find_first_of(ends), rest_.size());
       std::string_view cell = rest_.substr(0, end);
-      if (cell.ends_with('\r') && !rest_.substr(end).starts_with(',')) cell.remove_suffix(1);
+      if (cell.ends_with('\r') && !rest_.substr(end).starts_with(separator_)) cell.remove_suffix(1);
       cells.emplace_back(cell);
       rest_.remove_prefix(end);
     }
-    if (rest_.starts_with(',')) {
+    if (rest_.starts_with(separator_)) {
       rest_.remove_prefix(1);
       continue;
     }

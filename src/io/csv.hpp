@@ -42,13 +42,13 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
                                                   std::span<const CsvColumn> wanted,
                                                   OtherCsvColumns others);
 
-/// Walks through the text of a CSV file (RFC 4180): commas, cells in double quotes where they hold
-/// commas, quotes (doubled) or line breaks; LF or CRLF, with or without a byte order mark. Empty
-/// lines are passed over.
+/// Walks through the text of a CSV file (RFC 4180): commas or another separator, cells in double
+/// quotes where they hold separators, quotes (doubled) or line breaks; LF or CRLF, with or without
+/// a byte order mark. Empty lines are passed over.
 class CsvRows {
  public:
   /// `text` must outlive this object; `file` is what messages call it.
-  CsvRows(std::string_view text, std::string file);
+  CsvRows(std::string_view text, std::string file, char separator = ',');
 
   /// Fills `cells` with those of the next row and returns true; false at the end. Throws InputError
   /// with "file:line" for a quote that is not closed and for text beside a quoted cell.
@@ -56,12 +56,15 @@ class CsvRows {
 
   /// Where the row that `next` gave begins, counted from 1, as "file:line".
   [[nodiscard]] std::string where() const;
+  /// That line alone.
+  [[nodiscard]] std::size_t line() const { return row_line_; }
 
  private:
   std::string quoted_cell();
 
   std::string_view rest_;
   std::string file_;
+  char separator_;
   std::size_t line_ = 1;      ///< of what is left
   std::size_t row_line_ = 1;  ///< of the last row
 };

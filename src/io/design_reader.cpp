@@ -255,6 +255,10 @@ class SpecReader {
         return read_efficiency(place, field, design.supply.converter, problems_);
       case FieldKind::motor:
         read_entry(place, result_.motor);
+        // What rankings call a motor that stands in the spec itself.
+        if (std::string& id = result_.motor.id; id.empty()) {
+          id = result_.motor.name.empty() ? "own motor" : result_.motor.name;
+        }
         result_.warnings = result_.motor.warnings;
         return;
       case FieldKind::conductor:

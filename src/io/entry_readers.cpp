@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "io/closest_name.hpp"
-#include "io/csv.hpp"
 #include "io/embedded_files.hpp"
+#include "io/motor_points.hpp"
+#include "tethercalc/io/motor_bench.hpp"
 #include "tethercalc/model/motor_curve.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -20,43 +21,6 @@ namespace tethercalc {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A measured point and what messages call its place.
-struct BenchPoint {
-  MotorPoint point;
-  std::string where;
-};
-
-std::string in_practical_units(const MotorPoint& point) {
-  return fmt::format("{:.1f} g at {:.2f} W", point.thrust / unit::gram_force, point.power);
-}
-
-/// Fills `entry.curve`, pooling points that do not rise, and says so in `entry.warnings`.
-bool set_curve(MotorEntry& entry, const std::vector<BenchPoint>& measured, const std::string& where,
-               Problems& problems) {
-  std::vector<MotorPoint> points;
-  for (const BenchPoint& bench : measured) points.push_back(bench.point);
-  const IsotonicMotorPoints isotonic = isotonic_motor_points(points);
-  for (const PooledMotorPoints& pool : isotonic.pooled) {
-    std::string members;
-    for (const std::size_t i : pool.members) {
-      if (!members.empty()) members += ", ";
-      members += fmt::format("{} ({})", in_practical_units(points[i]), measured[i].where);
-    }
-    entry.warnings.push_back(
-        fmt::format("{}: power must rise with thrust, so these points were pooled to {}: {}", where,
-                    in_practical_units(pool.mean), members));
-  }
-  if (isotonic.points.size() < 2) {
-    problems.add(
-        where,
-        fmt::format("a motor curve needs at least 2 points of rising thrust and power, found {}",
-                    isotonic.points.size()));
-    return false;
-  }
-  entry.curve = MotorCurve(isotonic.points);
-  return true;
-}
 
 /// An object of a file or spec, held against its fields.
 class EntryObject {
@@ -149,11 +113,18 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
   entry.voltage_V = entry_object.number("/voltage_V");
   entry.propeller_in = entry_object.number("/propeller_in");
   const std::optional<double> density = entry_object.number("/measured_air_density_kg_m3");
+  const std::optional<double> uncertainty = entry_object.number("/power_uncertainty_percent");
   const JsonPlace& points_place = entry_object.at("/points");
   const auto points = read_motor_points(points_place, problems);
   if (!points || entry_object.faulty()) return std::nullopt;
   if (!set_curve(entry, *points, points_place.where(), problems)) return std::nullopt;
   entry.curve.set_measured_in(density);
+  if (uncertainty) {
+    entry.warnings.push_back(fmt::format(
+        "{}: the motor is an estimate, not measured: its power may be off by about {:g} % "
+        "either way (power_uncertainty_percent)",
+        object.where(), *uncertainty));
+  }
   return entry;
 }
 
@@ -245,11 +216,12 @@ std::optional<Entry> entry_from_file(const std::string& reference, const TextLoa
     }
     return std::nullopt;
   }
+  std::optional<Entry> entry;
   if constexpr (std::is_same_v<Entry, MotorEntry>) {
     if (reference.ends_with(".csv")) return motor_from_bench_csv(file.text, file.name, problems);
   }
-  std::optional<Entry> entry;
   problems.succeeds([&] { entry = entry_from_text<Entry>(file.text, file.name, problems); });
+  if (entry && entry->id.empty()) entry->id = as_utf8(file_stem(file.name));
   return entry;
 }
 
@@ -321,36 +293,10 @@ template std::optional<InsulationEntry> entry_at(const JsonPlace&, const TextLoa
 
 std::optional<MotorEntry> motor_from_bench_csv(const std::string& text, const std::string& name,
                                                Problems& problems) {
-  constexpr double largest = 1e6;  // g and W: as for the points of a motor's JSON file
-  const std::array columns{CsvColumn{.name = "thrust_g", .minimum = -largest, .maximum = largest},
-                           CsvColumn{.name = "power_W", .minimum = -largest, .maximum = largest}};
-  std::vector<std::vector<double>> values;
-  const bool read = problems.succeeds(
-      [&] { values = read_csv_columns(text, name, columns, OtherCsvColumns::ignored); });
-  if (!read) return std::nullopt;
-  MotorEntry entry;
-  entry.name = as_utf8(file_stem(name));
-  entry.source = as_utf8(name);
-  std::vector<BenchPoint> points;
-  for (std::size_t row = 0; row < values[0].size(); ++row) {
-    const MotorPoint point{values[0][row] * unit::gram_force, values[1][row]};
-    const std::size_t line = row + 2;  // the header is line 1, and no line may be blank
-    if (point.thrust > 0 && point.power > 0) {
-      points.push_back({point, fmt::format("line {}", line)});
-    } else {
-      entry.warnings.push_back(fmt::format(
-          "{}:{}: left out, since a running motor has thrust and power above 0, found {}", name,
-          line, in_practical_units(point)));
-    }
-  }
-  if (points.size() < 2 && !entry.warnings.empty()) {
-    return problems.refuse(
-        name, fmt::format("{} of {} rows have no thrust or no power above 0, and a motor "
-                          "curve needs 2 that have; is a sign reversed?",
-                          entry.warnings.size(), values[0].size()));
-  }
-  if (!set_curve(entry, points, name, problems)) return std::nullopt;
-  return entry;
+  std::optional<MotorEntry> motor;
+  const LoadedText table{name, text};
+  problems.succeeds([&] { motor = motor_from_bench({&table, 1}).motor; });
+  return motor;
 }
 
 void put_entry(Design& design, const MotorEntry& entry) { design.drone.motor = entry.curve; }

@@ -158,6 +158,53 @@ std::string residual_sentence(const FitQuality& quality) {
       fixed(quality.effective_samples, 0));
 }
 
+ordered_json autopilot_json(const DragFit& fit, Autopilot autopilot) {
+  ordered_json out;
+  for (const AutopilotParameter& parameter : autopilot_drag(fit, autopilot).parameters) {
+    ordered_json& entry = out[parameter.name];
+    if (parameter.value) {
+      entry = estimate_json(*parameter.value);
+    } else {
+      entry = {{"value", nullptr}, {"left_out_because", parameter.left_out_because}};
+    }
+    entry["unit"] = parameter.unit;
+  }
+  return out;
+}
+
+std::string commented(const std::string& sentence) { return wrapped(sentence, 92, "# "); }
+
+/// How a parameter is set, in the words and the file format of its autopilot.
+struct ParameterFileStyle {
+  std::string_view title;
+  std::string_view line;  ///< name and value
+  std::string_view how_to_set;
+};
+
+ParameterFileStyle parameter_file_style(Autopilot autopilot) {
+  if (autopilot == Autopilot::ardupilot) {
+    return {"ArduPilot EKF3", "{},{}\n",
+            "Load with Mission Planner (Full Parameter List, Load from file) or MAVProxy (param "
+            "load). The wind is estimated from drag once any of these is set; "
+            "https://ardupilot.org/copter/docs/airspeed-estimation.html tells how to check it."};
+  }
+  return {"PX4 EKF2", "1\t1\t{}\t{}\t9\n",
+          "Load with QGroundControl (Vehicle Setup, Parameters, Tools, Load from file), or type "
+          "`param set NAME VALUE` in the MAVLink console. They count once EKF2_DRAG_CTRL is 1 "
+          "(before v1.14: bit 5 of EKF2_AID_MASK)."};
+}
+
+/// How far one drag area an axis, as the autopilots have it, carries.
+std::string check_sentence(const AutopilotDragCheck& check) {
+  return fmt::format(
+      "They hold near level attitude: the autopilot has no area that shows as the drone tilts. In "
+      "steady flight at {:g} m/s, tilted by {}°, it expects {} m/s² along the forward axis, and "
+      "the "
+      "fit has {} m/s².",
+      check.airspeed, fixed(check.tilt / unit::degree, 1), significant(check.by_autopilot, 3),
+      significant(check.by_fit, 3));
+}
+
 }  // namespace
 
 std::vector<SteadyDrag> steady_drag_table(const DragFit& fit) {
@@ -247,6 +294,8 @@ ordered_json drag_json(const DragIdentification& result) {
                         {"drag_force_N", estimate_json(row.force)},
                         {"pitch_deg", estimate_json(row.tilt, unit::degree)}};
   });
+  out["autopilot"] = {{"ardupilot", autopilot_json(fit, Autopilot::ardupilot)},
+                      {"px4", autopilot_json(fit, Autopilot::px4)}};
   const AirframeDrag drag = fit.drag();
   out["drone"]["drag"] = {{"front_area_m2", drag.front_area},
                           {"top_area_m2", drag.top_area},
@@ -322,6 +371,32 @@ std::string drag_csv(const DragIdentification& result) {
       }
     }
     out += "\n";
+  }
+  return out;
+}
+
+std::string autopilot_parameter_file(const DragIdentification& result, Autopilot autopilot) {
+  const ParameterFileStyle style = parameter_file_style(autopilot);
+  const AutopilotDrag drag = autopilot_drag(result.fit, autopilot);
+  const DragFitConditions& known = result.fit.conditions;
+  std::string out = commented(
+      fmt::format("Drag of the drone for the wind estimate of {}, fitted by tethercalc to "
+                  "{} samples at {} g and {} kg/m³.",
+                  style.title, result.fit.quality.samples, significant(known.mass / unit::gram, 4),
+                  significant(known.air_density, 4)));
+  out += commented(std::string(style.how_to_set));
+  out += commented("Set them together: what one leaves the other takes.");
+  for (const std::string& warning : drag_warnings(result.fit)) out += commented(warning);
+  if (drag.check) out += commented(check_sentence(*drag.check));
+  for (const AutopilotParameter& parameter : drag.parameters) {
+    if (!parameter.value) {
+      out += commented(parameter.name + " is left out: " + with_stop(parameter.left_out_because));
+      continue;
+    }
+    const Estimate& e = *parameter.value;
+    out += commented(fmt::format("{} in {}, 95 % interval {} … {}", parameter.name, parameter.unit,
+                                 significant(e.lower, 4), significant(e.upper, 4)));
+    out += fmt::format(fmt::runtime(style.line), parameter.name, significant(e.value, 4));
   }
   return out;
 }

@@ -350,6 +350,11 @@ std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> r
   const std::vector<std::string> refused = refused_motors(ranking);
   if (!refused.empty()) out += "\n" + style.bold("Not feasible") + "\n";
   for (const std::string& motor : refused) out += "  " + motor + "\n";
+  std::string notes;
+  for (const MotorOptimum& entry : ranking) {
+    for (const std::string& warning : entry.motor.warnings) notes += wrapped(warning, 96, "  ");
+  }
+  if (!notes.empty()) out += "\n" + style.bold("Notes") + "\n" + notes;
   return out;
 }
 
@@ -362,7 +367,8 @@ ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> 
         {"optimum", optimum_json(entry.result)},
         {"best_headroom", number_or_null(entry.best_headroom.value)},
         {"reason", entry.refusal ? ordered_json(refusal_sentence(entry.design, *entry.refusal))
-                                 : ordered_json(nullptr)}};
+                                 : ordered_json(nullptr)},
+        {"warnings", entry.motor.warnings}};
   });
   return {{"name", file.name}, {"motors", rows}};
 }

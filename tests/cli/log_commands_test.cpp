@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -97,6 +98,54 @@ TEST_CASE("drag tells parameters, what is well known, and the range that it chos
                           Contains("Taken as known: 1550 g, 1.225 kg/m³, pitch offset 0.800°") &&
                           Contains("linear_m_s (correlation -0.9") &&
                           Contains("Well determined is the drag force"));
+}
+
+TEST_CASE("drag's parameters for an autopilot are those of its JSON, with intervals as comments") {
+  const json answer = drag_of({example}, known).at("autopilot");
+  for (const std::string autopilot : {"ardupilot", "px4"}) {
+    const Ran run = drag({example}, and_also(known, {"--parameters", autopilot}));
+    CAPTURE(autopilot, run.err);
+    REQUIRE(run.exit_code == 0);
+    std::map<std::string, double> set;
+    std::istringstream file(run.out);
+    for (std::string line; std::getline(file, line);) {
+      if (line.starts_with("#")) continue;
+      std::ranges::replace(line, ',', '\t');
+      std::istringstream cells(line);
+      std::string name;
+      double value = 0;
+      int vehicle = 0;
+      int component = 0;
+      if (autopilot == "px4") cells >> vehicle >> component;
+      REQUIRE(cells >> name >> value);
+      set[name] = value;
+    }
+    std::size_t determined = 0;
+    for (const auto& [name, parameter] : answer.at(autopilot).items()) {
+      if (parameter.at("value").is_null()) {
+        CHECK(set.count(name) == 0);
+        CHECK_THAT(run.out, Contains(name + " is left out"));
+        continue;
+      }
+      ++determined;
+      REQUIRE(set.count(name) == 1);
+      CHECK(set[name] == Approx(parameter.at("value").get<double>()).epsilon(1e-3));
+      CHECK_THAT(run.out, Contains(name + " in " + parameter.at("unit").get<std::string>() +
+                                   ", 95 % interval "));
+    }
+    CHECK(set.size() == determined);
+    CHECK(determined == 2);  // this flight shows no drag to the side
+  }
+}
+
+TEST_CASE("an autopilot that drag does not know, and two answers at once, are refused") {
+  const Ran unknown = drag({example}, and_also(known, {"--parameters", "pix4"}));
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.out.empty());
+  CHECK_THAT(unknown.err, Contains("ardupilot and px4") && Contains("did you mean \"px4\""));
+  const Ran both = drag({example}, and_also(known, {"--parameters", "px4", "--into", published}));
+  CHECK(both.exit_code == 2);
+  CHECK_THAT(both.err, Contains("--into"));
 }
 
 TEST_CASE("drag's JSON has the documented keys, and its intervals hold the simulated truth") {

@@ -38,7 +38,9 @@ TEST_CASE("drag JSON holds each parameter with both errors and an interval aroun
   CHECK(json["range"] == "automatic");
   CHECK(json["drone"]["drag"]["linear_m_s"] == json["linear_m_s"]["value"]);
   CHECK(json["table"].size() >= 8);
-  CHECK(json.dump().find("null") == std::string::npos);
+  auto determined = json;
+  determined.erase("autopilot");  // this flight shows no drag to the side
+  CHECK(determined.dump().find("null") == std::string::npos);
 }
 
 TEST_CASE("a parameter at its bound is null in JSON, a dash in text, and named in both") {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/identify/autopilot_drag.hpp"
 #include "tethercalc/identify/drag_fit.hpp"
 #include "tethercalc/report/text_table.hpp"
 
@@ -21,7 +22,9 @@ namespace tethercalc {
 /// All results. `front_area_m2`, `top_area_m2`, `linear_m_s` and the list `wind_m_s` hold {`value`,
 /// `standard_error_independent`, `standard_error`, `ci95`}, null where the parameter is held at its
 /// bound, which `at_bound` then names; `warnings` those of `drag_warnings`; `drone.drag` is the
-/// block for a spec; `table` lists steady flight with the same objects.
+/// block for a spec; `table` lists steady flight with the same objects; `autopilot` has, of
+/// `ardupilot` and `px4`, each of their parameters with its unit, or null as its value and why it
+/// is left out.
 [[nodiscard]] nlohmann::ordered_json drag_json(const DragIdentification& result);
 
 /// What is said of a fit beside its tables.
@@ -44,5 +47,10 @@ struct DragSentences {
 
 /// The table of steady flight, one row a speed.
 [[nodiscard]] std::string drag_csv(const DragIdentification& result);
+
+/// The fit as a parameter file of an autopilot: NAME,VALUE a line for ArduPilot, the five columns
+/// of QGroundControl for PX4. Intervals, what is left out and why, and how to load it are comments.
+[[nodiscard]] std::string autopilot_parameter_file(const DragIdentification& result,
+                                                   Autopilot autopilot);
 
 }  // namespace tethercalc

@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "files/input_files.hpp"
+#include "io/checked_values.hpp"
+#include "tethercalc/files/read_files.hpp"
+#include "tethercalc/io/motor_bench.hpp"
+#include "tethercalc/report/motor_report.hpp"
+#include "tethercalc/study/motor.hpp"
+
+namespace tethercalc::cli {
+namespace {
+
+void check_between(Problems& problems, const char* option, const std::optional<double>& value,
+                   double least, double most, const char* unit) {
+  if (!value || (*value > least && *value <= most)) return;
+  problems.add(option, fmt::format("{:g} is out of range; allowed is above {:g} up to {:g} {}",
+                                   *value, least, most, unit));
+}
+
+/// Every problem of the options by themselves.
+void check(const MotorOptions& options) {
+  Problems problems;
+  check_between(problems, "--propeller-in", options.propeller_in, 0, 200, "inch");
+  check_between(problems, "--air-density", options.air_density_kg_m3, 0.001, 100, "kg/m³");
+  check_between(problems, "--figure-of-merit", options.figure_of_merit, 0, 0.99,
+                "(1 is an ideal propeller on an ideal motor)");
+  check_between(problems, "--max-thrust-g", options.max_thrust_g, 0, 1e6, "g");
+  const bool flown = !options.power_log.empty();
+  if (flown && (options.spec.file.empty() || !options.max_thrust_g)) {
+    problems.add(
+        "--power-log",
+        "needs --spec SPEC, the drone that flew, and --max-thrust-g, the greatest thrust of "
+        "one motor");
+  }
+  if (flown && options.figure_of_merit) {
+    problems.add("--figure-of-merit", "is what --power-log measures; give one of them");
+  }
+  if (flown && options.air_density_kg_m3) {
+    problems.add("--air-density", "of a flight is the spec's: --set flight.air_density_kg_m3=X");
+  }
+  if (!flown && !(options.spec.file.empty() && options.spec.overrides.empty())) {
+    problems.add("--spec", "is the drone that flew a --power-log; give one");
+  }
+  const bool generic = options.figure_of_merit || options.max_thrust_g || flown;
+  if (!options.files.empty() && generic) {
+    problems.add(flown                     ? "--power-log"
+                 : options.figure_of_merit ? "--figure-of-merit"
+                                           : "--max-thrust-g",
+                 "is of a motor that nobody measured; a file already says it");
+  }
+  if (options.files.empty() && !flown) {
+    const auto need = [&](const char* option, const std::optional<double>& value) {
+      if (!value) {
+        problems.add(option,
+                     "is needed for a motor without a file; all of --propeller-in, "
+                     "--figure-of-merit and --max-thrust-g are");
+      }
+    };
+    need("--propeller-in", options.propeller_in);
+    need("--figure-of-merit", options.figure_of_merit);
+    need("--max-thrust-g", options.max_thrust_g);
+  }
+  if (options.files.empty()) {
+    if (!options.columns.empty()) problems.add("--columns", "names columns of a file; give one");
+    if (!options.where.empty()) problems.add("--where", "chooses rows of a file; give one");
+  }
+  problems.throw_if_any();
+}
+
+/// A motor and what its file holds beside it.
+struct ShownMotor {
+  MotorEntry motor;
+  nlohmann::ordered_json given{};  ///< the motor file that it was read from, if any
+  std::optional<double> band{};    ///< percent of its power, where it is an estimate
+};
+
+ShownMotor generic_motor(const MotorOptions& options) {
+  const GenericMotorRequest request{*options.propeller_in * metres_per_inch,
+                                    *options.figure_of_merit,
+                                    *options.max_thrust_g * unit::gram_force,
+                                    options.air_density_kg_m3.value_or(standard_air_density)};
+  const FigureOfMeritSpread spread = figure_of_merit_spread(library_motors());
+  const double band = std::round(100 * spread.power_band);
+  ShownMotor out;
+  MotorEntry& motor = out.motor;
+  motor.id = fmt::format("generic-{:g}in-{:g}g", *options.propeller_in, *options.max_thrust_g);
+  motor.name = fmt::format("Generic {:g} inch, {:g} g, figure of merit {:g}", *options.propeller_in,
+                           *options.max_thrust_g, *options.figure_of_merit);
+  motor.source = fmt::format(
+      "Estimate, not measured: momentum theory, P = T^1.5/sqrt(2 rho A)/FM with FM {:g} of "
+      "propeller "
+      "and drive together, in air of {:g} kg/m3. 95 % of the {} measured points of the library are "
+      "within {:g} % of the power that their median, FM {:.2f}, gives (FM {:.2f} to {:.2f})",
+      *options.figure_of_merit, request.air_density, spread.points, band, spread.median,
+      spread.least, spread.greatest);
+  motor.propeller_in = options.propeller_in;
+  motor.curve = generic_motor_curve(request);
+  motor.warnings.push_back(fmt::format(
+      "an estimate, not measured: its power may be off by about {:g} % either way", band));
+  out.band = band;
+  return out;
+}
+
+std::string forward_words(const FlownForward& forward) {
+  return fmt::format(
+      "in forward flight ({} rows, mean airspeed {:.1f} m/s) the motors drew {:.2f} times what "
+      "this "
+      "curve gives for the thrust flown{}",
+      forward.rows, forward.airspeed, forward.ratio,
+      forward.ratio < 1 ? " (drone.translational_lift of a spec accounts for that)" : "");
+}
+
+/// The motor of a free flight.
+ShownMotor motor_of_flight(const MotorOptions& options) {
+  const DesignFile file = read_spec(options.spec);
+  const MappedFile log(options.power_log);
+  const FlownPower flight = parse_flown_power(log.text(), options.power_log);
+  const double density = file.design.flight.air_density;
+  FlownMotor flown;
+  try {
+    flown = flown_motor(flight, file.design.drone, density,
+                        *options.max_thrust_g * unit::gram_force, library_motors());
+  } catch (const UnsuitablePowerFlight& error) {
+    throw InputError(options.power_log, error.what());
+  }
+  ShownMotor out;
+  MotorEntry& motor = out.motor;
+  const std::string name = base_name(options.power_log);
+  motor.id = std::filesystem::path(name).stem().string();
+  motor.name = motor.id + ", flown";
+  motor.source = fmt::format(
+      "Free flight {}: in {:.0f} s of hover {:.1f} W for {:.0f} g a motor, +-{:.1f} % (95 %), "
+      "{:.0f} g in all, air of {:g} kg/m3; from there P = k T^1.5 (momentum theory)",
+      name, flown.hover_seconds, flown.hover_power, flown.hover_thrust / unit::gram_force,
+      100 * flown.hover_interval, file.design.drone.mass / unit::gram, density);
+  motor.curve = flown.curve;
+  out.band = std::ceil(100 * flown.band);
+  motor.warnings.push_back(
+      fmt::format("known at its hover only, to ±{:.1f} % (95 %); elsewhere its power may be off by "
+                  "about {:g} % "
+                  "either way",
+                  100 * flown.hover_interval, *out.band));
+  motor.warnings.emplace_back(
+      "all of the bus's power is taken for the motors': what else it feeds counts as theirs");
+  if (flown.forward) motor.warnings.push_back(forward_words(*flown.forward));
+  return out;
+}
+
+ShownMotor motor_of_json(const MotorOptions& options) {
+  if (options.files.size() > 1) {
+    throw InputError(options.files[1], "is one file too many: a motor file is a whole motor");
+  }
+  if (!options.columns.empty() || !options.where.empty()) {
+    throw InputError(options.columns.empty() ? "--where" : "--columns",
+                     "is for tables; " + options.files.front() + " is a motor file");
+  }
+  ShownMotor out;
+  out.motor = find_motor(options.files.front(), files_in(""), "FILE");
+  out.given = nlohmann::ordered_json::parse(read_text_file(options.files.front()).text);
+  return out;
+}
+
+/// What the options say beside the files.
+void apply(const MotorOptions& options, MotorEntry& motor) {
+  if (!options.id.empty()) motor.id = options.id;
+  if (!options.name.empty()) motor.name = options.name;
+  if (options.propeller_in) motor.propeller_in = options.propeller_in;
+  if (options.air_density_kg_m3) motor.curve.set_measured_in(options.air_density_kg_m3);
+}
+
+/// The motor as a file: the one it was read from with what options change, so that its points and
+/// remarks stay as they were written.
+nlohmann::ordered_json document_of(const ShownMotor& shown) {
+  nlohmann::ordered_json document = motor_document(shown.motor);
+  if (!shown.given.is_null()) {
+    document.erase("points");
+    nlohmann::ordered_json out = shown.given;
+    out.update(document);
+    return out;
+  }
+  if (shown.band) document["power_uncertainty_percent"] = *shown.band;
+  return document;
+}
+
+/// No propeller does better than momentum theory.
+void check_merit(const MotorEntry& motor) {
+  const std::vector<double> merits = figures_of_merit(motor);
+  const auto best = std::ranges::max_element(merits);
+  if (best == merits.end() || *best <= 1) return;
+  const auto index = static_cast<std::size_t>(best - merits.begin());
+  const MotorPoint& point = motor.curve.vertices()[index + 1];
+  throw InputError(
+      motor.id,
+      fmt::format("has a figure of merit of {:.2f} at {:.1f} g and {:.2f} W with a "
+                  "propeller of {:g} inch, and above 1 is impossible: check the unit of "
+                  "thrust and power, and the propeller",
+                  *best, point.thrust / unit::gram_force, point.power, *motor.propeller_in));
+}
+
+bool is_motor_file(const std::string& file) { return file.ends_with(".json"); }
+
+ShownMotor shown_motor(const MotorOptions& options) {
+  if (!options.power_log.empty()) return motor_of_flight(options);
+  if (options.files.empty()) return generic_motor(options);
+  if (std::ranges::any_of(options.files, is_motor_file)) return motor_of_json(options);
+  std::vector<LoadedText> tables;
+  for (const std::string& file : options.files) tables.push_back(read_text_file(file));
+  ShownMotor out;
+  out.motor = motor_from_bench(tables, {options.columns, options.where}).motor;
+  return out;
+}
+
+}  // namespace
+
+int run_motor(const MotorOptions& options, Output output) {
+  check(options);
+  ShownMotor shown = shown_motor(options);
+  apply(options, shown.motor);
+  check_merit(shown.motor);
+  if (output.format == Format::table && output.file.ends_with(".json")) {
+    output.format = Format::json;
+  }
+  if (output.format != Format::table) {
+    for (const std::string& warning : shown.motor.warnings) {
+      fmt::print(stderr, "motor: {}\n", warning);
+    }
+  }
+  emit(
+      output, [&] { return motor_text(shown.motor, style_for(output)); },
+      [&] { return document_of(shown); }, [&] { return motor_csv(shown.motor); });
+  return done;
+}
+
+}  // namespace tethercalc::cli

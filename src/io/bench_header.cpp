@@ -1,0 +1,185 @@
+#include "io/bench_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace tethercalc {
+namespace {
+
+using enum BenchQuantity;
+
+struct BenchUnit {
+  std::string_view name;  ///< in lower case
+  BenchQuantity quantity;
+  double factor;
+};
+
+constexpr double grams_per_newton = 1000 / 9.80665;  // standard gravity, ISO 80000-3
+constexpr double grams_per_pound = 453.59237;        // international avoirdupois pound
+constexpr double grams_per_ounce = grams_per_pound / 16;
+
+// Longer names of the same ending first: "kg" ends in "g".
+constexpr std::array units{
+    BenchUnit{"gf per w", efficiency, 1},
+    BenchUnit{"g per w", efficiency, 1},
+    BenchUnit{"gf/w", efficiency, 1},
+    BenchUnit{"kgf/kw", efficiency, 1},
+    BenchUnit{"kg/kw", efficiency, 1},
+    BenchUnit{"kgf/w", efficiency, 1000},
+    BenchUnit{"kg/w", efficiency, 1000},
+    BenchUnit{"g/w", efficiency, 1},
+    BenchUnit{"lbf/w", efficiency, grams_per_pound},
+    BenchUnit{"lb/w", efficiency, grams_per_pound},
+    BenchUnit{"n/w", efficiency, grams_per_newton},
+    BenchUnit{"kgf", thrust, 1000},
+    BenchUnit{"kg", thrust, 1000},
+    BenchUnit{"kp", thrust, 1000},
+    BenchUnit{"grams", thrust, 1},
+    BenchUnit{"gram", thrust, 1},
+    BenchUnit{"gf", thrust, 1},
+    BenchUnit{"g", thrust, 1},
+    BenchUnit{"newton", thrust, grams_per_newton},
+    BenchUnit{"n", thrust, grams_per_newton},
+    BenchUnit{"lbf", thrust, grams_per_pound},
+    BenchUnit{"lbs", thrust, grams_per_pound},
+    BenchUnit{"lb", thrust, grams_per_pound},
+    BenchUnit{"ozf", thrust, grams_per_ounce},
+    BenchUnit{"oz", thrust, grams_per_ounce},
+    BenchUnit{"kw", power, 1000},
+    BenchUnit{"watts", power, 1},
+    BenchUnit{"watt", power, 1},
+    BenchUnit{"w", power, 1},
+    BenchUnit{"mv", voltage, 1e-3},
+    BenchUnit{"volts", voltage, 1},
+    BenchUnit{"volt", voltage, 1},
+    BenchUnit{"v", voltage, 1},
+    BenchUnit{"ma", current, 1e-3},
+    BenchUnit{"amps", current, 1},
+    BenchUnit{"amp", current, 1},
+    BenchUnit{"a", current, 1},
+    BenchUnit{"percent", throttle, 1},
+    BenchUnit{"%", throttle, 1},
+    BenchUnit{"µs", throttle, 1},
+    BenchUnit{"us", throttle, 1},
+};
+
+/// Words for a quantity, qualifiers left out.
+constexpr std::array<std::pair<std::string_view, BenchQuantity>, 22> words{{
+    {"thrust", thrust},         {"thrust force", thrust}, {"pull", thrust},
+    {"lift", thrust},           {"schub", thrust},        {"standschub", thrust},
+    {"power", power},           {"power in", power},      {"leistung", power},
+    {"efficiency", efficiency}, {"eff", efficiency},      {"effizienz", efficiency},
+    {"voltage", voltage},       {"spannung", voltage},    {"current", current},
+    {"strom", current},         {"throttle", throttle},   {"gas", throttle},
+    {"esc", throttle},          {"esc signal", throttle}, {"esc throttle", throttle},
+    {"pwm", throttle},
+}};
+
+/// Words before a quantity that leave it what it is.
+constexpr std::array<std::string_view, 11> qualifiers{"electrical", "electric", "input", "static",
+                                                      "measured",   "average",  "avg",   "mean",
+                                                      "overall",    "total",    "dc"};
+
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return out;
+}
+
+/// Blanks, and what stands for them in headers, as single blanks; none at the ends.
+std::string spaced(std::string_view text) {
+  constexpr std::string_view separators = " \t\r\n_:,;.-";
+  std::string out;
+  for (const char c : text) {
+    if (separators.find(c) == std::string_view::npos) {
+      out += c;
+    } else if (!out.empty() && out.back() != ' ') {
+      out += ' ';
+    }
+  }
+  if (out.ends_with(' ')) out.pop_back();
+  return out;
+}
+
+/// A header's cell taken apart.
+struct HeaderParts {
+  std::string words;  ///< in lower case, single blanks between
+  std::string unit;   ///< likewise; empty where there is none
+};
+
+const BenchUnit* unit_at_end(const std::string& text) {
+  const auto found = std::ranges::find_if(units, [&](const BenchUnit& unit) {
+    return text == unit.name || text.ends_with(" " + std::string(unit.name));
+  });
+  return found == units.end() ? nullptr : &*found;
+}
+
+HeaderParts parts_of(std::string_view header) {
+  const std::string text = lower_case(header);
+  const std::size_t open = text.find_last_of("([");
+  if (open != std::string::npos) {
+    const std::size_t close = text.find_first_of(")]", open);
+    return {spaced(std::string_view(text).substr(0, open)),
+            spaced(std::string_view(text).substr(
+                open + 1, close == std::string::npos ? std::string::npos : close - open - 1))};
+  }
+  std::string all = spaced(text);
+  const BenchUnit* unit = unit_at_end(all);
+  if (unit == nullptr) {
+    // "Thrust/g"
+    const std::size_t slash = all.find('/');
+    if (slash == std::string::npos) return {all, ""};
+    return {spaced(all.substr(0, slash)), spaced(all.substr(slash + 1))};
+  }
+  std::string before = spaced(all.substr(0, all.size() - unit->name.size()));
+  if (before.ends_with('/')) before = spaced(before.substr(0, before.size() - 1));  // "Thrust / g"
+  return {before, std::string(unit->name)};
+}
+
+std::string without_qualifiers(std::string text) {
+  for (bool found = true; found;) {
+    found = false;
+    for (const std::string_view qualifier : qualifiers) {
+      const std::string first = std::string(qualifier) + " ";
+      if (!text.starts_with(first)) continue;
+      text.erase(0, first.size());
+      found = true;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<BenchColumnMeaning> bench_column_meaning(std::string_view header) {
+  const HeaderParts parts = parts_of(header);
+  const auto unit = std::ranges::find(units, parts.unit, &BenchUnit::name);
+  const std::string name = without_qualifiers(parts.words);
+  if (name.empty()) {  // "Watts": the unit says it all, where it is spelt out
+    const bool spelt_out =
+        parts.unit.size() >= 3 && unit != units.end() &&
+        (unit->quantity == power || unit->quantity == voltage || unit->quantity == current);
+    return spelt_out ? std::optional(BenchColumnMeaning{unit->quantity, unit->factor})
+                     : std::nullopt;
+  }
+  const auto word =
+      std::ranges::find(words, name, &std::pair<std::string_view, BenchQuantity>::first);
+  if (word == words.end()) return std::nullopt;
+  // A throttle only tells which rows belong together: its unit does not matter.
+  if (word->second == throttle) return BenchColumnMeaning{throttle, 1};
+  if (unit == units.end() || unit->quantity != word->second) return std::nullopt;
+  return BenchColumnMeaning{unit->quantity, unit->factor};
+}
+
+std::string bench_column_words(std::string_view header) { return parts_of(header).words; }
+
+std::string_view bench_quantity_name(BenchQuantity quantity) {
+  constexpr std::array<std::string_view, 6> names{"thrust_g",  "power_W",   "efficiency_g_per_W",
+                                                  "voltage_V", "current_A", "throttle_percent"};
+  return names[static_cast<std::size_t>(quantity)];
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,130 @@
+#include "tethercalc/study/flown_motor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "tethercalc/model/airframe.hpp"
+#include "tethercalc/model/units.hpp"
+#include "tethercalc/study/motor.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr double fastest_hover = 2;    // m/s: drag then adds less than a percent to the thrust
+constexpr double slowest_forward = 4;  // m/s
+constexpr std::size_t fewest_rows = 50;
+constexpr double shortest_hover = 20;  // s
+constexpr std::size_t stretches = 10;
+
+/// Relative 95 % half-width of the mean of `values`, from the means of stretches of them.
+double relative_interval(std::span<const double> values) {
+  std::vector<double> means;
+  for (std::size_t k = 0; k < stretches; ++k) {
+    const std::size_t from = k * values.size() / stretches;
+    const std::size_t to = (k + 1) * values.size() / stretches;
+    double sum = 0;
+    for (std::size_t i = from; i < to; ++i) sum += values[i];
+    means.push_back(sum / double(to - from));
+  }
+  double mean = 0;
+  for (const double value : means) mean += value / double(stretches);
+  double squares = 0;
+  for (const double value : means) squares += (value - mean) * (value - mean);
+  const double error = std::sqrt(squares / double((stretches - 1) * stretches));
+  const boost::math::students_t student(double(stretches - 1));
+  return boost::math::quantile(student, 0.975) * error / mean;
+}
+
+/// By how much measured motors leave a curve k·T^1.5 through the point nearest to half their
+/// greatest thrust, at 95 % of their points.
+double shape_band(std::span<const MotorEntry> measured) {
+  std::vector<double> deviations;
+  for (const MotorEntry& motor : measured) {
+    const auto points = motor.curve.vertices().subspan(1);
+    const double half = motor.curve.max_thrust() / 2;
+    const auto middle = std::ranges::min_element(
+        points, {}, [&](const MotorPoint& point) { return std::abs(point.thrust - half); });
+    for (const MotorPoint& point : points) {
+      const double expected = middle->power * std::pow(point.thrust / middle->thrust, 1.5);
+      if (&point != &*middle) deviations.push_back(std::abs(point.power / expected - 1));
+    }
+  }
+  if (deviations.empty()) return 0;
+  std::ranges::sort(deviations);
+  return deviations[static_cast<std::size_t>(std::ceil(0.95 * double(deviations.size()))) - 1];
+}
+
+/// Thrust of one motor in steady level flight.
+double thrust_at(const Drone& drone, double air_density, double airspeed) {
+  const double weight = drone.mass * standard_gravity;
+  const double tilt =
+      equilibrium_tan_pitch({weight, area_force_factor(drone.drag, air_density, airspeed), 0,
+                             drone.drag.front_area, drone.drag.top_area},
+                            std::numeric_limits<double>::infinity());
+  return weight * std::sqrt(1 + tilt * tilt) / drone.motor_count;
+}
+
+/// Row i lasts until the next one.
+double seconds_of(const FlownPower& flight, std::size_t i) {
+  return i + 1 < flight.time.size() ? flight.time[i + 1] - flight.time[i] : 0;
+}
+
+}  // namespace
+
+FlownMotor flown_motor(const FlownPower& flight, const Drone& drone, double air_density,
+                       double max_thrust, std::span<const MotorEntry> measured) {
+  FlownMotor out;
+  std::vector<double> hover;
+  for (std::size_t i = 0; i < flight.time.size(); ++i) {
+    if (std::abs(flight.airspeed[i]) >= fastest_hover) continue;
+    hover.push_back(flight.power[i]);
+    out.hover_seconds += seconds_of(flight, i);
+  }
+  if (hover.size() < fewest_rows || out.hover_seconds < shortest_hover) {
+    throw UnsuitablePowerFlight(fmt::format(
+        "has {} rows and {:.1f} s of hover (below {:g} m/s); at least {} rows and {:g} s "
+        "are needed",
+        hover.size(), out.hover_seconds, fastest_hover, fewest_rows, shortest_hover));
+  }
+  double sum = 0;
+  for (const double power : hover) sum += power;
+  out.hover_power = sum / double(hover.size()) / drone.motor_count;
+  if (!(out.hover_power > 0)) {
+    throw UnsuitablePowerFlight(
+        "has a mean power of 0 or less in hover: is the current's sign "
+        "reversed?");
+  }
+  out.hover_thrust = drone.mass * standard_gravity / drone.motor_count;
+  if (max_thrust <= out.hover_thrust) {
+    throw UnsuitablePowerFlight(
+        fmt::format("hovers with {:.0f} g a motor, which the greatest thrust has to exceed",
+                    out.hover_thrust / unit::gram_force));
+  }
+  const double factor = out.hover_power / std::pow(out.hover_thrust, 1.5);
+  out.curve = momentum_curve(factor, max_thrust);
+  out.curve.set_measured_in(air_density);
+  out.hover_interval = relative_interval(hover);
+  out.band = std::hypot(out.hover_interval, shape_band(measured));
+
+  FlownForward forward;
+  for (std::size_t i = 0; i < flight.time.size(); ++i) {
+    const double airspeed = std::abs(flight.airspeed[i]);
+    if (airspeed < slowest_forward) continue;
+    const double expected = factor * std::pow(thrust_at(drone, air_density, airspeed), 1.5);
+    ++forward.rows;
+    forward.airspeed += airspeed;
+    forward.ratio += flight.power[i] / drone.motor_count / expected;
+  }
+  if (forward.rows >= fewest_rows) {
+    forward.airspeed /= double(forward.rows);
+    forward.ratio /= double(forward.rows);
+    out.forward = forward;
+  }
+  return out;
+}
+
+}  // namespace tethercalc

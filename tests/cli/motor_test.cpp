@@ -1,0 +1,122 @@
+// `motor`, and motors of one's own in other commands, through the real program.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/published.hpp"
+#include "support/run_program.hpp"
+
+using namespace tethercalc::test;
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+const std::string sheet =
+    "Throttle (%);Thrust (g);Voltage (V);Current (A)\n"
+    "40;300;16;1,8\n50;450;16;3,2\n65;800;16;7,5\n80;1200;16;13,8\n100;1700;16;24\n";
+
+json parsed(const Ran& run) {
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  return json::parse(run.out);
+}
+
+}  // namespace
+
+TEST_CASE("motor writes a file that a spec takes, and the same as the table itself") {
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "roof.csv").string();
+  const std::string file = (folder.path() / "motor.json").string();
+  write_file(table, sheet);
+  const Ran run = run_tethercalc({"motor", table, "--propeller-in", "11", "--air-density", "1.2",
+                                  "--name", "Roof bench", "--output", file});
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.empty());
+  const json motor = json::parse(file_text(file));
+  CHECK(motor.at("id") == "roof");
+  CHECK(motor.at("name") == "Roof bench");
+  CHECK(motor.at("source") == "roof.csv");
+  CHECK(motor.at("voltage_V") == 16);
+  CHECK(motor.at("propeller_in") == 11);
+  CHECK(motor.at("measured_air_density_kg_m3") == 1.2);
+  CHECK(motor.at("points").size() == 5);
+  CHECK(motor.at("points")[0].at("power_W") == 28.8);  // 16 V · 1.8 A
+
+  const auto optimum = [&](const std::string& reference) {
+    return parsed(
+               run_tethercalc({"optimize", published, "--set", "drone.motor=" + reference, "--set",
+                               "drone.motor_air_density_kg_m3=1.2", "--format", "json"}))
+        .at("optimum");
+  };
+  CHECK(optimum(table) == optimum(file));
+}
+
+TEST_CASE("motor shows each point's figure of merit, and refuses an impossible one") {
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "roof.csv").string();
+  write_file(table, sheet);
+  const Ran run = run_tethercalc(
+      {"motor", table, "--propeller-in", "11", "--air-density", "1.2", "--format", "csv"});
+  REQUIRE(run.exit_code == 0);
+  // 1700 g in 1.2 kg/m³ on 11 inch: T 16.671 N, A 0.061312 m², 177.45 W ideal of 384 W.
+  CHECK_THAT(run.out, Contains("1700,384,") && Contains(",0.462"));
+  const Ran impossible = run_tethercalc(
+      {"motor", table, "--propeller-in", "40", "--columns", "thrust_lbf=Thrust (g)"});
+  CHECK(impossible.exit_code == 2);
+  CHECK(impossible.out.empty());
+  CHECK_THAT(impossible.err, Contains("above 1 is impossible"));
+}
+
+TEST_CASE("one's own motor stands in the ranking under its file's name") {
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "roof.csv").string();
+  write_file(table, sheet);
+  const json ranking = parsed(
+      run_tethercalc({"compare", published, "--set", "drone.motor=" + table, "--format", "json"}));
+  std::vector<std::string> names;
+  for (const json& row : ranking.at("motors")) names.push_back(row.at("motor"));
+  CHECK(std::count(names.begin(), names.end(), "roof") == 1);
+  const json library = parsed(run_tethercalc({"compare", published, "--format", "json"}));
+  CHECK(names.size() == library.at("motors").size() + 1);
+  const json chosen =
+      parsed(run_tethercalc({"compare", published, "--motors", table, "--format", "json"}));
+  CHECK(chosen.at("motors")[0].at("motor") == "roof");
+}
+
+TEST_CASE("a generic motor is a file whose answers say that it is an estimate") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "big.json").string();
+  const Ran run = run_tethercalc({"motor", "--propeller-in", "28", "--figure-of-merit", "0.6",
+                                  "--max-thrust-g", "8000", "--output", file});
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("estimate"));
+  const json motor = json::parse(file_text(file));
+  CHECK_THAT(motor.at("source").get<std::string>(),
+             Contains("not measured") && Contains("momentum theory"));
+  // 8 kgf on 28 inch in 1.225 kg/m³: T 78.453 N, A 0.39726 m², 704.3 W ideal.
+  const json& last = motor.at("points").back();
+  CHECK(last.at("thrust_g") == 8000);
+  CHECK(last.at("power_W").get<double>() == Approx(704.3 / 0.6).epsilon(1e-3));
+  for (const std::string command : {"optimize", "compare"}) {
+    const Ran answer = run_tethercalc({command, published, "--set", "drone.motor=" + file});
+    CAPTURE(command, answer.out);
+    CHECK(answer.exit_code == 0);
+    CHECK_THAT(answer.out, Contains("the motor is an estimate, not measured"));
+  }
+}
+
+TEST_CASE("motor says every option that it lacks or that does not fit") {
+  const Ran bare = run_tethercalc({"motor", "--figure-of-merit", "1.2", "--where", "a=b"});
+  CHECK(bare.exit_code == 2);
+  CHECK(bare.out.empty());
+  CHECK_THAT(bare.err, Contains("--figure-of-merit: 1.2 is out of range") &&
+                           Contains("--propeller-in: is needed") &&
+                           Contains("--max-thrust-g: is needed") && Contains("--where"));
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "unclear.csv").string();
+  write_file(table, "F,P\n1,2\n3,4\n");
+  const Ran unclear = run_tethercalc({"motor", table});
+  CHECK(unclear.exit_code == 2);
+  CHECK_THAT(unclear.err, Contains("F | P") && Contains("--columns thrust_g=\"…\",power_W=\"…\""));
+}
