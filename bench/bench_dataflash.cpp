@@ -157,7 +157,7 @@ BENCHMARK(scan);
 
 void summary(benchmark::State& state) {
   const auto& log = log_in_memory();
-  for (auto _ : state) benchmark::DoNotOptimize(summarize_log(log));
+  for (auto _ : state) benchmark::DoNotOptimize(summarize_log(AutopilotLog(log, "log")));
   count_bytes(state);
 }
 BENCHMARK(summary);

@@ -301,7 +301,7 @@ class CommandLine {
   void add_log_commands() {
     add("drag", "The drone's drag, learned from its own flight logs",
         [this] { return run_drag(files_, flight_, what_, autopilot_, output_); })
-        .argument("LOG", files_, "Flight logs: DataFlash (.bin) or CSV")
+        .argument("LOG", files_, "Flight logs: ArduPilot (.bin, .log), PX4 (.ulg) or CSV")
         .flight(flight_)
         .flag("--published-kinematics", flight_.published_kinematics,
               "The forward axis alone, by the paper's formulas: reproduces its digits")
@@ -316,7 +316,8 @@ class CommandLine {
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,
-              "Flight log: DataFlash (.bin) or CSV; repeatable, for flights of one drone",
+              "Flight log: ArduPilot (.bin, .log), PX4 (.ulg) or CSV; repeatable, for flights of "
+              "one drone",
               "Power log (CSV)")
         .option_or_flag("--into", diagnose_.into_file,
                         "Write the extended spec to this file; without a name print it instead of "
@@ -331,8 +332,9 @@ class CommandLine {
         .option("--reach-m", diagnose_.reach_m,
                 "How far from home it may go, m (default: as far as the log did)")
         .output(output_);
-    add("log", "What a DataFlash log holds", [this] { return run_log(what_, message_, output_); })
-        .argument("LOG", what_, "DataFlash log (.bin)")
+    add("log", "What an autopilot's log holds",
+        [this] { return run_log(what_, message_, output_); })
+        .argument("LOG", what_, "ArduPilot's .bin or .log, PX4's .ulg; also as .gz, .xz or .zip")
         .option("--csv", message_, "Export all messages of this name, such as XKF1")
         .output(output_);
   }
@@ -368,7 +370,8 @@ class CommandLine {
     add("report", "One page with everything about a design, to be mailed or printed",
         [this] { return run_report(diagnose_, shell_command(arguments_), output_); })
         .spec(diagnose_.spec)
-        .logs(diagnose_, "With what this flight log says: DataFlash (.bin) or CSV",
+        .logs(diagnose_,
+              "With what this flight log says: ArduPilot (.bin, .log), PX4 (.ulg) or CSV",
               "With what this power log says (CSV)")
         .output_file(output_);
   }

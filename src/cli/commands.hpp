@@ -200,7 +200,7 @@ struct FlightOptions {
 /// impossible values, half a pair, or both.
 [[nodiscard]] std::optional<double> air_density(const FlightOptions& options);
 
-/// What a DataFlash log holds, or all messages of one name as CSV.
+/// What an autopilot's log holds, or all messages of one name as CSV.
 int run_log(const std::string& file, const std::string& message, const Output& output);
 
 /// What the options say about the flight, checked; the mass must be given.

@@ -237,12 +237,6 @@ std::vector<double> checked(Problems& problems, const char* option,
 /// What decides how much cable is out; several where several slacks are asked for.
 std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& design,
                                      const ShapeRequest& request, Problems& problems) {
-  const auto of_length = [](double length) {
-    return PaidOut{.length = length, .winch_tension = {}};
-  };
-  const auto of_tension = [](double tension) {
-    return PaidOut{.length = {}, .winch_tension = tension};
-  };
   const int given = int(!options.slacks_percent.empty()) + int(options.length.has_value()) +
                     int(options.winch_tension.has_value());
   if (given > 1) {
@@ -251,20 +245,22 @@ std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& 
     return {};
   }
   if (options.length) {
-    return {of_length(checked(problems, "--length", *options.length, 1e-3, 1e6, "m"))};
+    return {{.length = checked(problems, "--length", *options.length, 1e-3, 1e6, "m"),
+             .winch_tension = {}}};
   }
   if (options.winch_tension) {
-    return {
-        of_tension(checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N"))};
+    return {{.length = {},
+             .winch_tension =
+                 checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N")}};
   }
-  if (given == 0 && design.tether.winch_pull > 0) return {of_tension(design.tether.winch_pull)};
-  if (given == 0) {
-    return {of_length(slack_length(design.tether.slack, request.height, request.offset))};
-  }
+  if (given == 0) return {paid_out_to(design.tether, request.height, request.offset)};
   std::vector<PaidOut> out;
   for (const double percent :
        checked(problems, "--slack", options.slacks_percent, 1e-6, 1000, "percent")) {
-    out.push_back(of_length(slack_length(percent / 100, request.height, request.offset)));
+    Tether tether = design.tether;
+    tether.winch_pull = 0;
+    tether.slack = percent / 100;
+    out.push_back(paid_out_to(tether, request.height, request.offset));
   }
   return out;
 }

@@ -251,6 +251,9 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   content.motors = compare_motors(file.design, chosen_motors({"all"}, file));
   content.optimum = study_optimum(file.design, wire_sizes());
   content.curve = area_curve(content.optimum);
+  if (content.optimum.result.feasible) {
+    content.cable = shapes_in_flight(file.design, content.optimum.result.area);
+  }
   emit(output, report_page(content));
   return content.optimum.result.feasible ? done : answer_is_no;
 }

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "files/input_files.hpp"
+#include "files/log_file.hpp"
 #include "files/output_files.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/effect_file.hpp"
@@ -252,9 +252,9 @@ Home given_home(const std::string& text) {
 /// Where the first flight that knows took off.
 std::optional<Home> home_of(const std::vector<std::string>& flight_logs) {
   for (const std::string& name : flight_logs) {
-    const MappedFile log(name);
-    if (!looks_like_dataflash(log.bytes())) continue;
-    if (const auto home = logged_home(log.bytes())) return home;
+    const LogFile file(name);
+    if (looks_like_text(file.bytes()) && !looks_like_dataflash_text(file.bytes())) continue;
+    if (const auto home = logged_home(AutopilotLog(file.bytes(), name))) return home;
   }
   return std::nullopt;
 }
@@ -370,19 +370,15 @@ std::optional<double> air_density(const FlightOptions& options) {
 }
 
 int run_log(const std::string& file, const std::string& message, const Output& output) {
-  const MappedFile log(file);
-  if (log.bytes().empty()) throw InputError(file, "the file is empty");
-  if (!looks_like_dataflash(log.bytes())) {
-    throw InputError(file, "is no DataFlash log (.bin): it begins like a text");
-  }
+  const LogFile content(file);
+  const AutopilotLog log(content.bytes(), file);
   if (!message.empty()) {
     std::ostringstream csv;
-    write_messages_csv(log.bytes(), message, file, csv);
+    write_messages_csv(log, message, csv);
     emit(output, csv.str());
     return done;
   }
-  const LogSummary summary = summarize_log(log.bytes());
-  require_messages(summary, file);
+  const LogSummary summary = summarize_log(log);
   emit(
       output, [&] { return log_text(summary, file, style_for(output)); },
       [&] { return log_json(summary, file); }, [&] { return log_csv(summary); });

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "files/input_files.hpp"
+#include "files/log_file.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/io/input_error.hpp"
 
@@ -137,12 +138,12 @@ DesignFile read_design(const std::string& path, std::span<const std::string> ove
 
 FlightLogReading read_flight_log(const std::filesystem::path& path,
                                  const FlightLogOptions& options) {
-  const MappedFile file(path);
+  const LogFile file(path);
   return parse_flight_log(file.bytes(), path.string(), options);
 }
 
 PowerLog read_power_log(const std::filesystem::path& path) {
-  const MappedFile file(path);
+  const LogFile file(path);
   return parse_power_log(file.text(), path.string());
 }
 

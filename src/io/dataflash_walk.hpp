@@ -12,32 +12,19 @@
 #include <string_view>
 #include <utility>
 
+#include "io/log_bytes.hpp"
 #include "tethercalc/io/dataflash.hpp"
 
 namespace tethercalc::dataflash {
+
+using log_bytes::read;
+using log_bytes::text_at;
 
 inline constexpr std::byte mark_first{0xA3};
 inline constexpr std::byte mark_second{0x95};
 inline constexpr std::size_t header_size = 3;
 inline constexpr std::uint8_t fmt_type = 128;
 inline constexpr std::size_t fmt_length = 89;
-
-static_assert(std::endian::native == std::endian::little,
-              "numbers are copied out of the log, which is little-endian");
-
-/// The number that the log holds at `at`.
-template <class T>
-T read(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
-
-/// The text at `at`, which ends with the first zero byte or with `size` characters.
-inline std::string_view text_at(const std::byte* at, std::size_t size) {
-  const std::string_view all(reinterpret_cast<const char*>(at), size);
-  return all.substr(0, all.find('\0'));
-}
 
 // Layout of an FMT message behind its header: B type, B length, n name, N format, Z labels.
 inline constexpr std::size_t type_at = header_size;
@@ -133,6 +120,13 @@ constexpr std::array<std::byte, fmt_length> make_definition_of_fmt() {
 /// The FMT message that defines FMT itself: what a reader knows before it has read anything.
 inline constexpr std::array<std::byte, fmt_length> built_in_fmt = make_definition_of_fmt();
 
+/// Whether a field of that name says which of several sensors or estimators wrote the message, as
+/// the unit "#" does in newer logs (ArduPilot, libraries/AP_Logger/LogStructure.h).
+inline bool tells_instance(std::string_view label) {
+  constexpr std::array<std::string_view, 5> names = {"C", "I", "IMU", "Inst", "Instance"};
+  return std::ranges::find(names, label) != names.end();
+}
+
 /// Builds the format that the FMT message starting at `message` defines.
 inline DataFlashFormat parse_format(const std::byte* message) {
   DataFlashFormat format;
@@ -147,7 +141,9 @@ inline DataFlashFormat parse_format(const std::byte* message) {
     const std::size_t size = size_of_kind(kind);
     if (size == 0 || labels.empty()) break;
     const std::size_t comma = labels.find(',');
-    format.fields.push_back({std::string(labels.substr(0, comma)), kind, offset});
+    const std::string_view label = labels.substr(0, comma);
+    format.fields.push_back({std::string(label), kind, offset, size});
+    if (kind == 'B' && tells_instance(label)) format.instance_field = label;
     labels.remove_prefix(comma == std::string_view::npos ? labels.size() : comma + 1);
     offset += size;
   }

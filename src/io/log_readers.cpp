@@ -1,6 +1,7 @@
 #include "tethercalc/io/log_readers.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,13 +9,14 @@
 #include <functional>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "io/csv.hpp"
+#include "io/foreign_files.hpp"
+#include "io/logged_vehicle.hpp"
 #include "io/longest_increasing.hpp"
+#include "io/px4_flight.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
-#include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -151,8 +153,8 @@ FlightLog to_flight_log(Samples samples) {
 
 /// Where a DataFlash log has the wanted samples.
 struct EstimatorMessage {
-  const DataFlashFormat* format = nullptr;
-  std::optional<DataFlashInstance> core;
+  std::string message;
+  std::optional<int> core;
   std::string description;
 };
 
@@ -160,89 +162,67 @@ struct EstimatorMessage {
   throw InputError({{name, std::move(message)}});
 }
 
-[[noreturn]] void fail_without_core(std::span<const std::byte> content, const std::string& name,
-                                    std::string_view message, int core) {
-  std::string cores;
-  const std::vector<std::string> field = {"C"};
-  const auto found = extract_columns(content, message, field);
-  for (const double c : std::set<double>(found[0].begin(), found[0].end())) {
-    cores += (cores.empty() ? "" : ", ") + fmt::format("{}", c);
-  }
-  fail(name, fmt::format("there is no EKF core {} in the log's {} messages; it has core {}", core,
-                         message, cores.empty() ? "0" : cores));
+[[noreturn]] void fail_without_core(const AutopilotLog& log, std::string_view message, int core) {
+  const std::vector<int> cores = log.instances(message);
+  fail(
+      log.name(),
+      fmt::format("there is no EKF core {} in the log's {} messages; it has core {}", core, message,
+                  cores.empty() ? std::string("0") : fmt::format("{}", fmt::join(cores, ", "))));
 }
 
-[[noreturn]] void fail_without_estimator(const DataFlashContents& contents,
-                                         const std::string& name) {
-  require_messages(contents, name);
-  fail(name, fmt::format("the log holds {} messages, but no attitude and velocity: expected XKF1, "
-                         "NKF1 or EKF1 messages (set bit 'attitude' of LOG_BITMASK to log them)",
-                         contents.messages));
+void check_core(int core) {
+  if (core >= 0 && core <= 255) return;
+  fail("core", fmt::format("{} is no EKF core, expected 0 to 255", core));
 }
 
 /// The newest estimator that wrote into the log.
-EstimatorMessage find_estimator(std::span<const std::byte> content,
-                                const DataFlashContents& contents, const std::string& name,
-                                int core) {
-  for (const std::string_view message : {"XKF1", "NKF1", "EKF1"}) {
+EstimatorMessage find_estimator(const AutopilotLog& log, int core) {
+  const LogContents& contents = log.contents();
+  for (const std::string message : {"XKF1", "NKF1", "EKF1"}) {
     if (contents.count(message) == 0) continue;
-    const DataFlashFormat* const format = contents.find(message);
     // Logs from before there were several cores have no field that tells them apart.
-    if (format->find_number("C") != nullptr) {
-      return {format, DataFlashInstance{"C", static_cast<double>(core)},
-              fmt::format("{} of EKF core {}", message, core)};
+    if (contents.find(message)->instance_field) {
+      return {message, core, fmt::format("{} of EKF core {}", message, core)};
     }
-    if (core == 0) return {format, std::nullopt, std::string(message)};
+    if (core == 0) return {message, std::nullopt, message};
     if (core == 1 && message == "NKF1" && contents.count("NKF6") > 0) {
-      return {contents.find("NKF6"), std::nullopt, "NKF6"};
+      return {"NKF6", std::nullopt, "NKF6"};
     }
-    fail_without_core(content, name, message, core);
+    fail_without_core(log, message, core);
   }
-  fail_without_estimator(contents, name);
+  fail(log.name(),
+       fmt::format("the log holds {} messages, but no attitude and velocity: expected XKF1, NKF1 "
+                   "or EKF1 messages (set bit 'attitude' of LOG_BITMASK to log them)",
+                   contents.messages));
 }
 
-/// What flew by the firmware's own first words, where it is no multirotor; of a log's first part,
-/// where the firmware introduces itself.
-std::string other_vehicle(std::span<const std::byte> content) {
-  constexpr std::size_t introduction = 1 << 20;
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> firmwares{
-      {{"ArduPlane", "an aeroplane"},
-       {"APM:Plane", "an aeroplane"},
-       {"ArduRover", "a rover"},
-       {"APM:Rover", "a rover"},
-       {"ArduSub", "a submarine"},
-       {"Blimp", "an airship"},
-       {"AntennaTracker", "an antenna tracker"}}};
-  std::string found;
-  for_each_message(content.first(std::min(content.size(), introduction)),
-                   [&](const DataFlashFormat& format, const std::byte* message) {
-                     if (!found.empty()) return;
-                     const std::string text = message_words(format, message);
-                     for (const auto& [name, kind] : firmwares) {
-                       if (text.starts_with(name)) found = fmt::format("{}, {}", text, kind);
-                     }
-                   });
-  return found;
+/// What flew, where it is no multirotor.
+std::string other_vehicle(const AutopilotLog& log) {
+  const LoggedVehicle vehicle = logged_vehicle(log);
+  if (!vehicle.is_other) return {};
+  return vehicle.firmware.empty() ? vehicle.kind
+                                  : fmt::format("{}, {}", vehicle.firmware, vehicle.kind);
 }
 
-Samples read_samples(std::span<const std::byte> content, const EstimatorMessage& from,
-                     const std::string& name) {
-  const auto time = time_of(*from.format);
-  if (!time) fail(name, fmt::format("{} messages have no time", from.format->name));
-  const std::vector<std::string> fields = {
-      time->field.name, "Roll", "Pitch", "Yaw", "VN", "VE", "VD"};
+Samples read_samples(const AutopilotLog& log, const EstimatorMessage& from) {
+  const LogMessageType& type = *log.contents().find(from.message);
+  if (!time_of(type)) fail(log.name(), fmt::format("{} messages have no time", type.name));
+  const std::vector<std::string> fields = {"Roll", "Pitch", "Yaw", "VN", "VE", "VD"};
   for (const std::string& field : fields) {
-    if (from.format->find_number(field) == nullptr) {
-      fail(name, fmt::format("{} messages have no number {}; their fields are {}",
-                             from.format->name, field, from.format->labels));
-    }
+    if (type.find_number(field) != nullptr) continue;
+    std::vector<std::string> own;
+    for (const LogField& known : type.fields) own.push_back(known.name);
+    fail(log.name(), fmt::format("{} messages have no number {}; their fields are {}", type.name,
+                                 field, fmt::join(own, ",")));
   }
-  Samples samples = extract_columns(content, from.format->name, fields, from.core);
-  for (double& t : samples[time_s]) t /= time->counts_per_second;
+  LogSeries series = log.series(from.message, fields, from.core);
+  Samples samples;
+  samples.push_back(std::move(series.time));
+  for (auto& column : series.columns) samples.push_back(std::move(column));
   return samples;
 }
 
-void note_damage(FlightLogReading& reading, const DataFlashContents& contents) {
+void note_damage(FlightLogReading& reading, const LogContents& contents) {
   if (contents.skipped_bytes > 0) {
     reading.notes.push_back(
         fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",
@@ -264,31 +244,47 @@ void note_removed(FlightLogReading& reading) {
   }
 }
 
-FlightLogReading read_dataflash(std::span<const std::byte> content, const std::string& name,
-                                const FlightLogOptions& options) {
-  const DataFlashContents contents = scan_dataflash(content);
-  const EstimatorMessage from = find_estimator(content, contents, name, options.core);
-  Samples samples = read_samples(content, from, name);
-  if (samples[time_s].empty() && from.core) {
-    fail_without_core(content, name, from.format->name, options.core);
-  }
-  FlightLogReading reading;
-  reading.source = from.description;
+/// `samples` as a flight, without those that cannot be.
+void take_samples(FlightLogReading& reading, Samples samples, const AutopilotLog& log) {
   reading.samples_implausible = remove_implausible(samples);
   reading.samples_out_of_order = remove_out_of_order(samples);
   reading.samples_implausible += remove_leaps(samples);
-  note_damage(reading, contents);
+  note_damage(reading, log.contents());
   note_removed(reading);
   reading.log = to_flight_log(std::move(samples));
-  reading.log.other_vehicle = other_vehicle(content);
+  reading.log.other_vehicle = other_vehicle(log);
+}
+
+FlightLogReading read_dataflash(const AutopilotLog& log, int core) {
+  const EstimatorMessage from = find_estimator(log, core);
+  Samples samples = read_samples(log, from);
+  if (samples[time_s].empty() && from.core) fail_without_core(log, from.message, core);
+  FlightLogReading reading;
+  reading.source = from.description;
+  take_samples(reading, std::move(samples), log);
+  return reading;
+}
+
+std::vector<double> in_degrees(std::vector<double> angles) {
+  for (double& angle : angles) angle /= unit::degree;
+  return angles;
+}
+
+FlightLogReading read_ulog(const AutopilotLog& log, int core) {
+  Px4Motion motion = px4_motion(log, core);
+  FlightLogReading reading;
+  reading.source = std::move(motion.source);
+  reading.notes = std::move(motion.notes);
+  take_samples(reading,
+               {std::move(motion.time), in_degrees(std::move(motion.roll)),
+                in_degrees(std::move(motion.pitch)), in_degrees(std::move(motion.yaw)),
+                std::move(motion.north), std::move(motion.east), std::move(motion.down)},
+               log);
   return reading;
 }
 
 FlightLogReading read_csv(std::string_view text, const std::string& name,
                           const FlightLogOptions& options) {
-  if (text.starts_with("FMT,")) {
-    fail(name, "is a DataFlash log converted to text; expected the .bin log itself, or CSV");
-  }
   constexpr auto within = [](std::string_view column, double limit) {
     return CsvColumn{.name = column, .minimum = -limit, .maximum = limit};
   };
@@ -332,20 +328,18 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
 
 }  // namespace
 
-bool looks_like_dataflash(std::span<const std::byte> content) {
-  constexpr std::size_t looked_at = 4096;
-  const auto head = content.first(std::min(content.size(), looked_at));
-  constexpr std::array mark = {std::byte{0xA3}, std::byte{0x95}};
-  return std::ranges::find(head, std::byte{0}) != head.end() ||
-         std::search(head.begin(), head.end(), mark.begin(), mark.end()) != head.end();
+FlightLogReading parse_flight_log(const AutopilotLog& log, const FlightLogOptions& options) {
+  check_core(options.core);
+  return log.format() == LogFormat::ulog ? read_ulog(log, options.core)
+                                         : read_dataflash(log, options.core);
 }
 
 FlightLogReading parse_flight_log(std::span<const std::byte> content, const std::string& name,
                                   const FlightLogOptions& options) {
-  if (options.core < 0 || options.core > 255) {
-    fail("core", fmt::format("{} is no EKF core, expected 0 to 255", options.core));
-  }
-  if (looks_like_dataflash(content)) return read_dataflash(content, name, options);
+  check_core(options.core);
+  const bool is_table = looks_like_text(content) && !looks_like_dataflash_text(content) &&
+                        foreign_kind(content).empty();
+  if (!is_table) return parse_flight_log(AutopilotLog(content, name), options);
   return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name, options);
 }
 

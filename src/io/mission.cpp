@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "model/constants.hpp"
-#include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -173,13 +172,19 @@ std::string plan_text(const std::vector<Item>& items, const NextFlight& flight, 
   return plan.dump(2) + "\n";
 }
 
-/// The first message of these with a place other than (0, 0), which stands for none.
-std::optional<Home> first_place(std::span<const std::byte> log, std::string_view message,
-                                const std::optional<DataFlashInstance>& instance) {
-  const std::string fields[] = {"Lat", "Lng", "Alt"};
-  const auto columns = extract_columns(log, message, fields, instance);
+/// Fields of a message with a place.
+struct PlaceFields {
+  std::string_view message;
+  std::vector<std::string> fields;  // latitude and longitude in degrees, height in m; a condition
+  double condition = 0;             // what the condition has to hold, if there is one
+};
+
+/// The first of these messages with a place other than (0, 0), which stands for none.
+std::optional<Home> first_place(const AutopilotLog& log, const PlaceFields& from) {
+  const auto columns = log.columns(from.message, from.fields);
   for (std::size_t i = 0; i < columns[0].size(); ++i) {
     const Home home{columns[0][i], columns[1][i], columns[2][i]};
+    if (columns.size() > 3 && columns[3][i] != from.condition) continue;
     if (std::abs(home.latitude) > 1e-6 && std::abs(home.latitude) <= 85 &&
         std::abs(home.longitude) <= 180) {
       return home;
@@ -190,12 +195,20 @@ std::optional<Home> first_place(std::span<const std::byte> log, std::string_view
 
 }  // namespace
 
-std::optional<Home> logged_home(std::span<const std::byte> log) {
+std::optional<Home> logged_home(const AutopilotLog& log) {
   constexpr double at_home = 1;  // ORGN: 0 is the estimator's origin
-  if (auto home = first_place(log, "ORGN", DataFlashInstance{"Type", at_home})) return home;
-  if (auto home = first_place(log, "ORGN", {})) return home;
-  if (auto home = first_place(log, "POS", {})) return home;
-  return first_place(log, "GPS", {});
+  const std::array<PlaceFields, 7> places = {
+      {{"ORGN", {"Lat", "Lng", "Alt", "Type"}, at_home},
+       {"ORGN", {"Lat", "Lng", "Alt"}},
+       {"POS", {"Lat", "Lng", "Alt"}},
+       {"GPS", {"Lat", "Lng", "Alt"}},
+       {"home_position", {"lat", "lon", "alt"}},
+       {"vehicle_global_position", {"lat", "lon", "alt"}},
+       {"vehicle_gps_position", {"latitude_deg", "longitude_deg", "altitude_msl_m"}}}};
+  for (const PlaceFields& place : places) {
+    if (const auto home = first_place(log, place)) return home;
+  }
+  return std::nullopt;
 }
 
 MissionFormat mission_format(std::string_view file) {

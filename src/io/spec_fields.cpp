@@ -133,6 +133,17 @@ const std::array all_spec_fields{
               "Drag coefficient of a conductor across the wind.", 1,
               at<&Design::tether, &Tether::drag_coefficient>},
     SpecField{
+        "/tether/drag_by_reynolds_number", boolean, "", any_number, "false",
+        "Whether drag_coefficient is times that of a smooth cylinder as thick as one insulated "
+        "conductor in the wind it meets: 1.45 at a Reynolds number of 100, 0.96 at 1000. Of a "
+        "solved tether only.",
+        1, at<&Design::tether, &Tether::drag_by_reynolds_number>},
+    SpecField{
+        "/tether/vibration_amplitude", number, "", between(0, 2), "0",
+        "Amplitude with which the tether vibrates across the wind over its width; drag is 1 + 2.1 "
+        "times this as large. A cable that beats in its own wake reaches 0.5 to 1.",
+        1, at<&Design::tether, &Tether::vibration_amplitude>},
+    SpecField{
         "/tether/projection_factor", number, "", between(0, 1), "0.75",
         "Mean width that the turning pair shows the wind, over the width of both side by side.", 1,
         at<&Design::tether, &Tether::projection_factor>},
@@ -623,6 +634,11 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
   if (flight.horizontal_offset > 0 && design.tether.model == TetherModel::straight) {
     conflicts.push_back({"/flight/horizontal_offset_m",
                          "a straight tether hangs down from the drone; give tether.model solved"});
+  }
+  if (design.tether.drag_by_reynolds_number && design.tether.model == TetherModel::straight) {
+    conflicts.push_back({"/tether/drag_by_reynolds_number",
+                         "the straight tether has one drag coefficient at all speeds; give "
+                         "tether.model solved"});
   }
   if (flight.wind_profile == WindProfile::logarithmic) {
     const double lowest = std::min(flight.wind_reference_height.value_or(infinity),

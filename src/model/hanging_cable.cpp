@@ -157,12 +157,34 @@ double wind_share(const MovingAir& air, double height) {
   return 1;
 }
 
+CylinderDrag cylinder_drag(double reynolds) {
+  const double re = std::max(reynolds, 1.0);
+  const double falls = 6.8 * std::pow(re, -0.89);
+  const double root = 1.96 / std::sqrt(re);
+  const double bend = 1 + 3.64e-7 * re * re;
+  CylinderDrag drag{.coefficient = 1.18 + falls + root - 0.0004 * re / bend};
+  if (reynolds > 1) {
+    drag.slope = -(0.89 * falls + 0.5 * root) / re - 0.0004 * (2 - bend) / (bend * bend);
+  }
+  return drag;
+}
+
+double drag_across(const Cable& cable, const MovingAir& air, double speed) {
+  const double by_cylinder =
+      cable.cylinder_diameter
+          ? cylinder_drag(*cable.cylinder_diameter * air.density / air.viscosity * speed)
+                .coefficient
+          : 1;
+  return 0.5 * air.density * cable.drag_coefficient * by_cylinder * cable.diameter * speed * speed;
+}
+
 /// The cable in its own units.
 struct CableSolver::Problem {
   double metre = 1;   ///< m, the unit of length
   double newton = 1;  ///< N, the unit of force
   double weight = 0;
   double drag = 0;        ///< ½·ρ·C·d
+  double reynolds = 0;    ///< s/m, Reynolds number by speed; 0: C is the same at all
   double compliance = 0;  ///< 1/EA
   MovingAir air{};
   Vector3 drone{};
@@ -189,8 +211,10 @@ struct CableSolver::Problem {
     Vector3 velocity{};  ///< of the air past the cable
     double along = 0;
     Vector3 normal{};
-    double speed = 0;  ///< across the cable
-    Vector3 load{};    ///< weight less drag: N' of the equilibrium
+    double speed = 0;       ///< across the cable
+    double drag = 0;        ///< over `normal`
+    double drag_slope = 0;  ///< of the drag, by the speed
+    Vector3 load{};         ///< weight less drag: N' of the equilibrium
     double load_along = 0;
   };
   [[nodiscard]] Wind wind_at(const Point& p) const {
@@ -199,7 +223,14 @@ struct CableSolver::Problem {
     w.along = dot(w.velocity, p.direction);
     w.normal = w.velocity - w.along * p.direction;
     w.speed = norm(w.normal);
-    w.load = Vector3{0, 0, weight} - (drag * w.speed) * w.normal;
+    w.drag = drag * w.speed;
+    w.drag_slope = drag;
+    if (reynolds > 0) {
+      const CylinderDrag cylinder = cylinder_drag(reynolds * w.speed);
+      w.drag *= cylinder.coefficient;
+      w.drag_slope *= cylinder.coefficient + cylinder.slope * reynolds * w.speed;
+    }
+    w.load = Vector3{0, 0, weight} - w.drag * w.normal;
     w.load_along = dot(w.load, p.direction);
     return w;
   }
@@ -249,7 +280,7 @@ struct CableSolver::Problem {
         velocity - (dot(velocity, p.direction) + dot(w.velocity, d.direction)) * p.direction -
         w.along * d.direction;
     const double faster = w.speed > 0 ? dot(w.normal, normal) / w.speed : 0.0;
-    const Vector3 load = -drag * (w.speed * normal + faster * w.normal);
+    const Vector3 load = -w.drag * normal - (w.drag_slope * faster) * w.normal;
     return {load - (dot(load, p.direction) + dot(w.load, d.direction)) * p.direction -
                 w.load_along * d.direction,
             weight * (d.tension * p.direction.z + p.tension * d.direction.z),
@@ -509,6 +540,9 @@ CableSolver::Problem CableSolver::problem() const {
   p.newton = (cable_.weight + drag * speed * speed) * p.metre;
   p.weight = cable_.weight * p.metre / p.newton;
   p.drag = drag * p.metre / p.newton;
+  if (cable_.cylinder_diameter) {
+    p.reynolds = *cable_.cylinder_diameter * air_.density / air_.viscosity;
+  }
   p.compliance = cable_.axial_stiffness ? p.newton / *cable_.axial_stiffness : 0;
   p.air = air_;
   p.moves = !(air_.drone_velocity == Vector3{});
@@ -672,6 +706,8 @@ void check(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
            const Vector3& drone) {
   check(cable.weight >= 0 && cable.diameter >= 0 && cable.drag_coefficient >= 0 && air.density >= 0,
         "weight, diameter, drag coefficient and air density of a cable are not negative");
+  check(cable.cylinder_diameter.value_or(1) > 0 && air.viscosity > 0,
+        "a cylinder has a diameter and air is viscous");
   check(!cable.axial_stiffness || *cable.axial_stiffness > 0, "an axial stiffness is positive");
   check(paid_out.length.has_value() != paid_out.winch_tension.has_value(),
         "either the length or the winch's tension is given");

@@ -57,6 +57,10 @@ StrengthMemberData strength_member_data(const StrengthMember& member) {
           tensile_strength * member.cross_section};
 }
 
+double vibrating_drag_coefficient(const Tether& tether) {
+  return tether.drag_coefficient * (1 + 2.1 * tether.vibration_amplitude);
+}
+
 double conductor_radius(double area) { return std::sqrt(area / std::numbers::pi); }
 
 double conductor_area(double radius) { return std::numbers::pi * radius * radius; }

@@ -38,7 +38,7 @@ StraightTether::StraightTether(const Tether& tether, double wall, const FlightSt
 }
 
 void StraightTether::set_airspeed(double airspeed) {
-  drag_1_ = half_density_ * airspeed * airspeed * tether_->drag_coefficient *
+  drag_1_ = half_density_ * airspeed * airspeed * vibrating_drag_coefficient(*tether_) *
             tether_->projection_factor * 4 * deployed_;
   drag_0_ = drag_1_ * width_;
 }
@@ -90,6 +90,13 @@ double log_radius_at(long place) {
 
 }  // namespace
 
+std::optional<double> HangingSituation::cylinder_diameter(double radius) const {
+  // Metal of no thickness without a wall has the drag of the thinnest wire.
+  constexpr double thinnest = 1e-6;
+  if (!by_reynolds_number) return std::nullopt;
+  return std::max(insulated_width(radius, wall), thinnest);
+}
+
 HangingLoad::Scale HangingLoad::own_load(double radius) const {
   const auto& [w0, w1, w2] = situation_.weight;
   const double weight = w0 + radius * (w1 + radius * w2);
@@ -111,13 +118,13 @@ CableOutcome HangingLoad::solve(CableSolver& solver, double radius, Values& valu
   const Cable cable{.weight = w0 + radius * (w1 + radius * w2),
                     .diameter = situation_.width[0] + situation_.width[1] * radius,
                     .drag_coefficient = situation_.drag_coefficient,
+                    .cylinder_diameter = situation_.cylinder_diameter(radius),
                     .axial_stiffness = situation_.axial_stiffness};
   const Vector3 drone{situation_.offset, 0, situation_.height};
   // The wind swings a fold above its station aside by half of drag over weight. With a fiftieth of
   // its slack it stays a fold, and no solution is needed; with three times its slack nearly so.
   const double speed = situation_.air.wind.x;
-  const double drag =
-      0.5 * situation_.air.density * cable.drag_coefficient * cable.diameter * speed * speed;
+  const double drag = drag_across(cable, situation_.air, speed);
   const double slack =
       situation_.offset == 0 ? paid_out.length.value_or(0) / situation_.height - 1 : 0;
   const auto swings_less_than = [&](double slacks) { return drag < slacks * slack * cable.weight; };
@@ -285,13 +292,12 @@ MovingAir air_about(const FlightState& state, const Flight& flight) {
   return air;
 }
 
-PaidOut paid_out_by(const Tether& tether, const FlightState& state, const Flight& flight) {
-  if (tether.winch_pull > 0) return {.length = {}, .winch_tension = tether.winch_pull};
-  const double distance = std::hypot(state.deployed, flight.horizontal_offset);
-  return {.length = (1 + tether.slack) * distance, .winch_tension = {}};
-}
-
 }  // namespace
+
+PaidOut paid_out_to(const Tether& tether, double height, double offset) {
+  if (tether.winch_pull > 0) return {.length = {}, .winch_tension = tether.winch_pull};
+  return {.length = (1 + tether.slack) * std::hypot(height, offset), .winch_tension = {}};
+}
 
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,
                                const Flight& flight)
@@ -310,9 +316,11 @@ void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
       {.weight = {flight.gravity * metre.mass_0_, flight.gravity * metre.mass_1_,
                   flight.gravity * metre.mass_2_},
        .width = {4 * tether.projection_factor * metre.width_, 4 * tether.projection_factor},
-       .drag_coefficient = tether.drag_coefficient,
+       .drag_coefficient = vibrating_drag_coefficient(tether),
+       .by_reynolds_number = tether.drag_by_reynolds_number,
+       .wall = straight_.wall_,
        .air = air_about(state, flight),
-       .paid_out = paid_out_by(tether, state, flight),
+       .paid_out = paid_out_to(tether, state.deployed, flight.horizontal_offset),
        .axial_stiffness = tether.axial_stiffness,
        .offset = flight.horizontal_offset,
        .height = state.deployed});

@@ -102,6 +102,13 @@ std::string difference_sentence(const ShapeStudy& study) {
                      percent < 0 ? "understates" : "overstates", fixed(std::abs(percent), 1));
 }
 
+std::string ground_sentence(const ShapeStudy& study) {
+  return fmt::format(
+      "touches the ground: without one it would hang {} m below the station. These loads are "
+      "those without a ground.",
+      fixed(-study.shape.lowest.position.z, 2));
+}
+
 std::string strength_sentence(const ShapeStudy& study) {
   const double greatest = study.shape.tautest.tension;
   if (study.breaking_load == 0) {
@@ -137,10 +144,7 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   out += wrapped(fmt::format("At the drone the cable leaves {}° from straight down.",
                              fixed(angle_at_drone(study.loads), 1)));
   if (!study.hangs_free) {
-    out += style.bad(wrapped(fmt::format(
-        "It touches the ground: without one it would hang {} m below the station. The loads below "
-        "are those without a ground.",
-        fixed(-study.shape.lowest.position.z, 2))));
+    out += style.bad(wrapped("It " + ground_sentence(study)));
   }
   TextTable hovers({word_column("tether"), "down\nN", "against\nN", "across\nN", "tilt\n°",
                     "thrust\ng a motor", "drone\nW", "supply\nW"});
@@ -154,6 +158,32 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
                   fixed(p.position.z, 2), fixed(p.tension, 2)});
   }
   out += TitledTable{"Its shape; x points to where the drone stands aside", stations}.text(style);
+  return out;
+}
+
+TitledTable flown_cable_table(const std::vector<FlownShape>& shapes) {
+  TextTable table({word_column("flight"), "wind\nm/s", "paid out\nm", "down\nN", "against\nN",
+                   "at the drone\nN", "at the station\nN", "least\nN", "leaves\n°"});
+  for (const auto& [condition, request, study] : shapes) {
+    if (study.outcome != CableOutcome::hangs) continue;
+    table.add({condition_words(condition), fixed(request.wind, 1), fixed(study.loads.length, 2),
+               fixed(study.solved.down, 2), fixed(study.solved.against, 2),
+               fixed(study.loads.tension_at_drone, 2), fixed(study.loads.tension_at_station, 2),
+               fixed(study.shape.slackest.tension, 2), fixed(angle_at_drone(study.loads), 1)});
+  }
+  return {"Pull on the drone, tensions, and the angle from straight down at the drone", table};
+}
+
+std::vector<std::string> flown_cable_sentences(const std::vector<FlownShape>& shapes) {
+  std::vector<std::string> out;
+  for (const auto& [condition, request, study] : shapes) {
+    const std::string in = "In " + condition_words(condition);
+    if (study.outcome != CableOutcome::hangs) {
+      out.push_back(in + ": " + no_shape_sentence(study, request));
+    } else if (!study.hangs_free) {
+      out.push_back(in + " " + ground_sentence(study));
+    }
+  }
   return out;
 }
 

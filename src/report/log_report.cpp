@@ -11,7 +11,6 @@
 #include "io/closest_name.hpp"
 #include "report/characters.hpp"
 #include "report/result_values.hpp"
-#include "tethercalc/io/dataflash.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
@@ -68,14 +67,21 @@ std::string cell(const std::optional<double>& value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "";
 }
 
+std::vector<std::string> printable_all(std::vector<std::string> texts) {
+  for (std::string& text : texts) text = printable(text);
+  return texts;
+}
+
 ordered_json message_json(const LogSummary::Message& message) {
-  return {{"name", message.name},
+  return {{"name", printable(message.name)},
           {"count", message.count},
           {"rate_Hz", number_or_null(message.rate)},
           {"first_s", number_or_null(message.first_time)},
           {"last_s", number_or_null(message.last_time)},
           {"longest_gap_s", number_or_null(message.longest_gap)},
-          {"fields", message.fields}};
+          {"instances", message.instances},
+          {"fields", printable_all(message.fields)},
+          {"units", printable_all(message.units)}};
 }
 
 std::string in_order(std::vector<std::string> names) {
@@ -84,16 +90,115 @@ std::string in_order(std::vector<std::string> names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-[[noreturn]] void fail_without(std::string_view message, std::string_view name,
-                               const DataFlashContents& contents) {
+[[noreturn]] void fail_without(std::string_view message, const AutopilotLog& log) {
   std::vector<std::string> names;
-  for (const auto& type : contents.types) {
-    if (type.count > 0) names.push_back(type.format.name);
+  for (const auto& type : log.contents().types) {
+    const bool is_new = std::ranges::find(names, type.type.name) == names.end();
+    if (type.count > 0 && is_new) names.push_back(type.type.name);
   }
   const std::string meant = did_you_mean(message, names);
-  throw InputError(std::string(name),
+  throw InputError(log.name(),
                    fmt::format("the log holds no message {}{}", message,
                                meant.empty() ? "; it holds " + in_order(names) : meant));
+}
+
+constexpr std::size_t most_listed = 10;
+
+std::string flights_text(const LogSummary& summary) {
+  if (!summary.flying) {
+    return "flying     not known: neither take-off events nor velocities in the log\n";
+  }
+  const LogSummary::Flying& flying = *summary.flying;
+  std::string text =
+      fmt::format("flying     {:.1f} s ({})\n", flying.duration, flying.determined_by);
+  if (flying.flights.size() < 2) return text;
+  for (std::size_t i = 0; i < std::min(flying.flights.size(), most_listed); ++i) {
+    const LogSummary::Flight& flight = flying.flights[i];
+    text += fmt::format("             flight {}: {:.1f} s to {:.1f} s, {:.1f} s\n", i + 1,
+                        flight.start, flight.end, flight.end - flight.start);
+  }
+  if (flying.flights.size() > most_listed) {
+    text += fmt::format("             and {} more\n", flying.flights.size() - most_listed);
+  }
+  return text;
+}
+
+constexpr double joule_per_Wh = 3600;
+
+std::string battery_text(const LogSummary::Battery& battery) {
+  std::string text =
+      fmt::format("battery    {}{}: {:.2f} V to {:.2f} V, mean {:.2f} V", battery.message,
+                  battery.instance ? fmt::format(" {}", *battery.instance) : "",
+                  battery.least_voltage, battery.greatest_voltage, battery.mean_voltage);
+  if (!battery.mean_current) return text + "; no current\n";
+  return text + fmt::format("; mean {:.2f} A, at most {:.2f} A; {:.2f} Wh\n", *battery.mean_current,
+                            *battery.greatest_current, *battery.energy / joule_per_Wh);
+}
+
+std::string findings_text(const LogSummary& summary) {
+  std::string text;
+  for (const LogSummary::Battery& battery : summary.batteries) text += battery_text(battery);
+  if (summary.batteries.empty()) text += "battery    no voltage in the log\n";
+  if (summary.wind) {
+    text += fmt::format("wind       {:.1f} m/s from {:.0f}° (mean of the estimator's guess, {})\n",
+                        summary.wind->mean_speed, summary.wind->from_deg, summary.wind->message);
+  }
+  for (const LogSummary::Use& use : summary.uses) {
+    text += fmt::format("{}: {}, {}\n", use.command, use.possible ? "yes" : "no",
+                        printable(use.because));
+  }
+  return text;
+}
+
+std::string dropouts_text(const LogSummary& summary) {
+  if (summary.dropouts.empty()) return "";
+  double total = 0;
+  for (const auto& dropout : summary.dropouts) total += dropout.duration;
+  return fmt::format("dropouts   {}, {:.3f} s in all, in which the controller could not write\n",
+                     summary.dropouts.size(), total);
+}
+
+std::string_view format_name(LogFormat format) {
+  switch (format) {
+    case LogFormat::dataflash:
+      return "dataflash";
+    case LogFormat::dataflash_text:
+      return "dataflash_text";
+    case LogFormat::ulog:
+      break;
+  }
+  return "ulog";
+}
+
+std::string_view format_title(LogFormat format) {
+  switch (format) {
+    case LogFormat::dataflash:
+      return "ArduPilot DataFlash";
+    case LogFormat::dataflash_text:
+      return "ArduPilot DataFlash as text";
+    case LogFormat::ulog:
+      break;
+  }
+  return "PX4 ULog";
+}
+
+ordered_json battery_json(const LogSummary::Battery& battery) {
+  ordered_json report = {{"message", battery.message},
+                         {"instance", nullptr},
+                         {"samples", battery.samples},
+                         {"voltage_V",
+                          {{"least", battery.least_voltage},
+                           {"mean", battery.mean_voltage},
+                           {"greatest", battery.greatest_voltage}}},
+                         {"current_A", nullptr},
+                         {"energy_Wh", nullptr}};
+  if (battery.instance) report["instance"] = *battery.instance;
+  if (battery.mean_current) {
+    report["current_A"] = {{"mean", *battery.mean_current},
+                           {"greatest", *battery.greatest_current}};
+    report["energy_Wh"] = *battery.energy / joule_per_Wh;
+  }
+  return report;
 }
 
 }  // namespace
@@ -101,19 +206,18 @@ std::string in_order(std::vector<std::string> names) {
 std::string log_text(const LogSummary& summary, std::string_view name, const TextStyle& style) {
   std::string text = fmt::format("{}: {} bytes, {} messages, {}\n", style.bold(std::string(name)),
                                  summary.bytes, summary.messages, skipped_text(summary));
+  text += fmt::format("format     {}\n", format_title(summary.format));
+  if (!summary.vehicle.empty()) text += "vehicle    " + summary.vehicle + "\n";
   if (!summary.firmware.empty()) text += "firmware   " + printable(summary.firmware) + "\n";
   text += time_text(summary);
-  if (summary.flying) {
-    text += fmt::format("flying     {:.1f} s ({})\n", summary.flying->duration,
-                        summary.flying->determined_by);
-  } else {
-    text += "flying     not known: neither take-off events nor velocities in the log\n";
-  }
+  text += flights_text(summary);
+  text += findings_text(summary);
+  text += dropouts_text(summary);
   text += damage_text(summary);
   TextTable table(
       {word_column("message"), "count", "rate Hz", "first s", "last s", "longest gap s"});
   for (const LogSummary::Message& message : summary.types) {
-    table.add({message.name, std::to_string(message.count), cell(message.rate, 2),
+    table.add({printable(message.name), std::to_string(message.count), cell(message.rate, 2),
                cell(message.first_time, 3), cell(message.last_time, 3),
                cell(message.longest_gap, 3)});
   }
@@ -139,16 +243,30 @@ ordered_json log_json(const LogSummary& summary, std::string_view name) {
     return ordered_json{
         {"offset", lost.offset}, {"bytes", lost.bytes}, {"messages", lost.messages}};
   });
+  const ordered_json dropouts =
+      json_list(summary.dropouts, [](const LogContents::Dropout& dropout) {
+        return ordered_json{{"after_s", dropout.time}, {"duration_s", dropout.duration}};
+      });
+  const ordered_json uses = json_list(summary.uses, [](const LogSummary::Use& use) {
+    return ordered_json{
+        {"command", use.command}, {"possible", use.possible}, {"because", printable(use.because)}};
+  });
   ordered_json report = {{"file", name},
+                         {"format", format_name(summary.format)},
                          {"bytes", summary.bytes},
                          {"messages", summary.messages},
                          {"firmware", printable(summary.firmware)},
+                         {"vehicle", nullptr},
                          {"first_s", number_or_null(summary.first_time)},
                          {"last_s", number_or_null(summary.last_time)},
                          {"duration_s", nullptr},
                          {"flying", nullptr},
+                         {"batteries", json_list(summary.batteries, battery_json)},
+                         {"wind", nullptr},
+                         {"uses", uses},
                          {"gaps", gaps},
                          {"gap_count", summary.gap_count},
+                         {"dropouts", dropouts},
                          {"implausible_times", summary.implausible_times},
                          {"skipped",
                           {{"bytes", summary.skipped_bytes},
@@ -158,29 +276,40 @@ ordered_json log_json(const LogSummary& summary, std::string_view name) {
                          {"types", json_list(summary.types, message_json)}};
   if (summary.first_time) report["duration_s"] = *summary.last_time - *summary.first_time;
   if (summary.flying) {
-    report["flying"] = {{"duration_s", summary.flying->duration},
-                        {"determined_by", summary.flying->determined_by}};
+    report["flying"] = {
+        {"duration_s", summary.flying->duration},
+        {"determined_by", summary.flying->determined_by},
+        {"flights", json_list(summary.flying->flights, [](const LogSummary::Flight& flight) {
+           return ordered_json{{"start_s", flight.start}, {"end_s", flight.end}};
+         })}};
+  }
+  if (!summary.vehicle.empty()) report["vehicle"] = summary.vehicle;
+  if (summary.wind) {
+    report["wind"] = {{"message", summary.wind->message},
+                      {"speed_m_s", summary.wind->mean_speed},
+                      {"from_deg", summary.wind->from_deg}};
   }
   return report;
 }
 
-void write_messages_csv(std::span<const std::byte> log, std::string_view message,
-                        std::string_view name, std::ostream& out) {
-  const DataFlashContents contents = scan_dataflash(log);
-  if (contents.count(message) == 0) fail_without(message, name, contents);
-  const DataFlashFormat& header = *contents.find(message);
-  std::string line;
-  for (const DataFlashField& field : header.fields) {
+void write_messages_csv(const AutopilotLog& log, std::string_view message, std::ostream& out) {
+  const LogContents& contents = log.contents();
+  if (contents.count(message) == 0) fail_without(message, log);
+  // Copied: the types that for_each() hands out are others, of the same names.
+  const LogMessageType header = *contents.find(message);
+  const bool several = log.format() == LogFormat::ulog && log.instances(message).size() > 1;
+  std::string line = several ? "instance" : "";
+  for (const LogField& field : header.fields) {
     line += (line.empty() ? "" : ",") + csv_text(field.name);
   }
   out << line << '\n';
-  for_each_message(log, [&](const DataFlashFormat& format, const std::byte* bytes) {
-    if (format.name != message) return;
-    line.clear();
-    for (const DataFlashField& column : header.fields) {
-      if (&column != &header.fields.front()) line += ',';
+  log.for_each([&](const LogMessageType& type, const std::byte* bytes) {
+    if (type.name != message) return;
+    line = several ? std::to_string(type.instance.value_or(0)) : "";
+    for (const LogField& column : header.fields) {
+      if (several || &column != &header.fields.front()) line += ',';
       // By name, because a log behind another in one file may define the message anew.
-      const DataFlashField* const field = format.find(column.name);
+      const LogField* const field = type.find(column.name);
       if (field == nullptr) continue;
       const bool none = field->is_number() && !std::isfinite(field_value(bytes, *field));
       if (!none) line += csv_text(field_text(bytes, *field));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include "io/embedded_files.hpp"
 #include "report/characters.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
@@ -177,6 +179,24 @@ Section cross_sections(const PageContent& content) {
   return {"cross-sections", "Thrust and power over the cross-section", std::move(body)};
 }
 
+Section cable_section(const PageContent& content) {
+  std::vector<ShapeRequest> requests;
+  std::vector<ShapeStudy> studies;
+  for (const FlownShape& flown : content.cable) {
+    requests.push_back(flown.request);
+    studies.push_back(flown.study);
+  }
+  const bool any_hangs = std::ranges::any_of(
+      studies, [](const ShapeStudy& study) { return study.outcome == CableOutcome::hangs; });
+  std::string body;
+  if (any_hangs) {
+    body = html::picture(shape_figure(content.file.name, requests, studies), content.gnuplot);
+    body += html::table(flown_cable_table(content.cable), "table-cable");
+  }
+  body += html::paragraphs(flown_cable_sentences(content.cable));
+  return {"cable", "How the cable hangs", std::move(body)};
+}
+
 Section other_motors(const PageContent& content) {
   const DesignFile& file = content.file;
   std::string body = html::picture(motors_figure(file, content.motors), content.gnuplot);
@@ -296,6 +316,7 @@ std::string head(const std::string& title) {
 
 std::string report_page(const PageContent& content) {
   std::vector<Section> sections{answer_section(content), cross_sections(content)};
+  if (!content.cable.empty()) sections.push_back(cable_section(content));
   if (!content.motors.empty()) sections.push_back(other_motors(content));
   if (content.drag) sections.push_back(drag_section(*content.drag, content.gnuplot));
   for (const LogDiagnosis& log : content.diagnoses)

@@ -52,16 +52,17 @@ LoadedHover hover_under(const SteadyFlight& flight, double radius, double paid_o
 }  // namespace
 
 Cable cable_of(const Design& design, double area) {
-  const StraightTether tether(design.tether,
-                              insulation_wall(design.tether.insulation, design.supply.voltage),
-                              {.deployed = 1}, design.flight.air_density, design.flight.gravity);
-  return {.weight = tether.mass(conductor_radius(area)) * design.flight.gravity,
-          .diameter = tether.width(conductor_radius(area)),
-          .drag_coefficient = design.tether.drag_coefficient};
-}
-
-double slack_length(double slack, double height, double offset) {
-  return (1 + slack) * std::hypot(height, offset);
+  const double radius = conductor_radius(area);
+  const double wall = insulation_wall(design.tether.insulation, design.supply.voltage);
+  const StraightTether tether(design.tether, wall, {.deployed = 1}, design.flight.air_density,
+                              design.flight.gravity);
+  Cable cable{.weight = tether.mass(radius) * design.flight.gravity,
+              .diameter = tether.width(radius),
+              .drag_coefficient = vibrating_drag_coefficient(design.tether)};
+  if (design.tether.drag_by_reynolds_number) {
+    cable.cylinder_diameter = insulated_width(radius, wall);
+  }
+  return cable;
 }
 
 ShapeStudy study_cable_shape(const Design& original, double area, const ShapeRequest& request) {
@@ -104,6 +105,28 @@ ShapeStudy study_cable_shape(const Design& original, double area, const ShapeReq
   const TetherLoad straight = flight.tether().load(radius);
   out.straight = hover_under(flight, radius, request.height, straight.down, straight.along, 0);
   return out;
+}
+
+std::vector<FlownShape> shapes_in_flight(const Design& design, double area) {
+  std::vector<FlownShape> shapes;
+  if (design.tether.model == TetherModel::straight) return shapes;
+  const Flight& flight = design.flight;
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    const FlightState state = flight_state(design, condition);
+    const ShapeRequest request{
+        .height = state.deployed,
+        .offset = flight.horizontal_offset,
+        .paid_out = paid_out_to(design.tether, state.deployed, flight.horizontal_offset),
+        .wind = std::abs(state.airspeed),
+        .station_height = flight.station_height,
+        .profile = flight.wind_profile,
+        .reference_height = flight.station_height + state.deployed,
+        .exponent = flight.wind_exponent,
+        .roughness_length = flight.roughness_length,
+        .axial_stiffness = design.tether.axial_stiffness};
+    shapes.push_back({condition, request, study_cable_shape(design, area, request)});
+  }
+  return shapes;
 }
 
 }  // namespace tethercalc

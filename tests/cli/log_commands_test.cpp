@@ -546,8 +546,8 @@ TEST_CASE("a log that is none is refused") {
   for (const auto& [file, reason] : std::vector<std::pair<std::string, std::string>>{
            {"no-such.bin", "no-such.bin: cannot be opened"},
            {empty, "the file is empty"},
-           {noise, "no DataFlash message found in 3000 bytes"},
-           {example, "is no DataFlash log (.bin): it begins like a text"},
+           {noise, "no message of ArduPilot or PX4 was found in its 3000 bytes"},
+           {example, "is a text, but not one of an autopilot's log"},
            {folder.path().string(), "is a directory"}}) {
     const Ran run = run_tethercalc({"log", file});
     CAPTURE(file);

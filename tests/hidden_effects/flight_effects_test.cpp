@@ -89,6 +89,7 @@ TEST_CASE("a wind that is measured is no finding, and its drag is followed") {
 }
 
 TEST_CASE("a hidden effect is found first, with the truth within its interval") {
+  constexpr int repeats = std::max(1, test::draws(8) / 4);
   int flights = 0;
   int first = 0;
   int named = 0;
@@ -96,7 +97,7 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
   for (const Case& c : cases()) {
     std::uint64_t seed = 40;
     for (const double strength : c.strengths) {
-      for (int repeat = 0; repeat < 2; ++repeat) {
+      for (int repeat = 0; repeat < repeats; ++repeat) {
         HiddenFlight hidden = drawn_flight(++seed);
         hidden.*(c.field) = strength;
         const Diagnosis d = diagnosed(hidden);
@@ -113,9 +114,9 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
   }
   // Asked for: 95 % and 90 %. Of 36 flights, 33 right and 29 covered leave three standard
   // deviations.
-  CHECK(flights == 36);
-  CHECK(first >= 33);
-  CHECK(named >= 30);
+  CHECK(flights == 18 * repeats);
+  CHECK(first >= flights - 3);
+  CHECK(named >= flights - 6);
   CHECK(covered >= named - 7);
 }
 
@@ -261,7 +262,9 @@ TEST_CASE("two effects at once are both found") {
   std::uint64_t seed = 700;
   for (std::size_t a = 0; a < cases().size(); ++a) {
     for (std::size_t b = a + 1; b < cases().size(); ++b) {
-      HiddenFlight hidden = drawn_flight(++seed);
+      ++seed;
+      if (seed % 4 >= test::draws(4)) continue;
+      HiddenFlight hidden = drawn_flight(seed);
       hidden.duration = 540;
       hidden.*(cases()[a].field) = cases()[a].strengths[1];
       hidden.*(cases()[b].field) = cases()[b].strengths[1];
@@ -271,8 +274,8 @@ TEST_CASE("two effects at once are both found") {
       both += found.contains(cases()[a].effect) && found.contains(cases()[b].effect) ? 1 : 0;
     }
   }
-  CHECK(pairs == 15);
-  CHECK(both >= 11);  // asked for: 85 %, 12.75 of 15
+  CHECK(pairs >= 3);
+  CHECK(both >= 0.85 * pairs - 2);  // 85 % is asked for; two pairs are room for chance
 }
 
 TEST_CASE("a wind over ground is told from a headwind once the drone turns") {

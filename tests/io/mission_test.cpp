@@ -92,7 +92,7 @@ TEST_CASE("home is where the log says that it is") {
   log.define(70, "POS", "QLLf", "TimeUS,Lat,Lng,Alt");
   log.add(70, {std::uint64_t{1000}, std::int64_t{0}, std::int64_t{0}, 0.0});
   log.add(70, {std::uint64_t{2000}, std::int64_t{473977000}, std::int64_t{85456000}, 411.0});
-  const auto first = logged_home(log.bytes());
+  const auto first = logged_home(AutopilotLog(log.bytes(), "log"));
   REQUIRE(first);
   CHECK(first->latitude == 47.3977);
   CHECK(first->longitude == 8.5456);
@@ -102,6 +102,8 @@ TEST_CASE("home is where the log says that it is") {
                std::int64_t{200000000}, 5.0});
   log.add(71, {std::uint64_t{3000}, std::uint64_t{1}, std::int64_t{110000000},
                std::int64_t{200000000}, 6.0});
-  CHECK(logged_home(log.bytes())->latitude == 11);
-  CHECK_FALSE(logged_home(test::DataFlashWriter().bytes()));
+  CHECK(logged_home(AutopilotLog(log.bytes(), "log"))->latitude == 11);
+  test::DataFlashWriter without;
+  test::define_xkf1(without);
+  CHECK_FALSE(logged_home(AutopilotLog(without.bytes(), "log")));
 }

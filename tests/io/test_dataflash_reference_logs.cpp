@@ -114,7 +114,7 @@ Group group_of(const std::string& name, const DataFlashContents& contents) {
   return group;
 }
 
-void check_message_field(const std::byte* message, const DataFlashField& field,
+void check_message_field(const std::byte* message, const LogField& field,
                          const nlohmann::json& recorded) {
   if (recorded == "nan") {
     CHECK(std::isnan(field_value(message, field)));
@@ -253,7 +253,7 @@ TEST_CASE("the summary's first and last times of every message are the recorded 
   for (const auto& [path, recorded] : logs) {
     INFO(path.filename().string());
     const MappedFile file(path);
-    const LogSummary summary = summarize_log(file.bytes());
+    const LogSummary summary = summarize_log(AutopilotLog(file.bytes(), path.string()));
     CHECK(summary.implausible_times == 0);
     for (const auto& message : summary.types) {
       INFO(message.name);

@@ -97,7 +97,9 @@ TEST_CASE("a log without an estimator, and bytes that are no log, are refused") 
   log.add(12, {std::uint64_t{1}, std::int64_t{10}});
   CHECK_THROWS_WITH(read(log), Catch::Contains("XKF1, NKF1 or EKF1"));
   const std::vector<std::byte> zeros(1000);
-  CHECK_THROWS_WITH(parse_flight_log(zeros, "x.bin", {}), Catch::Contains("no DataFlash message"));
+  CHECK_THROWS_WITH(
+      parse_flight_log(zeros, "x.bin", {}),
+      Catch::Contains("is no log: no message of ArduPilot or PX4 was found in its 1000 bytes"));
 }
 
 TEST_CASE("yaw turns on through north, both ways, and stays the same direction") {

@@ -438,6 +438,17 @@ TEST_CASE("an infeasible design gives a page too, with what would help, and exit
   CHECK(std::count_if(items.begin(), items.end(), helps) == 1);
 }
 
+TEST_CASE("a solved tether is drawn as it hangs, a straight one is not") {
+  if (!can_draw()) return;
+  const Page page = made({project_file("examples/reference/hanging-slack.json")});
+  CHECK_THAT(page.text, Contains("How the cable hangs"));
+  // 3 % of 30 m more than the height, in hover and in forward flight.
+  const std::size_t table = page.text.find("Pull on the drone, tensions");
+  REQUIRE(table != std::string::npos);
+  CHECK(page.text.find("30.90", page.text.find("30.90", table) + 1) != std::string::npos);
+  CHECK_THAT(made({published}).text, !Contains("How the cable hangs"));
+}
+
 TEST_CASE("warnings stand on the page") {
   if (!can_draw()) return;
   const std::vector<std::string> arguments{

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "support/dataflash_writer.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -26,7 +27,7 @@ DataFlashWriter small_log() {
 
 std::string csv_of(const DataFlashWriter& log, const std::string& message) {
   std::ostringstream out;
-  write_messages_csv(log.bytes(), message, "small.bin", out);
+  write_messages_csv(AutopilotLog(log.bytes(), "small.bin"), message, out);
   return out.str();
 }
 
@@ -41,7 +42,8 @@ TEST_CASE("messages are exported exactly: 64-bit integers, shortest numbers, quo
 
 TEST_CASE("an unknown message is refused with the closest one, before anything is written") {
   std::ostringstream out;
-  CHECK_THROWS_WITH(write_messages_csv(small_log().bytes(), "TESTS", "small.bin", out),
+  const std::vector<std::byte> bytes = small_log().bytes();
+  CHECK_THROWS_WITH(write_messages_csv(AutopilotLog(bytes, "small.bin"), "TESTS", out),
                     "small.bin: the log holds no message TESTS; did you mean \"TEST\"?");
   CHECK(out.str().empty());
 }
@@ -54,7 +56,8 @@ TEST_CASE("the JSON summary holds what the log does, and is valid whatever the l
   std::vector<std::byte> bytes = log.bytes();
   bytes.push_back(std::byte{0xA3});
   bytes.push_back(std::byte{0x95});
-  const auto answer = nlohmann::json::parse(log_json(summarize_log(bytes), "a.bin").dump());
+  const auto answer =
+      nlohmann::json::parse(log_json(summarize_log(AutopilotLog(bytes, "a.bin")), "a.bin").dump());
   CHECK(answer.at("file") == "a.bin");
   CHECK(answer.at("bytes") == bytes.size());
   CHECK(answer.at("messages") == 4);
@@ -75,7 +78,8 @@ TEST_CASE("the JSON summary holds what the log does, and is valid whatever the l
 }
 
 TEST_CASE("the text and CSV summaries have a line for every message") {
-  const LogSummary summary = summarize_log(small_log().bytes());
+  const std::vector<std::byte> bytes = small_log().bytes();
+  const LogSummary summary = summarize_log(AutopilotLog(bytes, "small.bin"));
   const std::string text = log_text(summary, "small.bin");
   CHECK(text.find("small.bin: ") == 0);
   CHECK(text.find("4 messages, nothing skipped") != std::string::npos);

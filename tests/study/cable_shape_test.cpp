@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/random_designs.hpp"
+#include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 constexpr double published_area = 1.0886 * unit::square_millimetre;
 
 ShapeStudy studied(const Design& design, ShapeRequest request, double slack) {
-  request.paid_out.length = slack_length(slack, request.height, request.offset);
+  request.paid_out.length = (1 + slack) * std::hypot(request.height, request.offset);
   return study_cable_shape(design, published_area, request);
 }
 
@@ -72,5 +73,27 @@ TEST_CASE("the bare cable of a design weighs what its tether weighs") {
   CHECK(cable.weight * 30 / design.flight.gravity == Approx(0.5469).epsilon(2e-4));
   const double radius = std::sqrt(1.0886 / 3.14159265358979) / 1000;
   CHECK(cable.diameter == Approx(4 * 0.75 * (radius + 0.75e-3)).epsilon(1e-9));
-  CHECK(slack_length(0.1, 3, 4) == Approx(5.5));
+}
+
+TEST_CASE("a design's own cable hangs with the load that the design is judged by") {
+  Design design = test::published_design();
+  CHECK(shapes_in_flight(design, published_area).empty());
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.03;
+  design.tether.drag_by_reynolds_number = true;
+  design.tether.vibration_amplitude = 0.1;
+  design.flight.horizontal_offset = 5;
+  design.flight.headwind = 3;
+  design.flight.wind_profile = WindProfile::power_law;
+  const auto shapes = shapes_in_flight(design, published_area);
+  REQUIRE(shapes.size() == 2);
+  for (const FlownShape& flown : shapes) {
+    const SteadyFlight flight(design, flight_state(design, flown.condition));
+    const TetherLoad load = flight.tether().load(conductor_radius(published_area));
+    // The load of designs is within 1e-5 of the solver's.
+    CHECK(flown.study.loads.on_drone.z == Approx(-load.down).epsilon(2e-5));
+    CHECK(flown.study.loads.on_drone.x == Approx(-load.along).epsilon(2e-4));
+    CHECK(flown.study.loads.tension_at_station == Approx(load.tension_at_ground).epsilon(2e-5));
+    CHECK(flown.study.loads.length == Approx(load.length));
+  }
 }

@@ -94,8 +94,9 @@ inline Point evaluate(const Design& d, double area, Condition condition) {
            (drag.front_area * std::cos(theta) + drag.top_area * std::sin(theta)) *
            (v * v + drag.linear_speed * std::abs(v)) * leaning;
   };
-  const double tether_drag = 0.5 * d.flight.air_density * t.drag_coefficient * t.projection_factor *
-                             4 * t.length * (radius + wall) * v * v;
+  const double tether_drag = 0.5 * d.flight.air_density * t.drag_coefficient *
+                             (1 + 2.1 * t.vibration_amplitude) * t.projection_factor * 4 *
+                             t.length * (radius + wall) * v * v;
   const double theta = bisect(
       [&](double x) { return weight * std::sin(x) - (airframe(x) + tether_drag) * std::cos(x); }, 0,
       pi / 2);

@@ -257,6 +257,8 @@ inline Design random_hanging_design(Random& random) {
   d.tether.insulation.density = random.uniform(900, 2200);
   d.tether.drag_coefficient = random.uniform(0.7, 1.3);
   d.tether.projection_factor = 0.75;
+  d.tether.drag_by_reynolds_number = random.chance(0.3);
+  d.tether.vibration_amplitude = random.chance(0.3) ? random.uniform(0, 1) : 0;
   d.flight.gravity = standard_gravity;
   d.flight.air_density = random.uniform(0.9, 1.3);
   d.flight.airspeed = random.uniform(0, 20);

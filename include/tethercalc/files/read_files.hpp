@@ -20,13 +20,14 @@ namespace tethercalc {
 [[nodiscard]] DesignFile read_design(const std::string& path,
                                      std::span<const std::string> overrides = {});
 
-/// Reads the flight log at `path`, as `parse_flight_log` does. Throws InputError as well where it
-/// cannot be read.
+/// Reads the flight log at `path`, as `parse_flight_log` does; one that is compressed by gzip, xz
+/// or in a zip archive of its own is unpacked in memory. Throws InputError as well where it cannot
+/// be read or unpacked.
 [[nodiscard]] FlightLogReading read_flight_log(const std::filesystem::path& path,
                                                const FlightLogOptions& options = {});
 
-/// Reads the power log at `path`, as `parse_power_log` does. Throws InputError as well where it
-/// cannot be read.
+/// Reads the power log at `path`, as `parse_power_log` does, compressed or not. Throws InputError
+/// as well where it cannot be read or unpacked.
 [[nodiscard]] PowerLog read_power_log(const std::filesystem::path& path);
 
 }  // namespace tethercalc

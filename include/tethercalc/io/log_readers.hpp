@@ -1,4 +1,4 @@
-// Flight logs and power logs from what people have: DataFlash logs and CSV.
+// Flight logs and power logs from what people have: autopilots' logs and CSV.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/identify/observations.hpp"
+#include "tethercalc/io/autopilot_log.hpp"
 
 namespace tethercalc {
 
@@ -23,8 +24,9 @@ struct FlightLogOptions {
 
 /// A flight log, and how it came about.
 struct FlightLogReading {
-  FlightLog log;       ///< what was read
-  std::string source;  ///< "XKF1 of EKF core 0", "NKF6", "EKF1", or "CSV"
+  FlightLog log;  ///< what was read
+  /// "XKF1 of EKF core 0", "NKF6", "vehicle_local_position and vehicle_attitude", or "CSV"
+  std::string source;
   /// Samples left out because their time does not increase; as few as make the rest increase.
   std::size_t samples_out_of_order = 0;
   /// Samples left out because a value is not finite, or cannot be: |pitch| above 90°, |roll| above
@@ -48,20 +50,25 @@ struct FlightLogReading {
 /// of the air over ground (of a wind from the north `wind_north_m_s` is negative), or
 /// `airspeed_forward_m_s` along the heading, from which the wind ahead follows.
 ///
-/// Which of the two it is, the content tells: a log has zero bytes or marks among its first bytes.
+/// From a ULog: vehicle_local_position and vehicle_attitude, of core 0 the estimate that flew; of
+/// another core its own estimator_local_position and estimator_attitude. The wind that PX4 writes
+/// is the estimator's guess and is not taken for a measured one; a note says so.
+///
+/// Which of them it is, the content tells, not the name.
 ///
 /// Yaw comes out without wraps: it continues beyond ±π rather than jump, so that it can be
 /// interpolated. The first value is as logged.
 ///
-/// Throws InputError: a log without messages, without attitude and
-/// velocity, or without the wanted core (the message lists the cores there are); every problem of a
-/// CSV file, with its line.
+/// Throws InputError: what is none of these (naming what it is, if known), a log without attitude
+/// and velocity, or without the wanted core (the message lists the cores there are); every problem
+/// of a CSV file, with its line.
 [[nodiscard]] FlightLogReading parse_flight_log(std::span<const std::byte> content,
                                                 const std::string& name,
                                                 const FlightLogOptions& options = {});
 
-/// Whether the content is a DataFlash log rather than text.
-[[nodiscard]] bool looks_like_dataflash(std::span<const std::byte> content);
+/// The same from a log that is already opened.
+[[nodiscard]] FlightLogReading parse_flight_log(const AutopilotLog& log,
+                                                const FlightLogOptions& options = {});
 
 /// Reads a CSV text, called `name` in messages, with the columns `time_s, height_m, airspeed_m_s,
 /// supply_voltage_V, supply_current_A` and, optionally, `ambient_temperature_C, drone_voltage_V,

@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "tethercalc/diagnose/next_flight.hpp"
+#include "tethercalc/io/autopilot_log.hpp"
 
 namespace tethercalc {
 
@@ -18,10 +18,11 @@ struct Home {
   double altitude = 0;   ///< m above sea level; missions are flown relative to home
 };
 
-/// Where the drone took off, as a DataFlash log has it: home (message ORGN of type 1), else the
+/// Where the drone took off, as a log has it. DataFlash: home (message ORGN of type 1), else the
 /// estimator's origin, else the first position (POS), else the first of a satellite receiver (GPS).
-/// Nothing where it has none.
-[[nodiscard]] std::optional<Home> logged_home(std::span<const std::byte> log);
+/// ULog: home_position, else the first vehicle_global_position or vehicle_gps_position. Nothing
+/// where it has none.
+[[nodiscard]] std::optional<Home> logged_home(const AutopilotLog& log);
 
 /// How a mission is written.
 enum class MissionFormat {

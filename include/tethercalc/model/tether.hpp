@@ -113,6 +113,8 @@ struct Tether {
   double cover_mass = 0;                ///< kg/m of jacket, fillers and fibres that carry nothing
   double cover_width = 0;               ///< m, that these add to the width of both conductors
   double drag_coefficient = 1.0;        ///< C of a cylinder across the wind
+  bool drag_by_reynolds_number = false;  ///< C is times `cylinder_drag` of one insulated conductor
+  double vibration_amplitude = 0;  ///< ≥ 0, of a cable that beats in its own wake, over its width
   double projection_factor = 0.75;      ///< k, mean projected width of the turning pair over 4(r+s)
   std::optional<double> cross_section;  ///< m² of one conductor, where the cable is already chosen
 
@@ -157,8 +159,18 @@ struct Tether {
 /// `stranding_factor`, since strands lie askew and are thinner than their sum is measured.
 [[nodiscard]] double effective_resistivity(const Tether& tether, double temperature_C);
 
+/// Drag coefficient of the cable across the wind: `drag_coefficient` times 1 + 2.1·A/D, by which a
+/// cylinder that vibrates with the amplitude A across the wind shows it more than its width D
+/// (Blevins, "Flow-Induced Vibration", 2nd ed. 1990, section 3.3; A/D up to about 1).
+[[nodiscard]] double vibrating_drag_coefficient(const Tether& tether);
+
 /// Radius in m of a round conductor of `area` m².
 [[nodiscard]] double conductor_radius(double area);
+
+/// Width in m of one conductor of `radius` m with a wall of `wall` m.
+[[nodiscard]] constexpr double insulated_width(double radius, double wall) {
+  return 2 * (radius + wall);
+}
 
 /// Area in m² of a round conductor of `radius` m.
 [[nodiscard]] double conductor_area(double radius);

@@ -118,16 +118,25 @@ class StraightTether {
   double drag_0_, drag_1_;           ///< drag = drag_0 + drag_1·r, N
 };
 
+/// What the design has paid out to a drone `height` m over the station and `offset` m aside: what
+/// the winch's pull leaves out, or the distance and `slack`.
+[[nodiscard]] PaidOut paid_out_to(const Tether& tether, double height, double offset);
+
 /// All that decides how a tether hangs, but for its conductor's radius r.
 struct HangingSituation {
-  std::array<double, 3> weight{};  ///< N/m: weight[0] + weight[1]·r + weight[2]·r²
-  std::array<double, 2> width{};   ///< m across the wind: width[0] + width[1]·r
-  double drag_coefficient = 1;     ///< of that width
-  MovingAir air;                   ///< x points from the station to where the drone stands aside
-  PaidOut paid_out;                ///< how much cable is out
+  std::array<double, 3> weight{};   ///< N/m: weight[0] + weight[1]·r + weight[2]·r²
+  std::array<double, 2> width{};    ///< m across the wind: width[0] + width[1]·r
+  double drag_coefficient = 1;      ///< of that width
+  bool by_reynolds_number = false;  ///< whether it is times `cylinder_drag` of one conductor
+  double wall = 0;                  ///< m of its insulation
+  MovingAir air;                    ///< x points from the station to where the drone stands aside
+  PaidOut paid_out;                 ///< how much cable is out
   std::optional<double> axial_stiffness{};  ///< N, EA
   double offset = 0;                        ///< m aside
   double height = 0;                        ///< m over the station
+
+  /// m of one conductor with its insulation, where that decides the drag coefficient.
+  [[nodiscard]] std::optional<double> cylinder_diameter(double radius) const;
 
   auto operator<=>(const HangingSituation&) const = default;  ///< member by member
 };

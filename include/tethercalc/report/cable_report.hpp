@@ -22,6 +22,12 @@ namespace tethercalc {
 [[nodiscard]] nlohmann::ordered_json cable_shape_json(const DesignFile& file, double area,
                                                       const ShapeStudy& study);
 
+/// Loads and tensions of each condition in which the cable hangs.
+[[nodiscard]] TitledTable flown_cable_table(const std::vector<FlownShape>& shapes);
+
+/// Whether it touches the ground, and when there is no shape.
+[[nodiscard]] std::vector<std::string> flown_cable_sentences(const std::vector<FlownShape>& shapes);
+
 /// A row a point: s_m, x_m, y_m, z_m, tension_N.
 [[nodiscard]] std::string cable_shape_csv(const ShapeStudy& study);
 

@@ -1,9 +1,8 @@
-// What a DataFlash log holds, for people and for programs.
+// What an autopilot's log holds, for people and for programs.
 #pragma once
 
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,20 +19,25 @@ namespace tethercalc {
 /// empty cells where a message carries no time.
 [[nodiscard]] std::string log_csv(const LogSummary& summary);
 
-/// The summary as JSON: `file, bytes, messages, firmware, first_s, last_s, duration_s, flying`
-/// {`duration_s, determined_by`} or null, `gaps` [{`start_s, duration_s`}…], `gap_count,
-/// implausible_times, skipped` {`bytes, messages, stretches` [{`offset, bytes, messages`}…]},
+/// The summary as JSON: `file, format` (`dataflash`, `dataflash_text` or `ulog`), `bytes, messages,
+/// firmware, vehicle` (or null), `first_s, last_s, duration_s, flying` {`duration_s, determined_by,
+/// flights` [{`start_s, end_s`}…]} or null, `batteries` [{`message, instance, samples, voltage_V`
+/// {`least, mean, greatest`}, `current_A` {`mean, greatest`} or null, `energy_Wh` or null}…],
+/// `wind`
+/// {`message, speed_m_s, from_deg`} or null, `uses` [{`command, possible, because`}…], `gaps`
+/// [{`start_s, duration_s`}…], `gap_count, dropouts` [{`after_s, duration_s`}…],
+/// `implausible_times, skipped` {`bytes, messages, stretches` [{`offset, bytes, messages`}…]},
 /// `rejected_definitions, types` [{`name, count, rate_Hz, first_s, last_s, longest_gap_s,
-/// fields`}…]. Times are null where there are none.
+/// instances, fields, units`}…]. Times are null where there are none.
 [[nodiscard]] nlohmann::ordered_json log_json(const LogSummary& summary, std::string_view name);
 
 /// Writes all messages called `message` as CSV, one row a message in the log's order, one column a
-/// field, named as in the log. Numbers as field_text() gives them, with an empty cell for what is
-/// not finite; text is quoted where it has to be (RFC 4180).
+/// field, named as in the log; before them `instance` where the log has several in one name.
+/// Numbers as field_text() gives them, with an empty cell for what is not finite; text is quoted
+/// where it has to be (RFC 4180).
 ///
-/// Throws InputError naming `name`, the log's, where there is no such message in it, with the
+/// Throws InputError naming the log where there is no such message in it, with the
 /// closest one that there is; nothing has been written then.
-void write_messages_csv(std::span<const std::byte> log, std::string_view message,
-                        std::string_view name, std::ostream& out);
+void write_messages_csv(const AutopilotLog& log, std::string_view message, std::ostream& out);
 
 }  // namespace tethercalc

@@ -20,6 +20,7 @@ struct PageContent {
   DesignFile file;                      ///< the spec
   OptimumStudy optimum;                 ///< the answer
   AreaCurve curve;                      ///< that `area_curve` makes of it
+  std::vector<FlownShape> cable;        ///< of that answer; empty: no such section
   std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
   std::optional<DragStudy> drag;        ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "tethercalc/model/design.hpp"
 #include "tethercalc/model/hanging_cable.hpp"
@@ -53,14 +54,22 @@ struct ShapeStudy {
 /// with insulation and strength member, and the mean width that `projection_factor` makes of them.
 [[nodiscard]] Cable cable_of(const Design& design, double area);
 
-/// Length in m of a cable with `slack` (share of the distance, > 0) to a drone there.
-[[nodiscard]] double slack_length(double slack, double height, double offset);
-
 /// Solves the cable, and the drone that hovers on it in the wind of its own height. The resistance
 /// of the loop is that of the length paid out and `tether.spooled_length`, at
 /// `conductor_temperature_C`. `area` in m².
 /// @throws std::invalid_argument as `CableSolver::solve`.
 [[nodiscard]] ShapeStudy study_cable_shape(const Design& design, double area,
                                            const ShapeRequest& request);
+
+/// A cable as a design flies it.
+struct FlownShape {
+  Condition condition = Condition::hover;  ///< in which the drone flies
+  ShapeRequest request;                    ///< what the design says of that
+  ShapeStudy study;                        ///< its shape and loads
+};
+
+/// How the cable of a design with a solved tether hangs in hover and in forward flight, with a
+/// conductor of `area` m². Nothing where the tether is straight.
+[[nodiscard]] std::vector<FlownShape> shapes_in_flight(const Design& design, double area);
 
 }  // namespace tethercalc
