@@ -145,14 +145,18 @@ class ULogContentsTaker {
 
 /// A visitor of messages that have fields, or of all, that does not mind damage.
 template <class Act>
-struct ULogMessages {
-  Act act;
+class ULogMessages {
+ public:
+  explicit ULogMessages(Act act) : act_(std::move(act)) {}
   void on_message(char letter, const std::byte* message, std::size_t length,
                   const ulog::Definitions& known) {
-    act(letter, message, length, known);
+    act_(letter, message, length, known);
   }
   void on_rejected(const std::string&) {}
   void on_skipped(const SkippedBytes&) {}
+
+ private:
+  Act act_;
 };
 
 std::optional<WantedFields> wanted_from_topic(const LogMessageType& type, std::string_view message,

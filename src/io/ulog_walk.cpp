@@ -122,13 +122,11 @@ Definitions::Change Definitions::take_format(const std::byte* message) {
   const std::size_t colon = text.find(':');
   const std::string name(text.substr(0, colon));
   const std::string fields(text.substr(colon + 1));
-  if (std::ranges::find(contradicted_formats_, name) != contradicted_formats_.end()) return {};
   const auto [entry, is_new] = formats_.try_emplace(name, fields);
   if (is_new) return {Outcome::defined};
-  if (entry->second == fields) return {};
-  // One of the two is damaged, and nothing tells which.
-  formats_.erase(entry);
-  contradicted_formats_.push_back(name);
+  if (entry->second == fields || entry->second.empty()) return {};
+  // One of the two is damaged, and nothing tells which. Without fields, nothing can be of it.
+  entry->second.clear();
   return {Outcome::rejected,
           fmt::format("the format {} cannot be used: it contradicts an earlier one of that name",
                       name)};
@@ -184,7 +182,7 @@ Definitions::Change Definitions::take_subscription(const std::byte* message) {
   Layout layout;
   if (!lay_out(name, "", layout, 0) || layout.needed == 0) {
     return {Outcome::rejected,
-            fmt::format("messages {} cannot be used: their format is of unknown types", name)};
+            fmt::format("messages {} cannot be used: their format cannot be resolved", name)};
   }
   types_.push_back({name, std::move(layout.fields), instance, std::nullopt});
   data_[number] = {layout.needed, layout.size, &types_.back(), false};
@@ -255,28 +253,70 @@ bool Framing::is_cut(std::size_t at, const Definitions& known) const {
   const std::byte* const message = log_.data() + at;
   const std::size_t length = length_of(message);
   if (length <= left) return false;
-  if (letter_of(message) == 'D' && left >= data_at) {
-    return known.has_size(log_bytes::read<std::uint16_t>(message + header_size), length - data_at);
+  // What is there of its content.
+  const std::string_view text(reinterpret_cast<const char*>(message + header_size),
+                              left - header_size);
+  const auto words_from = [text](std::size_t from) {
+    return from >= text.size() || is_words(text.substr(from));
+  };
+  switch (letter_of(message)) {
+    case 'D':
+      return left < data_at || known.has_size(log_bytes::read<std::uint16_t>(message + header_size),
+                                              length - data_at);
+    case 'F':
+      return words_from(0);
+    case 'A':
+      return words_from(header_size);
+    case 'L':
+    case 'C':
+      return (text.empty() || (text[0] >= '0' && text[0] <= '7')) &&
+             words_from(letter_of(message) == 'L' ? 9 : 11);
+    case 'I':
+    case 'P':
+    case 'M':
+    case 'Q': {
+      const bool has_byte_before = letter_of(message) == 'M' || letter_of(message) == 'Q';
+      const std::size_t size_at = has_byte_before ? 1 : 0;
+      if (text.size() <= size_at) return true;
+      if (letter_of(message) == 'M' && static_cast<unsigned char>(text[0]) > 1) return false;
+      const std::size_t key_size = static_cast<unsigned char>(text[size_at]);
+      const std::string_view key = text.substr(size_at + 1, key_size);
+      constexpr std::size_t shortest_key = 7;  // "float A"
+      return key_size >= shortest_key && key_size < length &&
+             (key.empty() || is_name(key.substr(0, key.find_first_of(" ["))));
+    }
+    case 'S':
+      return length == header_size + sync_magic.size() &&
+             std::memcmp(text.data(), sync_magic.data(), text.size()) == 0;
+    case 'O':
+    case 'R':
+      return length == data_at;
+    default:
+      return false;
   }
-  // Letters whose messages are short are only cut near the end.
-  constexpr std::size_t longest_text = 4096;
-  return std::string_view("DFAIMPQLCSOR").find(letter_of(message)) != std::string_view::npos &&
-         (letter_of(message) == 'D' || length <= longest_text);
+}
+
+std::size_t Framing::damaged_at(std::size_t at, const Definitions& known) const {
+  if (at + data_at > log_.size()) return 0;
+  const std::byte* const message = log_.data() + at;
+  const std::size_t length = length_of(message);
+  if (length <= data_at || length > log_.size() - at) return 0;
+  const std::size_t number = log_bytes::read<std::uint16_t>(message + header_size);
+  // PX4 has some 300 topics, numbered from 0. A larger number is rather payload read as a header.
+  constexpr std::size_t most_numbers = 1024;
+  const bool lost_definition =
+      letter_of(message) == 'D' && number < most_numbers && !known.is_subscribed(number);
+  return lost_definition || known.has_size(number, length - data_at) ? length : 0;
 }
 
 bool Framing::may_follow(std::size_t at, const Definitions& known) const {
   constexpr int most_hops = 64;
   for (int hop = 0; hop < most_hops; ++hop) {
     if (at == log_.size() || is_cut(at, known)) return true;
-    if (credible_at(at, known) != 0) return true;
-    const std::byte* const message = log_.data() + at;
-    const std::size_t length = length_of(message);
-    const bool known_letter =
-        std::string_view("DFAIMPQLCSORB").find(letter_of(message)) != std::string_view::npos;
-    // Of the first, the letter itself may be what is damaged.
-    if ((hop > 0 && !known_letter) || length > log_.size() - at || length == header_size) {
-      return false;
-    }
+    std::size_t length = credible_at(at, known);
+    if (length != 0 && !is_doubtful(log_.data() + at)) return true;
+    if (length == 0) length = damaged_at(at, known);
+    if (length == 0) return false;
     at += length;
   }
   return false;
@@ -286,8 +326,9 @@ std::size_t Framing::next_message(std::size_t at, const Definitions& known) cons
   for (; at + header_size <= log_.size(); ++at) {
     const std::size_t length = credible_at(at, known);
     if (length == 0) continue;
-    const std::size_t next = at + length;
-    if (next == log_.size() || credible_at(next, known) != 0 || is_cut(next, known)) return at;
+    const bool is_followed = is_doubtful(log_.data() + at) ? credible_at(at + length, known) != 0
+                                                           : may_follow(at + length, known);
+    if (is_followed) return at;
   }
   return log_.size();
 }

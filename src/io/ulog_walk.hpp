@@ -36,6 +36,11 @@ inline std::string_view text_from(const std::byte* message, std::size_t offset) 
   return {reinterpret_cast<const char*>(message + offset), length_of(message) - offset};
 }
 
+/// Whether the message shows too little to be told from chance: topic 2 at a time whose lowest byte
+/// is 4F reads as a message O, "02 00 4F".
+inline bool is_doubtful(const std::byte* message) {
+  return letter_of(message) == 'O' || letter_of(message) == 'R';
+}
 /// A type as a format writes it: "float", "uint8_t[4]", "esc_report[8]".
 struct TypeText {
   std::string_view name;
@@ -109,7 +114,6 @@ class Definitions {
     bool contradicted = false;
   };
   std::map<std::string, std::string, std::less<>> formats_;  // fields by name
-  std::vector<std::string> contradicted_formats_;
   std::vector<Data> data_;
   std::deque<LogMessageType> types_;  // also those no longer in force
 };
@@ -123,16 +127,18 @@ class Framing {
   [[nodiscard]] std::size_t credible_at(std::size_t at, const Definitions& known) const;
 
   /// Whether what stands at `at` may follow a message: nothing more, a credible message, one that
-  /// the log's end cuts, or messages of which only the content is not credible, up to one that is.
+  /// the log's end cuts, or messages that are damaged or of a lost definition up to such a one.
   [[nodiscard]] bool may_follow(std::size_t at, const Definitions& known) const;
 
-  /// First position from `at` on where a credible message is followed by another one or by the end
-  /// of the section; that end where there is none.
+  /// First position from `at` on where a credible message is followed by what may follow one; the
+  /// end of the section where there is none.
   [[nodiscard]] std::size_t next_message(std::size_t at, const Definitions& known) const;
 
  private:
   [[nodiscard]] bool is_credible(const std::byte* message, std::size_t length,
                                  const Definitions& known) const;
+  /// Length of what is data by all but its letter, or by all but its number's definition; else 0.
+  [[nodiscard]] std::size_t damaged_at(std::size_t at, const Definitions& known) const;
   /// Whether a message begins at `at` that goes on behind the end.
   [[nodiscard]] bool is_cut(std::size_t at, const Definitions& known) const;
 
@@ -172,7 +178,8 @@ void walk(std::span<const std::byte> log, Visitor& visitor) {
         next_length = framing.credible_at(at + length, known);
         // A definition makes what follows it credible.
         const bool defines = letter_of(message) == 'A' || letter_of(message) == 'F';
-        if (next_length == 0 && !framing.may_follow(at + length, known)) {
+        const bool is_sure = next_length != 0 && !is_doubtful(message + length);
+        if (!is_sure && !framing.may_follow(at + length, known)) {
           believed = defines;
           if (defines) {
             Definitions with = known;
