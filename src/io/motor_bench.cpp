@@ -180,7 +180,8 @@ std::optional<Table> table_of(const LoadedText& input, const std::vector<NamedCo
                    {rows.begin() + std::ptrdiff_t(i) + 1, rows.end()}};
     }
   }
-  if (!best && broken) {
+  // Read with another separator, a row of broken quotes is one cell.
+  if (broken && (!best || best->columns.found.empty())) {
     problems.add(broken->problems());
     return std::nullopt;
   }

@@ -119,6 +119,11 @@ TEST_CASE("a header that is not understood is answered with what it has and how 
   CHECK_THAT(refusal_of("F;P\n1;10\n", {{"force=F"}, {}}), Contains("does not say what"));
 }
 
+TEST_CASE("a quote that is not closed is told as such") {
+  CHECK_THAT(refusal_of("Thrust (g),Power (W)\n100,\"10\n200,25\n"),
+             Contains("bench.csv:2: a quote is opened and not closed"));
+}
+
 TEST_CASE("a name that was given outranks what the header says") {
   const std::string table = "thrust_g,power_W,bench power\n100,10,12\n200,25,30\n";
   CHECK(bench_of(table).motor.curve.max_power() == Approx(25));
