@@ -155,10 +155,9 @@ LogSummary::Flying flying_by_speed(const FlightLogReading& reading) {
     stretch->end = log.time[i];
   }
   finish_stretch();
-  LogSummary::Flying flying =
-      flying_of(std::move(flights),
-                fmt::format("moving at {} m/s or more in {}, for want of take-off events", slowest,
-                            reading.source));
+  LogSummary::Flying flying = flying_of(
+      std::move(flights), fmt::format("moving at {} m/s or more in {}, for want of take-off events",
+                                      slowest, reading.source));
   flying.flights.clear();  // a hover between two of them is no landing
   return flying;
 }
