@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tethercalc/identify/observations.hpp"
@@ -24,21 +25,38 @@ namespace tethercalc::cli {
 
 enum class Format { table, json, csv };
 
+enum class Colour { automatic, always, never };
+
 struct Output {
   Format format = Format::table;
   std::string file;  ///< empty: standard output
+  Colour colour = Colour::automatic;
 };
 
 /// Exit codes of the program; scripts rely on them.
 enum ExitCode : int { done = 0, answer_is_no = 1, bad_input = 2, internal_error = 3 };
 
-/// Colours where the answer goes to a terminal that wants them: TERM is not "dumb" and NO_COLOR is
-/// not set (no-color.org).
+/// Colours as asked for; else where the answer goes to a terminal that wants them: TERM is not
+/// "dumb" and NO_COLOR is not set (no-color.org).
 [[nodiscard]] TextStyle style_for(const Output& output);
 
 /// How figures and pages name a file that they are made of: without folders, which say nothing to
 /// others.
 [[nodiscard]] std::string base_name(const std::string& file);
+
+/// Says on standard error what is good to know beside an answer, without characters that would
+/// command a terminal; nothing once `be_quiet` was called.
+void remark(std::string_view lines);
+void be_quiet();
+/// Whether progress may be shown: standard error is a terminal and nobody asked to be quiet.
+[[nodiscard]] bool shows_progress();
+
+/// Columns of the terminal: COLUMNS, what the terminal says, or 100 where there is none.
+[[nodiscard]] int terminal_columns();
+
+/// Ends the program as one whose reader has enough, `head` perhaps: by the signal that says so to
+/// the shell, without a word.
+[[noreturn]] void die_of_closed_pipe();
 
 /// Writes the answer, to the file whole or not at all. Throws InputError where it cannot.
 void emit(const Output& output, const std::string& text);
@@ -265,7 +283,10 @@ struct PlotOptions {
 /// Names and what they show, for help and messages.
 [[nodiscard]] std::string plot_kinds_help();
 
-/// Draws one figure, without a file of characters on standard output.
+[[nodiscard]] std::vector<std::string> plot_kinds();
+
+/// Draws one figure, without a file of characters on standard output. Exit code 1 where it is of a
+/// design that cannot fly as required.
 int run_plot(const PlotOptions& options, const Output& output);
 
 /// Writes the page. `options` names the spec and the logs, which may both be there; `command` is

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "files/output_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "report/characters.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
@@ -20,17 +22,38 @@
 namespace tethercalc::cli {
 namespace {
 
-/// The cross-sections that were typed in mm², in m².
+/// The area of the standard size of that name, however its blank and letters are typed: "AWG 18",
+/// "awg18".
+std::optional<double> standard_area(std::string_view text) {
+  const auto plain = [](std::string_view name) {
+    std::string out;
+    for (const char c : name) {
+      if (c != ' ') out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+    return out;
+  };
+  for (const WireSize& size : wire_sizes()) {
+    if (plain(size.name) == plain(text)) return size.area;
+  }
+  return std::nullopt;
+}
+
+/// The cross-sections that were typed in mm² or as names of standard sizes, in m².
 std::vector<double> parsed_areas(const std::vector<std::string>& texts) {
   std::vector<double> areas;
   Problems problems;
   for (const std::string& text : texts) {
+    if (const auto area = standard_area(text)) {
+      areas.push_back(*area);
+      continue;
+    }
     char* end = nullptr;
     const double area = std::strtod(text.c_str(), &end);
     // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
     if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
       problems.add("--area-mm2",
-                   "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm²");
+                   "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm², nor a " +
+                       "standard size such as AWG18");
     }
     areas.push_back(area * unit::square_millimetre);
   }
@@ -101,13 +124,23 @@ std::vector<fs::path> reference_specs(std::span<const std::string> paths) {
   return specs;
 }
 
+/// A pipe beside specs would be waited for without end.
+void refuse_pipe(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_other(fs::status(path, ignored))) {
+    throw InputError(path.string(), "is a pipe, socket or device, not a file");
+  }
+}
+
 std::optional<LoadedText> record_of(const fs::path& spec) {
   const std::string record = record_path(spec);
+  refuse_pipe(record);
   return fs::exists(record) ? std::optional(read_text_file(record)) : std::nullopt;
 }
 
 ReferenceCheck checked(const fs::path& spec) {
   try {
+    refuse_pipe(spec);
     return check_reference(spec.string(), read_design(spec.string()), record_of(spec));
   } catch (const InputError& error) {
     ReferenceCheck check;
@@ -155,8 +188,12 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
 
 int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output) {
-  const std::vector<double> areas = parsed_areas(areas_mm2);
-  const DesignFile file = read_spec(spec);
+  Problems problems;
+  std::vector<double> areas;
+  DesignFile file;
+  problems.succeeds([&] { areas = parsed_areas(areas_mm2); });
+  problems.succeeds([&] { file = read_spec(spec); });
+  problems.throw_if_any();
   const std::vector<AreaPoints> table =
       evaluate_areas(file.design, chosen_areas(areas, file.design));
   emit(
@@ -361,8 +398,10 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
   for (const std::string& name : files) {
     try {
       const DesignFile file = read_design(name, overrides);
-      text += file.file + ": valid\n";
-      for (const std::string& warning : file.warnings) text += "  Note: " + warning + "\n";
+      text += printable(file.file) + ": valid\n";
+      for (const std::string& warning : file.warnings) {
+        text += "  Note: " + printable(warning) + "\n";
+      }
       json.push_back({{"file", file.file}, {"valid", true}, {"warnings", file.warnings}});
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());

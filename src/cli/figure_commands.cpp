@@ -1,9 +1,6 @@
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -34,25 +31,34 @@ DesignFile titled_spec(const PlotOptions& options) {
   return file;
 }
 
-Figure optimum(const PlotOptions& options) {
+/// A figure, and the exit code that goes with what it shows.
+struct Drawn {
+  Figure figure;
+  int exit_code = done;
+};
+
+Drawn optimum(const PlotOptions& options) {
   const DesignFile file = titled_spec(options);
   const OptimumStudy study = study_optimum(file.design, wire_sizes());
-  return optimum_figure(file.name, study, area_curve(study));
+  return {optimum_figure(file.name, study, area_curve(study)),
+          study.result.feasible ? done : answer_is_no};
 }
 
-Figure motors(const PlotOptions& options) {
+Drawn motors(const PlotOptions& options) {
   const DesignFile file = titled_spec(options);
-  return motors_figure(file, compare_motors(file.design, chosen_motors(options.motors, file)));
+  const auto ranking = compare_motors(file.design, chosen_motors(options.motors, file));
+  const bool any = !ranking.empty() && ranking.front().result.feasible;
+  return {motors_figure(file, ranking), any ? done : answer_is_no};
 }
 
-Figure log(const PlotOptions& options) {
+Drawn log(const PlotOptions& options) {
   const std::string& file = options.files.front();
   FlightOptions flight = options.made_of.flight;
   if (!flight.mass_g) flight.mass_g = 1000;  // accelerations do not depend on it
   try {
-    return log_figure(heading(options, base_name(file)),
-                      observe_part(read_flight_logs({file}, flight.core).front(),
-                                   identification_options(flight)));
+    return {log_figure(heading(options, base_name(file)),
+                       observe_part(read_flight_logs({file}, flight.core).front(),
+                                    identification_options(flight)))};
   } catch (const UnsuitableFlight& error) {
     throw InputError(file, error.what());
   }
@@ -63,7 +69,7 @@ std::string name_of_flights(const std::vector<std::string>& files) {
   return files.size() == 1 ? base_name(files.front()) : std::to_string(files.size()) + " flights";
 }
 
-Figure drag(const PlotOptions& options) {
+Drawn drag(const PlotOptions& options) {
   const std::vector<std::string> views{"speed", "surface"};
   const bool surface = options.view == "surface";
   if (!surface && !options.view.empty() && options.view != "speed") {
@@ -74,10 +80,10 @@ Figure drag(const PlotOptions& options) {
   const std::string name = name_of_flights(options.files);
   const DragStudy fitted =
       studied_drag(heading(options, name), options.files, options.made_of.flight);
-  return surface ? drag_surface_figure(fitted) : drag_figure(fitted);
+  return {surface ? drag_surface_figure(fitted) : drag_figure(fitted)};
 }
 
-Figure diagnosis(const PlotOptions& options) {
+Drawn diagnosis(const PlotOptions& options) {
   const DiagnoseOptions& how = options.made_of;
   if (how.flight_logs.empty() == how.power_log.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
@@ -86,21 +92,21 @@ Figure diagnosis(const PlotOptions& options) {
       how.power_log.empty() ? name_of_flights(how.flight_logs) : base_name(how.power_log);
   const ToldDiagnosis told = diagnose_logs(how, titled_spec(options));
   try {
-    return diagnosis_figure(heading(options, log), told.flight ? *told.flight : *told.power);
+    return {diagnosis_figure(heading(options, log), told.flight ? *told.flight : *told.power)};
   } catch (const std::invalid_argument& error) {
     throw InputError(log, error.what());
   }
 }
 
-Figure sweep(const PlotOptions& options) {
+Drawn sweep(const PlotOptions& options) {
   const std::string& file = options.files.front();
   const MappedFile content(file == "-" ? "/dev/stdin" : file);
-  return sweep_figure(
+  return {sweep_figure(
       parse_sweep_csv(content.text(), file == "-" ? "standard input" : file, options.value),
-      {options.x, options.y, heading(options, base_name(file))});
+      {options.x, options.y, heading(options, base_name(file))})};
 }
 
-Figure shape(const PlotOptions& options) {
+Drawn shape(const PlotOptions& options) {
   ShapeOptions how = options.shape;
   how.spec = {options.files.front(), options.made_of.spec.overrides};
   const AskedShapes asked = asked_shapes(how);
@@ -109,7 +115,7 @@ Figure shape(const PlotOptions& options) {
     studies.push_back(study_cable_shape(asked.file.design, asked.area, request));
   }
   try {
-    return shape_figure(heading(options, asked.file.name), asked.requests, studies);
+    return {shape_figure(heading(options, asked.file.name), asked.requests, studies)};
   } catch (const std::invalid_argument& error) {
     throw InputError("plot shape", error.what());
   }
@@ -119,7 +125,7 @@ struct Kind {
   std::string_view name;
   std::string_view input;  ///< what FILE is
   std::string_view help;
-  Figure (*draw)(const PlotOptions&);
+  Drawn (*draw)(const PlotOptions&);
   bool many_files = false;
 };
 
@@ -136,11 +142,9 @@ constexpr std::array kinds{
 };
 
 const Kind& find_kind(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Kind& kind : kinds) {
-    if (kind.name == name) return kind;
-    names.emplace_back(kind.name);
-  }
+  const auto found = std::ranges::find(kinds, name, &Kind::name);
+  if (found != kinds.end()) return *found;
+  const std::vector<std::string> names = plot_kinds();
   throw InputError("plot", fmt::format("there is no kind of figure \"{}\"; allowed are {}{}", name,
                                        fmt::join(names, ", "), did_you_mean(name, names)));
 }
@@ -172,21 +176,6 @@ void check_options(const PlotOptions& options) {
   problems.throw_if_any();
 }
 
-/// Columns of the terminal: COLUMNS, what the terminal says, or 100 where there is none.
-int text_columns() {
-  constexpr int least = 40;
-  constexpr int most = 400;
-  if (const char* given = std::getenv("COLUMNS")) {
-    const int columns = std::atoi(given);
-    if (columns > 0) return std::clamp(columns, least, most);
-  }
-  winsize window{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0) {
-    return std::clamp<int>(window.ws_col, least, most);
-  }
-  return 100;
-}
-
 /// The drag that the flight shows, mass and air as the spec has them where the options do not say.
 DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
   FlightOptions flight = options.flight;
@@ -207,6 +196,12 @@ std::string shell_word(std::string_view word) {
 }
 
 }  // namespace
+
+std::vector<std::string> plot_kinds() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
 
 std::string plot_kinds_help() {
   std::string out;
@@ -230,9 +225,11 @@ int run_plot(const PlotOptions& options, const Output& output) {
     throw InputError("--width-mm", std::to_string(options.width_mm) +
                                        " is out of range; allowed is 85 to 400 mm");
   }
-  const FigureSize size{options.width_mm, text_columns(), style_for(output).colour};
-  emit(output, render(kind.draw(options), format, run_gnuplot, size));
-  return done;
+  const FigureSize size{options.width_mm, std::clamp(terminal_columns(), 40, 400),
+                        style_for(output).colour};
+  const Drawn drawn = kind.draw(options);
+  emit(output, render(drawn.figure, format, run_gnuplot, size));
+  return drawn.exit_code;
 }
 
 int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +14,14 @@
 
 #include "files/log_file.hpp"
 #include "files/output_files.hpp"
+#include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/effect_file.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/io/mission.hpp"
+#include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
@@ -30,14 +31,22 @@
 namespace tethercalc::cli {
 namespace {
 
+/// A spec that was read at `read_at`, as the file `written` has to hold it; where that is empty, as
+/// a command reads it from standard input.
+std::string spec_text(nlohmann::ordered_json spec, const std::string& read_at,
+                      const std::string& written) {
+  return json_text(
+      spec_for_folder(std::move(spec), read_at, std::filesystem::path(written).parent_path()));
+}
+
 /// The spec with its drag replaced, checked as if a person had edited it.
-std::string spec_with_drag(const std::string& spec, const DragFit& fit) {
+nlohmann::ordered_json spec_with_drag(const std::string& spec, const DragFit& fit) {
   const DesignFile file = read_design(spec);
   Design design = file.design;
   const double asymmetry = design.drone.drag.fore_aft_asymmetry;
   design.drone.drag = fit.drag();
   design.drone.drag.fore_aft_asymmetry = asymmetry;
-  return json_text(read_design_document(spec_with(file, design), file.file, file.load).document);
+  return read_design_document(spec_with(file, design), file.file, file.load).document;
 }
 
 /// The autopilot whose parameters `--parameters` asks for, if any.
@@ -54,15 +63,15 @@ std::optional<Autopilot> parameters_of(const std::string& name) {
 /// What was not said and moves the answer, on standard error so that no format hides it.
 void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptions& taken) {
   if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
-    fmt::print(stderr,
-               "drag: no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
-               "--temperature-C)\n",
-               taken.conditions.air_density);
+    remark(fmt::format(
+        "drag: no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
+        "--temperature-C)\n",
+        taken.conditions.air_density));
   }
   if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
-    fmt::print(stderr,
-               "drag: no pitch offset given, 0° taken; what it misses ends up in the wind "
-               "(--trim-log or --pitch-offset-deg)\n");
+    remark(
+        "drag: no pitch offset given, 0° taken; what it misses ends up in the wind "
+        "(--trim-log or --pitch-offset-deg)\n");
   }
 }
 
@@ -74,12 +83,12 @@ void check_range(const char* option, double value, double least, double most, co
 
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
-  if (::isatty(STDERR_FILENO) != 1) return {};
+  if (!shows_progress()) return {};
   return [](const std::string& doing) { std::fprintf(stderr, "\r\x1b[K%s", doing.c_str()); };
 }
 
 void clear_progress() {
-  if (::isatty(STDERR_FILENO) == 1) std::fprintf(stderr, "\r\x1b[K");
+  if (shows_progress()) std::fprintf(stderr, "\r\x1b[K");
 }
 
 /// The effects of the files given, no id twice.
@@ -215,20 +224,6 @@ void tell(const ToldDiagnosis& told, const std::string& mission, const Output& o
       });
 }
 
-/// Refuses to write a file over what it is made from.
-void check_not_read(const DiagnoseOptions& options, const char* option, const std::string& file) {
-  if (file.empty()) return;
-  std::vector<std::string> inputs = options.flight_logs;
-  inputs.insert(inputs.end(), {options.spec.file, options.power_log});
-  inputs.insert(inputs.end(), options.effect_files.begin(), options.effect_files.end());
-  for (const std::string& read : inputs) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, read, ignored)) {
-      throw InputError(option, fmt::format("\"{}\" is read; give another file to write", file));
-    }
-  }
-}
-
 /// "LAT,LON" in degrees.
 Home given_home(const std::string& text) {
   const char* at = text.c_str();
@@ -277,7 +272,6 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
     return std::nullopt;
   }
   MissionTarget target{mission_format(options.next_flight_file), {}};
-  check_not_read(options, "--next-flight", options.next_flight_file);
   if (options.into && options.into_file.empty()) {
     throw InputError("--next-flight",
                      "goes with the diagnosis, which --into without a file "
@@ -336,14 +330,12 @@ double pitch_offset(const FlightOptions& options) {
 
 std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
-  constexpr double lightest = 10;  // no drone that flies outdoors weighs less
-  const double in_grams = 1000 * *options.mass_g;
-  if (*options.mass_g > 0 && *options.mass_g < lightest && in_grams >= lightest) {
-    throw InputError("--mass-g", fmt::format("{:g} g is no drone; did you mean {:g}? The unit is "
-                                             "the gram",
-                                             *options.mass_g, in_grams));
+  const SpecField& field = *find_field("drone.mass_g");
+  if (!field.range.contains(*options.mass_g)) {
+    throw InputError(
+        "--mass-g", fmt::format("{:g} is out of range; allowed is {}{}", *options.mass_g,
+                                describe_range(field), meant_in_thousands(field, *options.mass_g)));
   }
-  check_range("--mass-g", *options.mass_g, lightest, 1000000, "g");
   return *options.mass_g * unit::gram;
 }
 
@@ -405,10 +397,10 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, i
   for (const std::string& name : names) {
     FlightLogReading reading = read_flight_log(name, {core});
     for (const std::string& note : reading.notes) {
-      fmt::print(stderr, "{}: {}\n", name, note);
+      remark(fmt::format("{}: {}\n", name, note));
     }
     if (!reading.log.north_wind.empty()) {
-      fmt::print(stderr, "{}: the measured wind is not used: a steady one is fitted\n", name);
+      remark(name + ": the measured wind is not used: a steady one is fitted\n");
     }
     logs.push_back(std::move(reading.log));
   }
@@ -436,9 +428,9 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
   tell_assumptions(flight, result.options);
   if (!into.empty()) {
     for (const std::string& warning : drag_warnings(result.fit)) {
-      fmt::print(stderr, "drag: {}\n", warning);
+      remark("drag: " + warning + "\n");
     }
-    emit(output, spec_with_drag(into, result.fit));
+    emit(output, spec_text(spec_with_drag(into, result.fit), into, output.file));
     return done;
   }
   if (parameters) {
@@ -480,14 +472,15 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
-  check_not_read(options, "--into", options.into_file);
   const std::optional<MissionTarget> target = mission_target(options);
   const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
-    emit(output, json_text(told.spec));
+    emit(output, spec_text(told.spec, options.spec.file, output.file));
     return done;
   }
-  if (!options.into_file.empty()) write_whole_file(options.into_file, json_text(told.spec));
+  if (!options.into_file.empty()) {
+    write_whole_file(options.into_file, spec_text(told.spec, options.spec.file, options.into_file));
+  }
   const bool planned = told.next_flight && !told.next_flight->manoeuvres.empty();
   if (planned) {
     write_whole_file(options.next_flight_file,

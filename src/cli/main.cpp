@@ -1,5 +1,8 @@
+#include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -11,12 +14,14 @@
 
 #include "cli/commands.hpp"
 #include "files/output_files.hpp"
+#include "report/characters.hpp"
 
 namespace tethercalc::cli {
 
 TextStyle style_for(const Output& output) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
+  if (output.colour != Colour::automatic) return {output.colour == Colour::always};
   const bool wanted = no_color == nullptr || *no_color == '\0';
   const bool able = terminal != nullptr && std::string_view(terminal) != "dumb";
   return {output.file.empty() && wanted && able && ::isatty(STDOUT_FILENO) == 1};
@@ -26,9 +31,45 @@ std::string base_name(const std::string& file) {
   return file == "-" ? "standard input" : std::filesystem::path(file).filename().string();
 }
 
+namespace {
+
+bool quiet = false;
+
+void print_on_error(std::string_view lines) {
+  // Where nobody can be told, that is no reason to fail.
+  const std::string text = printable_lines(lines);
+  [[maybe_unused]] const std::size_t ignored = std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+}  // namespace
+
+void remark(std::string_view lines) {
+  if (!quiet) print_on_error(lines);
+}
+
+void be_quiet() { quiet = true; }
+
+bool shows_progress() { return !quiet && ::isatty(STDERR_FILENO) == 1; }
+
+int terminal_columns() {
+  if (const char* given = std::getenv("COLUMNS")) {
+    if (const int columns = std::atoi(given); columns > 0) return columns;
+  }
+  winsize window{};
+  const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
+  return known ? window.ws_col : 100;
+}
+
+void die_of_closed_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  std::_Exit(128 + SIGPIPE);  // where the signal is blocked
+}
+
 void emit(const Output& output, const std::string& text) {
   if (!output.file.empty()) return write_whole_file(output.file, text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) die_of_closed_pipe();
     throw InputError("standard output",
                      "cannot be written: " + std::generic_category().message(errno));
   }
@@ -46,17 +87,45 @@ void emit(const Output& output, const std::function<std::string()>& text,
 
 }  // namespace tethercalc::cli
 
+namespace {
+
+/// Where standard input, output or error are closed, the next file opened would take its number,
+/// and be written what was meant for them. What stands there instead cannot be used either.
+void occupy_closed_descriptors() {
+  constexpr std::array wrong_way{O_WRONLY, O_RDONLY, O_RDONLY};  // input, output, error
+  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number) {
+    if (::fcntl(number, F_GETFD) >= 0) continue;
+    [[maybe_unused]] const int lowest_free =
+        ::open("/dev/null", wrong_way[static_cast<std::size_t>(number)]);
+  }
+}
+
+/// Reading a mapped file beyond where its end has come to be meanwhile ends here. Nothing but the
+/// simplest system calls may be made.
+void end_of_shortened_file(int) {
+  constexpr std::string_view words =
+      "tethercalc: a file was shortened while it was read; nothing was made of it\n";
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, words.data(), words.size());
+  ::_exit(tethercalc::cli::bad_input);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace tethercalc;
-  // A reader that closes the pipe is an error to report, not a signal to die of.
+  occupy_closed_descriptors();
+  // Files in the midst of being written are to be tidied up where a reader closes the pipe or a
+  // file grows beyond what is allowed (ulimit -f); the calls that write tell of both.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGBUS, end_of_shortened_file);
   try {
     return cli::run(argc, argv);
   } catch (const InputError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    cli::print_on_error(std::string(error.what()) + "\n");
     return cli::bad_input;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "tethercalc: internal error: %s\n", error.what());
+    cli::print_on_error(std::string("tethercalc: internal error: ") + error.what() + "\n");
     return cli::internal_error;
   }
 }

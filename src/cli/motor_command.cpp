@@ -229,7 +229,7 @@ int run_motor(const MotorOptions& options, Output output) {
   }
   if (output.format != Format::table) {
     for (const std::string& warning : shown.motor.warnings) {
-      fmt::print(stderr, "motor: {}\n", warning);
+      remark("motor: " + warning + "\n");
     }
   }
   emit(

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "files/output_files.hpp"
+#include "io/checked_values.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -62,7 +64,7 @@ class Progress {
  public:
   Progress(RowRange range, bool rows_on_terminal) : range_(range) {
     const char* terminal = std::getenv("TERM");
-    shown_ = !rows_on_terminal && ::isatty(STDERR_FILENO) == 1 && terminal != nullptr &&
+    shown_ = !rows_on_terminal && shows_progress() && terminal != nullptr &&
              std::string_view(terminal) != "dumb";
   }
   Progress(const Progress&) = delete;
@@ -79,9 +81,10 @@ class Progress {
     const auto done = static_cast<double>(row - range_.begin);
     const auto all = static_cast<double>(range_.end - range_.begin);
     const double rate = done / seconds;
-    fmt::print(stderr, "\r\x1b[K{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done, all,
-               100 * done / all, rate, duration_words((all - done) / rate));
-    std::fflush(stderr);
+    std::fputs(fmt::format("\r\x1b[K{} of {} designs ({:.0f} %), {:.3g} a second, {} left", done,
+                           all, 100 * done / all, rate, duration_words((all - done) / rate))
+                   .c_str(),
+               stderr);
     drawn_ = true;
   }
 
@@ -132,32 +135,24 @@ bool to_standard_output(const SweepOptions& options) {
   return options.file.empty() || options.file == "-";
 }
 
-void check_options(const SweepOptions& options) {
+/// What does not go together, or needs what is missing.
+void check_options(const SweepOptions& options, Problems& problems) {
   if (options.varied.empty()) {
-    throw InputError(
+    problems.add(
         "tethercalc sweep",
         "nothing varies: give --vary path=values, such as --vary supply.voltage_V=40:100:5");
   }
   if (options.resume && to_standard_output(options)) {
-    throw InputError("--resume", "needs --output FILE: only a file can be continued");
-  }
-  // The option's reader takes −1 for the largest number there is.
-  constexpr std::uint64_t most_draws = 1'000'000'000'000;
-  if (options.sample && (*options.sample == 0 || *options.sample > most_draws)) {
-    throw InputError("--sample", fmt::format("must be a whole number from 1 to {}", most_draws));
+    problems.add("--resume", "needs --output FILE: only a file can be continued");
   }
   if (!options.method.empty() && !options.sample) {
-    throw InputError("--method", "needs --sample N: only a sample is drawn");
-  }
-  constexpr unsigned most_threads = 1024;
-  if (options.jobs > most_threads) {
-    throw InputError("--jobs", fmt::format("must be a whole number from 1 to {}", most_threads));
+    problems.add("--method", "needs --sample N: only a sample is drawn");
   }
   if (!options.summary_file.empty() && !options.sample) {
-    throw InputError("--summary", "needs --sample N: only a sample has a summary");
+    problems.add("--summary", "needs --sample N: only a sample has a summary");
   }
   if (!options.summary_file.empty() && !options.shard.empty()) {
-    throw InputError("--summary", "needs every draw, so it does not go with --shard");
+    problems.add("--summary", "needs every draw, so it does not go with --shard");
   }
 }
 
@@ -260,23 +255,30 @@ bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const Ch
     });
     file.close();
   } catch (const std::system_error& error) {
+    if (error.code().value() == EPIPE) die_of_closed_pipe();
     throw InputError(file.name(), fmt::format("cannot be written: {}; {}", error.code().message(),
                                               how_to_continue(file)));
   }
   if (interrupting_signal == 0) return true;
-  fmt::print(stderr, "tethercalc: interrupted after {} of {} designs; {}\n",
-             written - sweep.range.begin, sweep.range.end - sweep.range.begin,
-             how_to_continue(file));
+  remark(fmt::format("tethercalc: interrupted after {} of {} designs; {}\n",
+                     written - sweep.range.begin, sweep.range.end - sweep.range.begin,
+                     how_to_continue(file)));
   return false;
 }
 
 }  // namespace
 
 int run_sweep(const SweepOptions& options) {
-  check_options(options);
-  const RowFormat format = row_format(options.format);
-  const Shard shard = parsed_shard(options.shard);
-  const DesignFile base = read_spec(options.spec);
+  Problems problems;
+  check_options(options, problems);
+  RowFormat format = RowFormat::csv;
+  Shard shard;
+  DesignFile base;
+  problems.succeeds([&] { format = row_format(options.format); });
+  problems.succeeds([&] { shard = parsed_shard(options.shard); });
+  problems.succeeds([&] { [[maybe_unused]] const auto known = sample_method(options.method); });
+  problems.succeeds([&] { base = read_spec(options.spec); });
+  problems.throw_if_any();
   const SweepSpace space = make_space(options, base);
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 
@@ -306,7 +308,7 @@ int run_sweep(const SweepOptions& options) {
     if (!options.summary_file.empty()) {
       write_whole_file(options.summary_file, json_text(summary_json(summary, space)));
     }
-    std::fputs(summary_text(summary, space, {}).c_str(), stderr);
+    remark(summary_text(summary, space, {}));
   }
   return done;
 }

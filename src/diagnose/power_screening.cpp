@@ -312,6 +312,15 @@ void check_power_units(const Design& design, const PowerLog& log) {
         "height_m reaches {:.3g} m, the tether of the spec {:.3g} m; is the height in feet?",
         highest, design.tether.length));
   }
+  // A barometer drifts by a few metres over a flight.
+  constexpr double barometer_drift = 5;
+  const double lowest = quantile(log.height, 0.01);
+  if (median(log.height) < 0 || lowest < -barometer_drift) {
+    report(
+        fmt::format("height_m falls to {:.3g} m, {:.3g} m in the median; is it positive upwards "
+                    "and counted from the station?",
+                    lowest, median(log.height)));
+  }
   if (!log.ambient_temperature_C.empty()) {
     const double ambient = median(log.ambient_temperature_C);
     if (!(ambient > -80 && ambient < 80)) {

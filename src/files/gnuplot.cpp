@@ -1,6 +1,7 @@
 #include "tethercalc/files/gnuplot.hpp"
 
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,11 +19,12 @@ extern "C" char** environ;
 namespace tethercalc {
 namespace {
 
-/// A file without a name, gone when closed.
+/// A file in memory, gone when closed: it needs no folder that can be written.
 using Scratch = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 Scratch scratch_file() {
-  std::FILE* file = std::tmpfile();
+  const int descriptor = ::memfd_create("gnuplot", MFD_CLOEXEC);
+  std::FILE* file = descriptor < 0 ? nullptr : ::fdopen(descriptor, "w+");
   if (file == nullptr) {
     throw std::system_error(errno, std::generic_category(), "cannot make a temporary file");
   }
@@ -48,7 +50,8 @@ std::string run_gnuplot(const std::string& script) {
   const Scratch err = scratch_file();
   if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() ||
       std::fflush(in.get()) != 0) {
-    throw std::system_error(errno, std::generic_category(), "cannot write a temporary file");
+    throw InputError("gnuplot",
+                     "cannot be given what to draw: " + std::generic_category().message(errno));
   }
   std::rewind(in.get());
 

@@ -22,7 +22,8 @@ LoadedText read_text_file(const std::string& path);
 /// A whole file, read in place: a regular file is memory-mapped, so that only the pages looked at
 /// are loaded and none counts as memory of this process; a pipe or device is read into memory.
 /// The bytes stay valid as long as this object lives. The file must not be shortened meanwhile:
-/// the operating system answers a read beyond a mapped file's end with a signal.
+/// the operating system answers a read beyond a mapped file's end with a signal (SIGBUS), of which
+/// the command line makes a message.
 class MappedFile {
  public:
   /// Throws InputError, naming the file and the system's reason, where it cannot be opened or read,

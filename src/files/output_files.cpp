@@ -5,7 +5,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -53,19 +58,54 @@ int open_or_refuse(const std::string& path, int flags, const char* purpose) {
   return file;
 }
 
+constexpr int most_links = 40;  // as Linux follows
+
+/// What a symbolic link points to; nothing where `path` is none.
+std::optional<std::filesystem::path> next_link(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return std::nullopt;
+  return path.parent_path() / std::filesystem::read_symlink(path, error);
+}
+
 /// Where the links end that `path` may be, whether there is something or not.
 std::filesystem::path end_of_links(std::filesystem::path path) {
-  constexpr int most_links = 40;  // as Linux follows
-  std::error_code ignored;
-  for (int k = 0; k < most_links && std::filesystem::is_symlink(path, ignored); ++k) {
-    path = path.parent_path() / std::filesystem::read_symlink(path, ignored);
+  for (int k = 0; k < most_links; ++k) {
+    const auto next = next_link(path);
+    if (!next) break;
+    path = *next;
   }
   return path;
+}
+
+/// The open file of this process that `path` is another name of, as /dev/stdout and /dev/fd/3 are.
+/// Opened by that name a regular file would be written from its beginning, over what others have
+/// appended.
+std::optional<int> own_descriptor(std::filesystem::path path) {
+  std::error_code error;
+  const auto descriptors = std::filesystem::canonical("/proc/self/fd", error);
+  if (error) return std::nullopt;
+  for (int k = 0; k < most_links; ++k) {
+    const auto next = next_link(path);
+    if (!next) break;
+    const std::string name = path.filename().string();
+    int number = -1;
+    const char* const end = name.data() + name.size();
+    if (std::filesystem::canonical(path.parent_path(), error) == descriptors &&
+        std::from_chars(name.data(), end, number).ptr == end) {
+      return number;
+    }
+    path = *next;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 void write_whole_file(const std::filesystem::path& path, std::string_view content) {
+  if (const auto descriptor = own_descriptor(path)) {
+    if (const int error = write_all(*descriptor, content); error != 0) refuse(path, error);
+    return;
+  }
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status)) refuse(path, EISDIR);
@@ -95,6 +135,31 @@ void write_whole_file(const std::filesystem::path& path, std::string_view conten
   }
 }
 
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(a, ignored) && std::filesystem::equivalent(a, b, ignored);
+}
+
+void check_can_be_written(const std::filesystem::path& path) {
+  if (own_descriptor(path)) return;
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_directory(status)) refuse(path, EISDIR);
+  const bool replaced = !std::filesystem::is_other(status);
+  const std::filesystem::path folder = end_of_links(path).parent_path();
+  const std::filesystem::path written = !replaced ? path : folder.empty() ? "." : folder;
+  if (::access(written.c_str(), W_OK) != 0) refuse(path, errno);
+}
+
+void check_unedited(const std::filesystem::path& path, std::string_view unedited) {
+  std::error_code ignored;
+  if (own_descriptor(path) || !std::filesystem::is_regular_file(path, ignored)) return;
+  std::ostringstream there;
+  there << std::ifstream(path, std::ios::binary).rdbuf();
+  if (there.str() == unedited) return;
+  throw InputError(path.string(), "is there and was edited; --force writes over it");
+}
+
 RowFile::RowFile(int file, std::string name, bool owned)
     : file_(file), owned_(owned), regular_(is_regular_file(file)), name_(std::move(name)) {
   // Redirected to a file that others have written to before, as in (a; b) > file.
@@ -118,6 +183,7 @@ RowFile::~RowFile() {
 RowFile RowFile::standard_output() { return {STDOUT_FILENO, "standard output", false}; }
 
 RowFile RowFile::create(const std::string& path) {
+  if (const auto descriptor = own_descriptor(path)) return {*descriptor, path, false};
   return {open_or_refuse(path, O_WRONLY | O_TRUNC, "writing"), path, true};
 }
 

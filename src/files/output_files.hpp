@@ -13,6 +13,15 @@ namespace tethercalc {
 /// directly. Throws InputError, naming the file and the system's reason, where that fails.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
+/// Whether both name one regular file that is there.
+[[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Refuses a path that `write_whole_file` could not write, before anything takes time.
+void check_can_be_written(const std::filesystem::path& path);
+
+/// Refuses a path with a file that is anything but `unedited`.
+void check_unedited(const std::filesystem::path& path, std::string_view unedited);
+
 /// Lines written one after the other. Whatever ends the writing, the file holds a prefix of them:
 /// where a write fails, what it left of a line is cut off again, and where the process is killed
 /// within one, the next line after `resume` takes its place.

@@ -16,7 +16,9 @@
 #include "files/input_files.hpp"
 #include "files/log_file.hpp"
 #include "io/closest_name.hpp"
+#include "io/entry_readers.hpp"
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/spec_fields.hpp"
 
 namespace tethercalc {
 namespace {
@@ -129,11 +131,37 @@ TextLoader files_in(std::filesystem::path folder) {
   };
 }
 
+namespace {
+
+/// The folder from which relative paths in the spec at `path` lead on.
+fs::path folder_of_spec(const std::string& path) {
+  return path == "-" ? fs::path() : fs::path(path).parent_path();
+}
+
+}  // namespace
+
 DesignFile read_design(const std::string& path, std::span<const std::string> overrides) {
   const LoadedText file = read_text_file(path);
-  return parse_design(file.text, file.name,
-                      files_in(path == "-" ? "." : std::filesystem::path(path).parent_path()),
-                      overrides);
+  return parse_design(file.text, file.name, files_in(folder_of_spec(path)), overrides);
+}
+
+nlohmann::ordered_json spec_for_folder(nlohmann::ordered_json spec, const std::string& path,
+                                       const fs::path& folder) {
+  const fs::path from = fs::weakly_canonical(fs::current_path() / folder_of_spec(path));
+  const fs::path to = fs::weakly_canonical(fs::current_path() / folder);
+  if (from == to) return spec;
+  for (const SpecField& field : spec_fields()) {
+    const bool may_name_file = field.kind == FieldKind::motor ||
+                               field.kind == FieldKind::conductor ||
+                               field.kind == FieldKind::insulation_material;
+    const nlohmann::ordered_json::json_pointer pointer{std::string(field.pointer)};
+    if (!may_name_file || !spec.contains(pointer) || !spec.at(pointer).is_string()) continue;
+    const auto reference = spec.at(pointer).get<std::string>();
+    if (!names_a_file(reference) || fs::path(reference).is_absolute()) continue;
+    const std::string there = fs::weakly_canonical(from / reference).lexically_relative(to);
+    spec[pointer] = names_a_file(there) ? there : "./" + there;
+  }
+  return spec;
 }
 
 FlightLogReading read_flight_log(const std::filesystem::path& path,

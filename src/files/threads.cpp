@@ -3,8 +3,11 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
+
+#include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
 namespace {
@@ -46,7 +49,14 @@ void run(unsigned threads, std::uint64_t first, std::uint64_t last,
 
   {
     std::vector<std::jthread> pool;
-    for (unsigned i = 0; i < threads; ++i) pool.emplace_back(work);
+    try {
+      for (unsigned i = 0; i < threads; ++i) pool.emplace_back(work);
+    } catch (const std::system_error& error) {
+      // No more threads are to be had (ulimit -u): those that run do the work of all.
+      if (pool.empty()) {
+        throw InputError("threads", "cannot be started: " + error.code().message());
+      }
+    }
     std::unique_lock lock(mutex);
     while (consumed < last) {
       const std::size_t slot = consumed % ready.size();

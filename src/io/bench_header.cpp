@@ -4,10 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "io/letters.hpp"
+
 namespace tethercalc {
 namespace {
-
-using enum BenchQuantity;
 
 struct BenchUnit {
   std::string_view name;  ///< in lower case
@@ -21,73 +21,68 @@ constexpr double grams_per_ounce = grams_per_pound / 16;
 
 // Longer names of the same ending first: "kg" ends in "g".
 constexpr std::array units{
-    BenchUnit{"gf per w", efficiency, 1},
-    BenchUnit{"g per w", efficiency, 1},
-    BenchUnit{"gf/w", efficiency, 1},
-    BenchUnit{"kgf/kw", efficiency, 1},
-    BenchUnit{"kg/kw", efficiency, 1},
-    BenchUnit{"kgf/w", efficiency, 1000},
-    BenchUnit{"kg/w", efficiency, 1000},
-    BenchUnit{"g/w", efficiency, 1},
-    BenchUnit{"lbf/w", efficiency, grams_per_pound},
-    BenchUnit{"lb/w", efficiency, grams_per_pound},
-    BenchUnit{"n/w", efficiency, grams_per_newton},
-    BenchUnit{"kgf", thrust, 1000},
-    BenchUnit{"kg", thrust, 1000},
-    BenchUnit{"kp", thrust, 1000},
-    BenchUnit{"grams", thrust, 1},
-    BenchUnit{"gram", thrust, 1},
-    BenchUnit{"gf", thrust, 1},
-    BenchUnit{"g", thrust, 1},
-    BenchUnit{"newton", thrust, grams_per_newton},
-    BenchUnit{"n", thrust, grams_per_newton},
-    BenchUnit{"lbf", thrust, grams_per_pound},
-    BenchUnit{"lbs", thrust, grams_per_pound},
-    BenchUnit{"lb", thrust, grams_per_pound},
-    BenchUnit{"ozf", thrust, grams_per_ounce},
-    BenchUnit{"oz", thrust, grams_per_ounce},
-    BenchUnit{"kw", power, 1000},
-    BenchUnit{"watts", power, 1},
-    BenchUnit{"watt", power, 1},
-    BenchUnit{"w", power, 1},
-    BenchUnit{"mv", voltage, 1e-3},
-    BenchUnit{"volts", voltage, 1},
-    BenchUnit{"volt", voltage, 1},
-    BenchUnit{"v", voltage, 1},
-    BenchUnit{"ma", current, 1e-3},
-    BenchUnit{"amps", current, 1},
-    BenchUnit{"amp", current, 1},
-    BenchUnit{"a", current, 1},
-    BenchUnit{"percent", throttle, 1},
-    BenchUnit{"%", throttle, 1},
-    BenchUnit{"µs", throttle, 1},
-    BenchUnit{"us", throttle, 1},
+    BenchUnit{"gf per w", BenchQuantity::efficiency, 1},
+    BenchUnit{"g per w", BenchQuantity::efficiency, 1},
+    BenchUnit{"gf/w", BenchQuantity::efficiency, 1},
+    BenchUnit{"kgf/kw", BenchQuantity::efficiency, 1},
+    BenchUnit{"kg/kw", BenchQuantity::efficiency, 1},
+    BenchUnit{"kgf/w", BenchQuantity::efficiency, 1000},
+    BenchUnit{"kg/w", BenchQuantity::efficiency, 1000},
+    BenchUnit{"g/w", BenchQuantity::efficiency, 1},
+    BenchUnit{"lbf/w", BenchQuantity::efficiency, grams_per_pound},
+    BenchUnit{"lb/w", BenchQuantity::efficiency, grams_per_pound},
+    BenchUnit{"n/w", BenchQuantity::efficiency, grams_per_newton},
+    BenchUnit{"kgf", BenchQuantity::thrust, 1000},
+    BenchUnit{"kg", BenchQuantity::thrust, 1000},
+    BenchUnit{"kp", BenchQuantity::thrust, 1000},
+    BenchUnit{"grams", BenchQuantity::thrust, 1},
+    BenchUnit{"gram", BenchQuantity::thrust, 1},
+    BenchUnit{"gf", BenchQuantity::thrust, 1},
+    BenchUnit{"g", BenchQuantity::thrust, 1},
+    BenchUnit{"newton", BenchQuantity::thrust, grams_per_newton},
+    BenchUnit{"n", BenchQuantity::thrust, grams_per_newton},
+    BenchUnit{"lbf", BenchQuantity::thrust, grams_per_pound},
+    BenchUnit{"lbs", BenchQuantity::thrust, grams_per_pound},
+    BenchUnit{"lb", BenchQuantity::thrust, grams_per_pound},
+    BenchUnit{"ozf", BenchQuantity::thrust, grams_per_ounce},
+    BenchUnit{"oz", BenchQuantity::thrust, grams_per_ounce},
+    BenchUnit{"kw", BenchQuantity::power, 1000},
+    BenchUnit{"watts", BenchQuantity::power, 1},
+    BenchUnit{"watt", BenchQuantity::power, 1},
+    BenchUnit{"w", BenchQuantity::power, 1},
+    BenchUnit{"mv", BenchQuantity::voltage, 1e-3},
+    BenchUnit{"volts", BenchQuantity::voltage, 1},
+    BenchUnit{"volt", BenchQuantity::voltage, 1},
+    BenchUnit{"v", BenchQuantity::voltage, 1},
+    BenchUnit{"ma", BenchQuantity::current, 1e-3},
+    BenchUnit{"amps", BenchQuantity::current, 1},
+    BenchUnit{"amp", BenchQuantity::current, 1},
+    BenchUnit{"a", BenchQuantity::current, 1},
+    BenchUnit{"percent", BenchQuantity::throttle, 1},
+    BenchUnit{"%", BenchQuantity::throttle, 1},
+    BenchUnit{"µs", BenchQuantity::throttle, 1},
+    BenchUnit{"us", BenchQuantity::throttle, 1},
 };
 
 /// Words for a quantity, qualifiers left out.
-constexpr std::array<std::pair<std::string_view, BenchQuantity>, 22> words{{
-    {"thrust", thrust},         {"thrust force", thrust}, {"pull", thrust},
-    {"lift", thrust},           {"schub", thrust},        {"standschub", thrust},
-    {"power", power},           {"power in", power},      {"leistung", power},
-    {"efficiency", efficiency}, {"eff", efficiency},      {"effizienz", efficiency},
-    {"voltage", voltage},       {"spannung", voltage},    {"current", current},
-    {"strom", current},         {"throttle", throttle},   {"gas", throttle},
-    {"esc", throttle},          {"esc signal", throttle}, {"esc throttle", throttle},
-    {"pwm", throttle},
+constexpr std::array<std::pair<std::string_view, BenchQuantity>, 22> quantity_words{{
+    {"thrust", BenchQuantity::thrust},         {"thrust force", BenchQuantity::thrust},
+    {"pull", BenchQuantity::thrust},           {"lift", BenchQuantity::thrust},
+    {"schub", BenchQuantity::thrust},          {"standschub", BenchQuantity::thrust},
+    {"power", BenchQuantity::power},           {"power in", BenchQuantity::power},
+    {"leistung", BenchQuantity::power},        {"efficiency", BenchQuantity::efficiency},
+    {"eff", BenchQuantity::efficiency},        {"effizienz", BenchQuantity::efficiency},
+    {"voltage", BenchQuantity::voltage},       {"spannung", BenchQuantity::voltage},
+    {"current", BenchQuantity::current},       {"strom", BenchQuantity::current},
+    {"throttle", BenchQuantity::throttle},     {"gas", BenchQuantity::throttle},
+    {"esc", BenchQuantity::throttle},          {"esc signal", BenchQuantity::throttle},
+    {"esc throttle", BenchQuantity::throttle}, {"pwm", BenchQuantity::throttle},
 }};
 
 /// Words before a quantity that leave it what it is.
 constexpr std::array<std::string_view, 11> qualifiers{"electrical", "electric", "input", "static",
                                                       "measured",   "average",  "avg",   "mean",
                                                       "overall",    "total",    "dc"};
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return out;
-}
 
 /// Blanks, and what stands for them in headers, as single blanks; none at the ends.
 std::string spaced(std::string_view text) {
@@ -161,15 +156,17 @@ std::optional<BenchColumnMeaning> bench_column_meaning(std::string_view header) 
   if (name.empty()) {  // "Watts": the unit says it all, where it is spelt out
     const bool spelt_out =
         parts.unit.size() >= 3 && unit != units.end() &&
-        (unit->quantity == power || unit->quantity == voltage || unit->quantity == current);
+        (unit->quantity == BenchQuantity::power || unit->quantity == BenchQuantity::voltage ||
+         unit->quantity == BenchQuantity::current);
     return spelt_out ? std::optional(BenchColumnMeaning{unit->quantity, unit->factor})
                      : std::nullopt;
   }
   const auto word =
-      std::ranges::find(words, name, &std::pair<std::string_view, BenchQuantity>::first);
-  if (word == words.end()) return std::nullopt;
+      std::ranges::find(quantity_words, name, &std::pair<std::string_view, BenchQuantity>::first);
+  if (word == quantity_words.end()) return std::nullopt;
   // A throttle only tells which rows belong together: its unit does not matter.
-  if (word->second == throttle) return BenchColumnMeaning{throttle, 1};
+  if (word->second == BenchQuantity::throttle)
+    return BenchColumnMeaning{BenchQuantity::throttle, 1};
   if (unit == units.end() || unit->quantity != word->second) return std::nullopt;
   return BenchColumnMeaning{unit->quantity, unit->factor};
 }

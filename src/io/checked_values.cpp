@@ -185,10 +185,17 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
                                                       shown(value), describe_range(field)));
   }
   if (!field.range.contains(number)) {
-    return problems.refuse(place.where(), fmt::format("{} is out of range; allowed is {}",
-                                                      shown(value), describe_range(field)));
+    return problems.refuse(place.where(),
+                           fmt::format("{} is out of range; allowed is {}{}", shown(value),
+                                       describe_range(field), meant_in_thousands(field, number)));
   }
   return number;
+}
+
+std::string meant_in_thousands(const SpecField& field, double value) {
+  const bool kilograms = field.unit == "g" && !field.range.contains(value) && value > 0 &&
+                         field.range.contains(1000 * value);
+  return kilograms ? fmt::format("; did you mean {:g}? The unit is the gram", 1000 * value) : "";
 }
 
 std::optional<double> parsed_number(std::string_view text) {

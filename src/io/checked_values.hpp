@@ -82,6 +82,10 @@ std::vector<JsonPlace> field_places(const JsonPlace& object, std::span<const Spe
 std::optional<double> checked_number(const JsonPlace& place, const SpecField& field,
                                      Problems& problems);
 
+/// "; did you mean 1710? The unit is the gram" for 1.71, which is out of the field's range, where
+/// that many kilograms are not; else empty.
+[[nodiscard]] std::string meant_in_thousands(const SpecField& field, double value);
+
 /// The finite number that the whole of `text` is; nothing where it is none.
 std::optional<double> parsed_number(std::string_view text);
 

@@ -1,22 +1,15 @@
 #include "io/closest_name.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
+
+#include "io/letters.hpp"
 
 namespace tethercalc {
 namespace {
 
 // Names are short; a longer one is no slip of the pen, and comparing it would cost its square.
 constexpr std::size_t longest_compared = 100;
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  });
-  return lower;
-}
 
 bool contains(const std::string& outer, const std::string& inner) {
   return inner.size() >= 3 && outer.find(inner) != std::string::npos;

@@ -13,18 +13,12 @@
 #include <utility>
 
 #include "io/dataflash_walk.hpp"
+#include "io/letters.hpp"
 
 namespace tethercalc {
 namespace {
 
 using dataflash::fmt_type;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// The part before the next comma, which is taken off `rest` with it.
 std::string_view next_value(std::string_view& rest) {

@@ -177,7 +177,7 @@ std::optional<std::string> id_in_folder(std::string_view file, std::string_view 
 template <typename Entry>
 std::optional<Entry> entry_from_text(std::string_view text, const std::string& name,
                                      Problems& problems) {
-  const JsonDocument document = parse_json(text, name);
+  const JsonDocument document = parse_json(text, name, Quoting::nothing);
   const std::size_t before = problems.count();
   problems.add(document.problems);
   std::optional<Entry> entry =
@@ -228,11 +228,8 @@ std::optional<Entry> entry_from_file(const std::string& reference, const TextLoa
 template <typename Entry>
 std::optional<Entry> entry_named(const std::string& reference, const TextLoader& load,
                                  const std::string& where, Problems& problems) {
-  // No entry's id ends like a file.
-  const bool is_file = reference.find('/') != std::string::npos ||
-                       reference.ends_with(json_suffix) || reference.ends_with(".csv");
-  return is_file ? entry_from_file<Entry>(reference, load, where, problems)
-                 : entry_from_library<Entry>(reference, where, problems);
+  return names_a_file(reference) ? entry_from_file<Entry>(reference, load, where, problems)
+                                 : entry_from_library<Entry>(reference, where, problems);
 }
 
 double awg_area(int gauge) {
@@ -248,6 +245,12 @@ void add_metric_sizes(std::vector<WireSize>& sizes, const char* standard,
 }
 
 }  // namespace
+
+bool names_a_file(std::string_view reference) {
+  // No entry's id ends like a file.
+  return reference.find('/') != std::string_view::npos || reference.ends_with(json_suffix) ||
+         reference.ends_with(".csv");
+}
 
 template <typename Entry>
 Entry find_entry(const std::string& reference, const TextLoader& load, const std::string& where) {

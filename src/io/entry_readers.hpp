@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "io/checked_values.hpp"
 #include "tethercalc/io/library.hpp"
@@ -13,6 +14,9 @@ namespace tethercalc {
 /// All of the library, by id.
 template <typename Entry>
 std::vector<Entry> library_entries();
+
+/// Whether a spec's text names a file rather than an entry of the library.
+[[nodiscard]] bool names_a_file(std::string_view reference);
 
 /// The one that `reference` names, see `find_motor`.
 template <typename Entry>

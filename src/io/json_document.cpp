@@ -72,8 +72,9 @@ class Builder {
   using string_t = Json::string_t;
   using binary_t = Json::binary_t;
 
-  Builder(JsonDocument& document, std::string_view text, const std::size_t& consumed)
-      : document_(document), text_(text), consumed_(consumed) {}
+  Builder(JsonDocument& document, std::string_view text, const std::size_t& consumed,
+          Quoting quoting)
+      : document_(document), text_(text), consumed_(consumed), quoting_(quoting) {}
 
   bool null() { return add(nullptr); }
   bool boolean(bool value) { return add(value); }
@@ -201,7 +202,7 @@ class Builder {
   [[nodiscard]] Fault find_fault() const {
     Fault fault{last_end_, false};
     if (last_event_ == Event::none && text_.starts_with("\xef\xbb\xbf")) fault.offset = 3;
-    if (last_event_ == Event::value && fault.offset < text_.size() && is_digit(fault.offset)) {
+    if (last_event_ == Event::value && fault.offset + 1 == text_.size() && is_digit(fault.offset)) {
       ++fault.offset;  // a number that ends the text: there was nothing behind it to look at
     }
     fault.offset = skip_space(fault.offset);
@@ -226,7 +227,8 @@ class Builder {
     const auto line = 1 + std::ranges::count(before, '\n');
     const std::size_t column = fault.offset - (before.rfind('\n') + 1) + 1;
     failure_ = {fmt::format("{}:{}", document_.name, line),
-                fmt::format("column {}: {}{}", column, text, excerpt_at(text_, fault.offset))};
+                fmt::format("column {}: {}{}", column, text,
+                            quoting_ == Quoting::line ? excerpt_at(text_, fault.offset) : "")};
   }
 
   [[nodiscard]] std::string reason(const Fault& fault, const std::string& what) const {
@@ -251,7 +253,14 @@ class Builder {
     if (rest.starts_with("//") || rest.starts_with("/*") || rest.starts_with("#")) {
       return "JSON has no comments; put remarks under the key \"notes\"";
     }
+    if (what.find("invalid number") != std::string::npos) {
+      return "this is no number as JSON writes it, with digits after a sign and a point";
+    }
     if (rest.starts_with("'")) return "JSON wants double quotes (\") around keys and texts";
+    if (last_event_ == Event::value && !fault.after_comma && is_digit(fault.offset) &&
+        text_[fault.offset - 1] == '0') {
+      return "a number may not begin with a zero before other digits";
+    }
     if (fault.after_comma && (rest.starts_with("}") || rest.starts_with("]"))) {
       return "this bracket is not expected here; is there a comma too many before it?";
     }
@@ -289,6 +298,7 @@ class Builder {
   JsonDocument& document_;
   std::string_view text_;
   const std::size_t& consumed_;
+  Quoting quoting_;
   std::size_t counted_ = 0;
   std::size_t line_ = 1;
   Event last_event_ = Event::none;
@@ -313,14 +323,20 @@ std::string JsonDocument::where(std::string_view pointer) const {
   }
 }
 
-JsonDocument parse_json(std::string_view text, std::string name) {
+JsonDocument parse_json(std::string_view text, std::string name, Quoting quoting) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
     throw InputError(name + ":1", "is UTF-16; save it as UTF-8");
+  }
+  if (const std::size_t nul = text.find('\0'); nul != text.npos) {
+    // The parser would take it for the end.
+    const auto line = 1 + std::ranges::count(text.substr(0, nul), '\n');
+    throw InputError(fmt::format("{}:{}", name, line),
+                     "holds a NUL character, which no JSON does; is it another kind of file?");
   }
   JsonDocument document{std::move(name), {}, {}, {}, {}};
   std::size_t consumed = 0;
   const char* begin = text.data();
-  Builder builder(document, text, consumed);
+  Builder builder(document, text, consumed, quoting);
   const bool parsed =
       Json::sax_parse(CountingIterator(begin, begin, &consumed),
                       CountingIterator(begin + text.size(), begin, &consumed), &builder);

@@ -25,11 +25,15 @@ struct JsonDocument {
   [[nodiscard]] std::string where(std::string_view pointer) const;
 };
 
+/// Whether messages show the line at fault. A file that a spec of a stranger names may be one that
+/// is nobody's business, which a message would give away.
+enum class Quoting { line, nothing };
+
 /// Parses JSON text. A UTF-8 byte order mark is skipped: some editors write one unasked.
 /// Throws InputError with line, column and an excerpt where the text is not JSON (truncated, NaN,
-/// comments, trailing text, invalid UTF-8, UTF-16, a number beyond double) or is nested deeper
+/// comments, trailing text, NUL, invalid UTF-8, UTF-16, a number beyond double) or is nested deeper
 /// than 32 levels.
-JsonDocument parse_json(std::string_view text, std::string name);
+JsonDocument parse_json(std::string_view text, std::string name, Quoting quoting = Quoting::line);
 
 /// `pointer` with one more key, escaped as RFC 6901 asks.
 std::string child_pointer(std::string_view pointer, std::string_view key);

@@ -16,24 +16,16 @@
 #include "io/bench_header.hpp"
 #include "io/closest_name.hpp"
 #include "io/csv.hpp"
+#include "io/letters.hpp"
 #include "io/motor_points.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
 
-using enum BenchQuantity;
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_header_lines = 20;  // title, date and remarks above a header
 constexpr std::size_t most_problems = 20;      // as for other CSV
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
-}
 
 /// What a message can show of a cell: short, UTF-8, nothing that would disturb a terminal.
 std::string shown_cell(const std::string& cell) {
@@ -77,7 +69,7 @@ std::vector<Row> rows_of(std::string_view text, const std::string& file, char se
   CsvRows csv(text, file, separator);
   std::vector<std::string> cells;
   while (csv.next(cells)) {
-    for (std::string& cell : cells) cell = trimmed(cell);
+    for (std::string& cell : cells) cell = std::string(trimmed(cell));
     const auto holds = [](const std::string& cell) { return !cell.empty(); };
     if (std::ranges::any_of(cells, holds)) rows.push_back({csv.line(), cells});
   }
@@ -94,7 +86,7 @@ std::vector<NamedColumn> named_columns(const std::vector<std::string>& given, Pr
   std::vector<NamedColumn> out;
   for (const std::string& text : given) {
     const std::size_t equals = text.find('=');
-    const std::string quantity = trimmed(text.substr(0, equals));
+    const std::string quantity(trimmed(std::string_view(text).substr(0, equals)));
     const auto meaning = bench_column_meaning(quantity);
     if (equals == std::string::npos || !meaning) {
       problems.add(
@@ -105,7 +97,7 @@ std::vector<NamedColumn> named_columns(const std::vector<std::string>& given, Pr
                       quoted(text)));
       continue;
     }
-    out.push_back({*meaning, trimmed(text.substr(equals + 1))});
+    out.push_back({*meaning, std::string(trimmed(std::string_view(text).substr(equals + 1)))});
   }
   return out;
 }
@@ -118,7 +110,8 @@ struct Columns {
 
   [[nodiscard]] bool has(BenchQuantity quantity) const { return found.count(quantity) > 0; }
   [[nodiscard]] bool gives_power() const {
-    return has(power) || has(efficiency) || (has(voltage) && has(current));
+    return has(BenchQuantity::power) || has(BenchQuantity::efficiency) ||
+           (has(BenchQuantity::voltage) && has(BenchQuantity::current));
   }
 };
 
@@ -136,7 +129,7 @@ Columns columns_of(const std::vector<std::string>& header, const std::vector<Nam
     const auto meaning = bench_column_meaning(header[i]);
     if (!meaning || by_name[meaning->quantity]) continue;
     const auto [before, is_new] = out.found.try_emplace(meaning->quantity, i, meaning->factor);
-    if (is_new || meaning->quantity == throttle) continue;
+    if (is_new || meaning->quantity == BenchQuantity::throttle) continue;
     const std::string& first = header[before->second.first];
     if (before->second.second == meaning->factor) {
       out.problems.push_back(
@@ -207,7 +200,7 @@ bool header_will_do(const Table& table, const std::vector<NamedColumn>& named, P
   }
   for (const std::string& problem : table.columns.problems) problems.add(where, problem);
   std::string missing;
-  if (!table.columns.has(thrust)) {
+  if (!table.columns.has(BenchQuantity::thrust)) {
     problems.add(where,
                  "column \"thrust_g\" is missing: no column of the header is a thrust with "
                  "its unit (g, kgf, N, lbf, oz)");
@@ -260,7 +253,7 @@ std::string listed(std::vector<std::string> values) {
 void select_rows(Table& table, const std::vector<std::string>& where, Problems& problems) {
   for (const std::string& text : where) {
     const std::size_t equals = text.find('=');
-    const std::string column = trimmed(text.substr(0, equals));
+    const std::string column(trimmed(std::string_view(text).substr(0, equals)));
     const auto at = std::ranges::find(table.header, column);
     if (equals == std::string::npos || at == table.header.end()) {
       const std::vector<std::string> shown = all_shown(table.header);
@@ -271,7 +264,7 @@ void select_rows(Table& table, const std::vector<std::string>& where, Problems& 
       continue;
     }
     const auto index = static_cast<std::size_t>(at - table.header.begin());
-    const std::string value = trimmed(text.substr(equals + 1));
+    const std::string value(trimmed(std::string_view(text).substr(equals + 1)));
     const std::vector<std::string> values = values_of(table.rows, index);
     std::erase_if(table.rows, [&](const Row& row) {
       return index >= row.cells.size() || !is_value(row.cells[index], value);
@@ -371,16 +364,17 @@ class RowNumbers {
     }
     Measured out;
     out.line = row.line;
-    const double thrust_g = number(row, thrust, true);
-    const bool needs_current = !table_.columns.has(power) && !table_.columns.has(efficiency);
-    out.voltage = number(row, voltage, needs_current);
-    out.current = number(row, current, needs_current);
-    out.throttle = number(row, throttle, false);
+    const double thrust_g = number(row, BenchQuantity::thrust, true);
+    const bool needs_current =
+        !table_.columns.has(BenchQuantity::power) && !table_.columns.has(BenchQuantity::efficiency);
+    out.voltage = number(row, BenchQuantity::voltage, needs_current);
+    out.current = number(row, BenchQuantity::current, needs_current);
+    out.throttle = number(row, BenchQuantity::throttle, false);
     double watts = 0;
-    if (table_.columns.has(power)) {
-      watts = number(row, power, true);
-    } else if (table_.columns.has(efficiency)) {
-      const double g_per_W = number(row, efficiency, true);
+    if (table_.columns.has(BenchQuantity::power)) {
+      watts = number(row, BenchQuantity::power, true);
+    } else if (table_.columns.has(BenchQuantity::efficiency)) {
+      const double g_per_W = number(row, BenchQuantity::efficiency, true);
       watts = g_per_W > 0 ? thrust_g / g_per_W : 0;
     } else {
       watts = out.voltage * out.current;
@@ -397,8 +391,8 @@ class RowNumbers {
     const auto [column, factor] = table_.columns.found.at(quantity);
     std::string cell = row.cells[column];
     if (decimal_comma_) std::ranges::replace(cell, ',', '.');
-    if (quantity == throttle && cell.ends_with('%'))
-      cell = trimmed(cell.substr(0, cell.size() - 1));
+    if (quantity == BenchQuantity::throttle && cell.ends_with('%'))
+      cell = std::string(trimmed(std::string_view(cell).substr(0, cell.size() - 1)));
     const auto value = parsed_number(cell);
     if (value && std::abs(*value * factor) <= 1e6) return *value * factor;
     if (!needed) return nan;
@@ -486,7 +480,8 @@ std::vector<std::vector<Measured>> grouped(std::vector<Measured> rows, std::size
 /// Whether a table's power is its voltage times its current, where it has all three.
 void check_power(const Table& table, std::span<const Measured> rows,
                  std::vector<std::string>& notes) {
-  if (!table.columns.has(power) && !table.columns.has(efficiency)) return;
+  if (!table.columns.has(BenchQuantity::power) && !table.columns.has(BenchQuantity::efficiency))
+    return;
   std::vector<double> ratios;
   for (const Measured& row : rows) {
     const double product = row.voltage * row.current;

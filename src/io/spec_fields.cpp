@@ -42,7 +42,7 @@ const std::array all_spec_fields{
     SpecField{"/description", text, "", any_number, "\"\"", "Free text."},
     SpecField{"/notes", text, "", any_number, "\"\"",
               "Free text, for remarks: JSON has no comments."},
-    SpecField{"/drone/mass_g", number, "g", between(1, 1e6), "",
+    SpecField{"/drone/mass_g", number, "g", between(10, 1e6), "",
               "Mass of the drone ready to fly, without the tether.", unit::gram,
               at<&Design::drone, &Drone::mass>},
     SpecField{"/drone/motor_count", integer, "", between(1, 64), "", "Number of motors, all alike.",

@@ -137,7 +137,8 @@ class AxisReader {
 
   bool allowed(const SpecField& field, double value) {
     if (field.range.contains(value)) return true;
-    refuse(fmt::format("{} is not allowed: it must be {}", value, describe_range(field)));
+    refuse(fmt::format("{} is not allowed: it must be {}{}", value, describe_range(field),
+                       meant_in_thousands(field, value)));
     return false;
   }
 

@@ -71,6 +71,15 @@ std::string printable(std::string_view text, std::size_t longest) {
   return out;
 }
 
+std::string printable_lines(std::string_view text) {
+  std::string out;
+  for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
+    out += printable(text.substr(0, end)) + '\n';
+    text.remove_prefix(end + 1);
+  }
+  return out + printable(text);
+}
+
 std::string markup_text(std::string_view text) {
   std::string out;
   for_each_character(text, [&out](std::uint32_t c, std::string_view bytes) {

@@ -13,6 +13,9 @@ namespace tethercalc {
 std::string printable(std::string_view text,
                       std::size_t longest = std::numeric_limits<std::size_t>::max());
 
+/// The same for several lines, which stay lines.
+std::string printable_lines(std::string_view text);
+
 /// `text` as it may stand in HTML and XML, in content and between quotes of an attribute: no
 /// markup, the same replacements as in `printable`, but with line breaks and tabs kept.
 std::string markup_text(std::string_view text);

@@ -391,7 +391,9 @@ std::string description_of(std::span<const MotorOptimum> ranking) {
 Figure optimum_figure(const std::string& name, const OptimumStudy& study, const AreaCurve& curve) {
   const gp::Range shown{in_mm2(curve.lo), in_mm2(curve.hi)};
   const Curves curves = curves_of(study.design.requirements, curve.points);
-  Figure figure{.id = "optimum", .title = name, .description = description_of(study), .lines = 43};
+  const std::string heading = study.result.feasible ? name : "Cannot fly as required: " + name;
+  Figure figure{
+      .id = "optimum", .title = heading, .description = description_of(study), .lines = 43};
   const gp::Layout layout(figure.lines);
   figure.script =
       gp::prelude() +
@@ -402,7 +404,7 @@ Figure optimum_figure(const std::string& name, const OptimumStudy& study, const 
   figure.script += "set samples 2\nset multiplot\n";
 
   const gp::Plot thrust = thrust_plot(study, curve.points);
-  figure.script += layout.panel(4, 18) + layout.heading(name) + shading(study, curve);
+  figure.script += layout.panel(4, 18) + layout.heading(heading) + shading(study, curve);
   figure.script += layout.above(2.4, "thrust per motor (g)", "AWG");
   figure.script += layout.legend(19.2, 2, thrust.legend());
   figure.script += top_axis(study, curve, "AWG") + gp::set_range("y", thrust_range(curves));

@@ -102,10 +102,20 @@ std::string value_text(const ordered_json& value) {
   return value.is_number() ? significant(value.get<double>(), 5) : value.get<std::string>();
 }
 
+/// "thrust headroom in hover"; a limit of the user's as it was typed.
+std::string missed_name(std::string name) {
+  for (std::size_t i = 0; i < demand_count; ++i) {
+    if (!name.starts_with(std::string(demand_name(static_cast<Demand>(i))) + " ")) continue;
+    std::ranges::replace(name, '_', ' ');
+    return name;
+  }
+  return '"' + name + '"';
+}
+
 std::string missed_words(const DesignAnswer& answer) {
   std::string words;
   for (const DemandState& demand : answer.missed) {
-    words += fmt::format("{}\"{}\" by {} %", words.empty() ? "" : ", ", demand.name,
+    words += fmt::format("{}{} by {} %", words.empty() ? "" : ", ", missed_name(demand.name),
                          significant(100 * demand.violation, 3));
   }
   return words;

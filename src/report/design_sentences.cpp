@@ -1,6 +1,7 @@
 #include "tethercalc/report/design_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -200,10 +201,37 @@ std::string condition_words(Condition condition) {
   return condition == Condition::hover ? "hover" : "forward flight";
 }
 
+std::string limit_in_short(Limit limit) {
+  static constexpr std::array words{
+      "least power", "power that arrives", "take-off mass",  "motors",         "tilt", "heat",
+      "strength",    "converter's rating", "supply voltage", "tether's way up"};
+  return words.at(static_cast<std::size_t>(limit));
+}
+
+std::string unchecked_sentence(const Design& design) {
+  const Tether& tether = design.tether;
+  std::vector<std::string> unchecked;
+  if (!is_heated(tether)) {
+    unchecked.emplace_back("heat (tether.ambient_temperature_C)");
+  } else if (!tether.insulation.rated_temperature_C) {
+    unchecked.emplace_back("heat (an insulation material with rated_temperature_C)");
+  }
+  if (design.requirements.strength_safety_factor == 0) {
+    unchecked.emplace_back("strength (requirements.strength_safety_factor)");
+  }
+  if (tether.insulation.dielectric_safety_factor == 0) {
+    unchecked.emplace_back("the insulation's wall (tether.insulation.dielectric_safety_factor)");
+  }
+  return unchecked.empty()
+             ? ""
+             : fmt::format("Not checked, for want of the field: {}.", fmt::join(unchecked, ", "));
+}
+
 std::string limit_sentence(const Design& design, const Optimization& result) {
   const Condition where = result.limiting_condition;
   if (result.limited_by == Limit::minimum_power) {
-    return fmt::format("Nothing limits it: this cross-section draws the least power in {}.",
+    return fmt::format("Nothing {}limits it: this cross-section draws the least power in {}.",
+                       unchecked_sentence(design).empty() ? "" : "that was checked ",
                        condition_words(where));
   }
   std::string sentence = filled_in(limit_words(result.limited_by).of_optimum, design, where);

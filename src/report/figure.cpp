@@ -76,6 +76,7 @@ std::string finished_svg(const Figure& figure, std::string svg) {
     replace_all(fmt::format("'#{}", name), "'#" + own);
     replace_all(fmt::format("(#{})", name), "(#" + own + ")");
   }
+  replace_all("]]>", "]]&gt;");  // gnuplot leaves it, which XML allows nowhere in a text (2.4)
   const std::size_t from = svg.find("<title>");
   const std::string_view last = "</desc>";
   const std::size_t to = svg.find(last, from);

@@ -182,7 +182,7 @@ std::string_view format_title(LogFormat format) {
   return "PX4 ULog";
 }
 
-ordered_json battery_json(const LogSummary::Battery& battery) {
+ordered_json logged_battery_json(const LogSummary::Battery& battery) {
   ordered_json report = {{"message", battery.message},
                          {"instance", nullptr},
                          {"samples", battery.samples},
@@ -261,7 +261,7 @@ ordered_json log_json(const LogSummary& summary, std::string_view name) {
                          {"last_s", number_or_null(summary.last_time)},
                          {"duration_s", nullptr},
                          {"flying", nullptr},
-                         {"batteries", json_list(summary.batteries, battery_json)},
+                         {"batteries", json_list(summary.batteries, logged_battery_json)},
                          {"wind", nullptr},
                          {"uses", uses},
                          {"gaps", gaps},

@@ -37,6 +37,9 @@ Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
       fmt::format("It draws {} W in hover and {} W in forward flight at {} m/s ({} km/h).",
                   fixed(hover.total_power, 1), fixed(result.forward.total_power, 1),
                   fixed(speed, 2), fixed(3.6 * speed, 1)));
+  if (std::string sentence = unchecked_sentence(design); !sentence.empty()) {
+    out.sentences.push_back(std::move(sentence));
+  }
   return out;
 }
 
@@ -326,7 +329,7 @@ TitledTable motor_table(const Design& design, std::span<const MotorOptimum> rank
                fixed(r.hover.tether_mass / unit::gram, 0), fixed(r.hover.total_power, 1),
                fixed(r.forward.total_power, 1),
                fixed(entry.result.in(design.requirements.headroom_at).headroom, 2),
-               std::string(limit_name(r.limited_by))});
+               limit_in_short(r.limited_by)});
   }
   return {fmt::format("Motors by power in {}, each with its own best tether",
                       condition_words(design.requirements.power_at)),

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
+#include "identify/statistics.hpp"
 #include "tethercalc/model/airframe.hpp"
 #include "tethercalc/model/units.hpp"
 #include "tethercalc/study/motor.hpp"
@@ -35,8 +35,7 @@ double relative_interval(std::span<const double> values) {
   double squares = 0;
   for (const double value : means) squares += (value - mean) * (value - mean);
   const double error = std::sqrt(squares / double((stretches - 1) * stretches));
-  const boost::math::students_t student(double(stretches - 1));
-  return boost::math::quantile(student, 0.975) * error / mean;
+  return student_quantile(double(stretches - 1), 0.975) * error / mean;
 }
 
 /// By how much measured motors leave a curve k·T^1.5 through the point nearest to half their

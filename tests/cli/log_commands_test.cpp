@@ -468,8 +468,11 @@ TEST_CASE("a drag command that cannot work says why, and prints nothing else") {
   for (const auto& [arguments, reason] :
        std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{example}, "--mass-g: is needed"},
-           {{example, "--mass-g", "0"}, "--mass-g: 0 is out of range; allowed is 10 to 1000000 g"},
-           {{example, "--mass-g", "1.55"}, "1.55 g is no drone; did you mean 1550?"},
+           {{example, "--mass-g", "0"},
+            "--mass-g: 0 is out of range; allowed is at least 10 and at most 1000000 g"},
+           {{example, "--mass-g", "1.55"},
+            "--mass-g: 1.55 is out of range; allowed is at least 10 and at most 1000000 g; did you "
+            "mean 1550? The unit is the gram"},
            {{"/dev/zero", "--mass-g", "1550"}, "goes on beyond 256 MiB"},
            {{"no-such.bin", "--mass-g", "1550"}, "no-such.bin: cannot be opened"},
            {{empty, "--mass-g", "1550"}, "empty.bin:1: the file is empty"},

@@ -120,3 +120,28 @@ TEST_CASE("motor says every option that it lacks or that does not fit") {
   CHECK(unclear.exit_code == 2);
   CHECK_THAT(unclear.err, Contains("F | P") && Contains("--columns thrust_g=\"…\",power_W=\"…\""));
 }
+
+TEST_CASE("a motor is learned from the power of a flight, and says how well") {
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "free.csv").string();
+  std::string csv = "time_s,height_m,airspeed_m_s,bus_voltage_V,bus_current_A\n";
+  for (int i = 0; i < 300; ++i) {  // 400 W, give or take 2 % in turns
+    csv += std::to_string(i) + ",20,0.5,16," + (i % 2 == 0 ? "25.5" : "24.5") + "\n";
+  }
+  write_file(log, csv);
+  const Ran run = run_tethercalc({"motor", "--power-log", log, "--spec", published,
+                                  "--max-thrust-g", "1300", "--format", "json"});
+  const json motor = parsed(run);
+  CHECK(motor.at("id") == "free");
+  CHECK_THAT(motor.at("source").get<std::string>(),
+             Contains("in 299 s of hover 100.0 W for 427 g a motor"));
+  CHECK(motor.at("power_uncertainty_percent").get<double>() > 5);
+  CHECK(motor.at("points").back().at("thrust_g") == 1300);
+  // 100 W · (1300/427.5)^1.5
+  CHECK(motor.at("points").back().at("power_W").get<double>() == Approx(530.3).epsilon(1e-3));
+  CHECK_THAT(run.err, Contains("known at its hover only"));
+
+  const Ran bare = run_tethercalc({"motor", "--power-log", log});
+  CHECK(bare.exit_code == 2);
+  CHECK_THAT(bare.err, Contains("needs --spec SPEC"));
+}

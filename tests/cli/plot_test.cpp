@@ -291,6 +291,16 @@ TEST_CASE("a figure is written whole or not at all") {
   CHECK_THAT(nowhere.err, Contains("a.svg") && Contains("cannot be written"));
 }
 
+TEST_CASE("a figure of a design that cannot fly says so and ends with exit code 1") {
+  const std::vector<std::string> weak{"plot", "optimum", published, "--set", "supply.voltage_V=21"};
+  const Ran drawn = run_tethercalc(weak);
+  CHECK(drawn.exit_code == 1);
+  CHECK_THAT(drawn.out, Contains("Cannot fly as required: Holybro"));
+  const Ran good = run_tethercalc({"plot", "optimum", published});
+  CHECK(good.exit_code == 0);
+  CHECK_THAT(good.out, !Contains("Cannot fly"));
+}
+
 TEST_CASE("hostile names do no harm in picture, script or file name") {
   if (!gnuplot_is_there()) return;
   const TemporaryFolder folder;

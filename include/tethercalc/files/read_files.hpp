@@ -20,6 +20,12 @@ namespace tethercalc {
 [[nodiscard]] DesignFile read_design(const std::string& path,
                                      std::span<const std::string> overrides = {});
 
+/// `spec`, read at `path`, as it has to stand in a file in `folder`: relative paths of motors and
+/// materials lead to the same files from there. Nothing else changes.
+[[nodiscard]] nlohmann::ordered_json spec_for_folder(nlohmann::ordered_json spec,
+                                                     const std::string& path,
+                                                     const std::filesystem::path& folder);
+
 /// Reads the flight log at `path`, as `parse_flight_log` does; one that is compressed by gzip, xz
 /// or in a zip archive of its own is unpacked in memory. Throws InputError as well where it cannot
 /// be read or unpacked.

@@ -33,7 +33,7 @@ struct AutopilotDragCheck {
 
 /// A fit in an autopilot's terms.
 struct AutopilotDrag {
-  Autopilot autopilot = Autopilot::ardupilot;
+  Autopilot autopilot = Autopilot::ardupilot;  ///< whose terms these are
   std::vector<AutopilotParameter> parameters;  ///< ballistic coefficients X and Y, momentum drag
   std::optional<AutopilotDragCheck> check;     ///< at the fastest speed flown, to a whole m/s
 };

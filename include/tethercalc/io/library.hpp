@@ -55,8 +55,8 @@ void put_entry(Design& design, const InsulationEntry& entry);
 
 /// The motor that `reference` names: an id in the library or, where it holds a "/" or ends in
 /// ".json" or ".csv", a file that `load` reads. Such a file is either an object with a
-/// motor's fields or a test-bench CSV with the columns `thrust_g` and `power_W`; others are
-/// ignored. Points that do not rise are pooled (`isotonic_motor_points`), and idle rows of a CSV,
+/// motor's fields or a test-bench CSV, see `motor_from_bench`; one without an id is called after
+/// its file. Points that do not rise are pooled (`isotonic_motor_points`), and idle rows of a CSV,
 /// without thrust or power, are left out; `warnings` says so. Throws InputError with all problems
 /// of the file, or with the closest id where there is no such name. `where` is what its message
 /// calls the place of the reference, such as the name of an option.

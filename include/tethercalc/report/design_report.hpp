@@ -22,6 +22,13 @@ namespace tethercalc {
 /// Why the optimum is where it is. For a feasible result.
 [[nodiscard]] std::string limit_sentence(const Design& design, const Optimization& result);
 
+/// The limit in a word or three, for a table: "least power", "heat".
+[[nodiscard]] std::string limit_in_short(Limit limit);
+
+/// Which of heat, strength and the insulation's wall the design was not held to, with the fields
+/// that would have it checked; empty where all are.
+[[nodiscard]] std::string unchecked_sentence(const Design& design);
+
 /// What binds where this demand does: "The converter's rated 450 W".
 [[nodiscard]] std::string demand_words(const Design& design, Demand demand);
 

@@ -26,17 +26,17 @@ class UnsuitablePowerFlight : public std::invalid_argument {
 
 /// Forward flight beside what the hover says of it.
 struct FlownForward {
-  std::size_t rows = 0;
-  double airspeed = 0;  ///< m/s, mean
-  double ratio = 0;     ///< mean measured power over that of the curve for the thrust flown
+  std::size_t rows = 0;  ///< of the flight
+  double airspeed = 0;   ///< m/s, mean
+  double ratio = 0;      ///< mean measured power over that of the curve for the thrust flown
 };
 
 /// A motor learned from a flight.
 struct FlownMotor {
-  MotorCurve curve;
-  double hover_thrust = 0;  ///< N, of one motor
-  double hover_power = 0;   ///< W, of one motor
-  double hover_seconds = 0;
+  MotorCurve curve;           ///< of one motor, in the air flown in
+  double hover_thrust = 0;    ///< N, of one motor
+  double hover_power = 0;     ///< W, of one motor
+  double hover_seconds = 0;   ///< s, flown below 2 m/s
   double hover_interval = 0;  ///< 95 % interval of that power, ± this share
   double band = 0;            ///< share by which the curve may be off anywhere, see `flown_motor`
   std::optional<FlownForward> forward;  ///< where the flight has enough of it

@@ -1,7 +1,7 @@
 // How good a motor with its propeller is, and what one comes to that nobody measured.
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -23,14 +23,15 @@ inline constexpr double standard_air_density = 1.225;
 /// where the propeller is not known.
 [[nodiscard]] std::vector<double> figures_of_merit(const MotorEntry& motor);
 
-inline constexpr double metres_per_inch = 0.0254;  // exact, as propellers are sold
+/// Exact (international inch); propellers are sold by it.
+inline constexpr double metres_per_inch = 0.0254;
 
 /// Figures of merit of all points of several motors.
 struct FigureOfMeritSpread {
-  double least = 0;
-  double median = 0;
-  double greatest = 0;
-  std::size_t points = 0;
+  double least = 0;        ///< of all points
+  double median = 0;       ///< likewise
+  double greatest = 0;     ///< likewise
+  std::size_t points = 0;  ///< how many there are
   /// Of 95 % of the points the power is within this share of what the median gives, 0.3 being 30 %.
   double power_band = 0;
 };
