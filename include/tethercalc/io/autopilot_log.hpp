@@ -74,9 +74,6 @@ class AutopilotLog {
   AutopilotLog(std::span<const std::byte> content, std::string name);
   AutopilotLog(const AutopilotLog&) = delete;
   AutopilotLog& operator=(const AutopilotLog&) = delete;
-  AutopilotLog(AutopilotLog&&) = default;
-  AutopilotLog& operator=(AutopilotLog&&) = default;
-  ~AutopilotLog() = default;
 
   /// Which kind it is.
   [[nodiscard]] LogFormat format() const { return format_; }

@@ -40,8 +40,8 @@ struct LogSummary : LogTotals {
   };
   /// Time in the air.
   struct Flying {
-    double duration = 0;          ///< s, of all flights
-    std::string determined_by;    ///< a phrase: from what it was told
+    double duration = 0;        ///< s, of all flights
+    std::string determined_by;  ///< a phrase: from what it was told
     /// In order; empty where it was told from the speed, which a hover lacks as a landing does.
     std::vector<Flight> flights;
   };
@@ -66,12 +66,12 @@ struct LogSummary : LogTotals {
   };
   /// Whether a command can use the log.
   struct Use {
-    std::string command;  ///< "drag", "diagnose --flight", "diagnose --power"
-    bool possible = false;
-    std::string because;  ///< what it would take from the log, or what is in the way
+    std::string command;    ///< "drag", "diagnose --flight", "diagnose --power"
+    bool possible = false;  ///< whether it can
+    std::string because;    ///< what it would take from the log, or what is in the way
   };
 
-  LogFormat format = LogFormat::dataflash;
+  LogFormat format = LogFormat::dataflash;  ///< which kind of log it is
   std::vector<Message> types;        ///< in alphabetical order of their names; all with messages
   std::optional<double> first_time;  ///< s; nothing where no message carries a time
   std::optional<double> last_time;   ///< s
@@ -82,9 +82,9 @@ struct LogSummary : LogTotals {
   std::optional<Flying> flying;                ///< nothing where the log does not tell
   std::string firmware;  ///< its name and version, or its first words; may be empty
   std::string vehicle;   ///< "a multirotor", "an aeroplane"; empty where the log does not tell
-  std::vector<Battery> batteries;
-  std::optional<Wind> wind;
-  std::vector<Use> uses;
+  std::vector<Battery> batteries;  ///< those with a voltage
+  std::optional<Wind> wind;        ///< nothing where the estimator guesses none
+  std::vector<Use> uses;           ///< one a command
 };
 
 /// Reads the whole log.
