@@ -658,9 +658,9 @@ class CommandLine {
     }
     for (const auto& [option, file] : outputs) {
       // Told before a long computation, not after it.
-      if (file != "-") problems_.succeeds([&file] { check_can_be_written(file); });
+      if (file != "-") problems_.succeeds([&file = file] { check_can_be_written(file); });
       if (std::ranges::any_of(inputs,
-                              [&file](const auto& read) { return same_file(file, read); })) {
+                              [&file = file](const auto& read) { return same_file(file, read); })) {
         problems_.add(option, "\"" + file + "\" is read; give another file to write");
       }
     }
