@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string command = shell_quoted(TETHERCALC_COMMAND);
-const std::string flight = project_file("examples/simulated-flight.csv");
+const std::string flight_log = project_file("examples/simulated-flight.csv");
 
 std::string motor_file() {
   return json{{"points",
@@ -33,7 +33,7 @@ std::string motor_file() {
 }  // namespace
 
 TEST_CASE("standard error that is closed or full changes neither the answer nor the exit code") {
-  const std::string drag = command + " drag " + shell_quoted(flight) + " --mass-g 1500";
+  const std::string drag = command + " drag " + shell_quoted(flight_log) + " --mass-g 1500";
   const Ran told = run_shell(drag);
   REQUIRE(told.exit_code == 0);
   REQUIRE_FALSE(told.err.empty());
@@ -163,22 +163,23 @@ TEST_CASE("an extended spec in another folder finds its motor") {
   };
 
   const std::string from = (here / "spec.json").string();
-  CHECK(run_tethercalc({"drag", flight, "--mass-g", "1500", "--into", from, "--output",
+  CHECK(run_tethercalc({"drag", flight_log, "--mass-g", "1500", "--into", from, "--output",
                         (there / "drag.json").string()})
             .exit_code == 0);
   CHECK(valid(there / "drag.json"));
-  CHECK(run_tethercalc(
-            {"diagnose", from, "--flight", flight, "--into", (there / "diagnosed.json").string()})
+  CHECK(run_tethercalc({"diagnose", from, "--flight", flight_log, "--into",
+                        (there / "diagnosed.json").string()})
             .exit_code == 0);
   CHECK(valid(there / "diagnosed.json"));
   // Beside the spec nothing has to change, and down a pipe it is read from the folder one is in.
-  CHECK(run_tethercalc({"drag", flight, "--mass-g", "1500", "--into", from, "--output",
+  CHECK(run_tethercalc({"drag", flight_log, "--mass-g", "1500", "--into", from, "--output",
                         (here / "drag.json").string()})
             .exit_code == 0);
   CHECK(json::parse(file_text(here / "drag.json"))["drone"]["motor"] == "./mine.json");
-  const Ran piped = run_shell("cd " + shell_quoted(there.string()) + " && " + command + " drag " +
-                              shell_quoted(flight) + " --mass-g 1500 --into ../here/spec.json | " +
-                              command + " validate -");
+  const Ran piped =
+      run_shell("cd " + shell_quoted(there.string()) + " && " + command + " drag " +
+                shell_quoted(flight_log) + " --mass-g 1500 --into ../here/spec.json | " + command +
+                " validate -");
   CHECK(piped.exit_code == 0);
 }
 

@@ -65,10 +65,10 @@ TEST_CASE("the straight tether beside the solved one is that of evaluate") {
 
 TEST_CASE("every format of a shape says the same") {
   const std::vector<std::string> options{"--offset", "10", "--slack", "3"};
-  const Json json = shape_of(options);
+  const Json in_json = shape_of(options);
   const Ran text = shaped(options);
   CHECK(text.exit_code == 0);
-  const auto tension = json["T_drone_N"].get<double>();
+  const auto tension = in_json["T_drone_N"].get<double>();
   CHECK_THAT(text.out, Catch::Contains(fmt::format("{:.2f} N at the drone", tension)));
   auto with_csv = options;
   with_csv.insert(with_csv.end(), {"--format", "csv"});

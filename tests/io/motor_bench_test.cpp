@@ -23,7 +23,7 @@ MotorBench bench_of(const std::string& text, const MotorBenchOptions& options = 
 }
 
 /// Every problem of the table in one text; empty where there is none.
-std::string refusal_of(const std::string& text, const MotorBenchOptions& options = {}) {
+std::string bench_refusal(const std::string& text, const MotorBenchOptions& options = {}) {
   try {
     (void)bench_of(text, options);
   } catch (const InputError& error) {
@@ -109,18 +109,18 @@ TEST_CASE("one table in every dress is one motor") {
 }
 
 TEST_CASE("a header that is not understood is answered with what it has and how to name it") {
-  const std::string text = refusal_of("F;P\n1;10\n2;30\n");
+  const std::string text = bench_refusal("F;P\n1;10\n2;30\n");
   CHECK_THAT(text, Contains("bench.csv:1") && Contains("F | P") && Contains("--columns thrust_g="));
   const MotorBench named = bench_of("F;P\n1;10\n2;30\n", {{"thrust_N=F", "power_W=P"}, {}});
   CHECK(named.motor.curve.max_thrust() == Approx(2));
   CHECK(named.motor.curve.max_power() == Approx(30));
-  CHECK_THAT(refusal_of("F;P\n1;10\n", {{"thrust_N=f2", "power_W=P"}, {}}),
+  CHECK_THAT(bench_refusal("F;P\n1;10\n", {{"thrust_N=f2", "power_W=P"}, {}}),
              Contains("there is no column \"f2\""));
-  CHECK_THAT(refusal_of("F;P\n1;10\n", {{"force=F"}, {}}), Contains("does not say what"));
+  CHECK_THAT(bench_refusal("F;P\n1;10\n", {{"force=F"}, {}}), Contains("does not say what"));
 }
 
 TEST_CASE("a quote that is not closed is told as such") {
-  CHECK_THAT(refusal_of("Thrust (g),Power (W)\n100,\"10\n200,25\n"),
+  CHECK_THAT(bench_refusal("Thrust (g),Power (W)\n100,\"10\n200,25\n"),
              Contains("bench.csv:2: a quote is opened and not closed"));
 }
 
@@ -131,19 +131,19 @@ TEST_CASE("a name that was given outranks what the header says") {
 }
 
 TEST_CASE("two columns of one quantity and unit are asked about, in two units they are one") {
-  CHECK_THAT(refusal_of("Thrust (g),Pull (g),Power (W)\n1,1,1\n2,2,2\n"),
+  CHECK_THAT(bench_refusal("Thrust (g),Pull (g),Power (W)\n1,1,1\n2,2,2\n"),
              Contains("may both be thrust_g"));
   CHECK(bench_of("Thrust (g),Thrust (oz),Power (W)\n100,3.5,10\n200,7,25\n").rows == 2);
 }
 
 TEST_CASE("numbers whose commas may be decimals or thousands are refused, others are read") {
-  CHECK_THAT(refusal_of("Thrust (g);Power (W)\n1,234;110\n2,345;260\n"), Contains("thousands"));
-  CHECK_THAT(refusal_of("Thrust (g);Power (W)\n1234;110.5\n2345;260,5\n"),
+  CHECK_THAT(bench_refusal("Thrust (g);Power (W)\n1,234;110\n2,345;260\n"), Contains("thousands"));
+  CHECK_THAT(bench_refusal("Thrust (g);Power (W)\n1234;110.5\n2345;260,5\n"),
              Contains("commas as well as points"));
   CHECK(bench_of("Thrust (kgf);Power (W)\n0,234;110\n0,345;260\n").motor.curve.max_thrust() ==
         Approx(0.345 * 9.80665));
   // Decimal commas between commas break a row into too many cells.
-  CHECK_THAT(refusal_of("Thrust (g),Power (W)\n100,10,5\n200,25,5\n"),
+  CHECK_THAT(bench_refusal("Thrust (g),Power (W)\n100,10,5\n200,25,5\n"),
              Contains("bench.csv:2: 3 cells") && Contains("need ; or tabs"));
 }
 
@@ -186,12 +186,12 @@ TEST_CASE("power that is not voltage times current is told") {
 TEST_CASE("a table of several motors asks which, and where chooses") {
   const std::string table =
       "motor;prop;thrust_g;power_W\nA;10;100;10\nA;10;200;25\nB;10;150;10\nB;10;300;30\n";
-  CHECK_THAT(refusal_of(table), Contains("\"A\", \"B\"") && Contains("--where motor=VALUE"));
+  CHECK_THAT(bench_refusal(table), Contains("\"A\", \"B\"") && Contains("--where motor=VALUE"));
   const MotorBench b = bench_of(table, {{}, {"motor=B"}});
   CHECK(b.motor.curve.max_thrust() == Approx(0.3 * 9.80665));
   CHECK_THAT(b.motor.source, Contains("bench.csv: motor=B"));
-  CHECK_THAT(refusal_of(table, {{}, {"motor=C"}}), Contains("there are \"A\", \"B\""));
-  CHECK_THAT(refusal_of(table, {{}, {"motr=B"}}), Contains("did you mean \"motor\""));
+  CHECK_THAT(bench_refusal(table, {{}, {"motor=C"}}), Contains("there are \"A\", \"B\""));
+  CHECK_THAT(bench_refusal(table, {{}, {"motr=B"}}), Contains("did you mean \"motor\""));
 }
 
 TEST_CASE("a motor file holds what its bench said, and reads back as the same curve") {

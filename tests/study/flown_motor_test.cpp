@@ -21,7 +21,7 @@ Drone quadrotor() {
   return drone;
 }
 
-constexpr double density = 1.2;
+constexpr double air_density = 1.2;
 constexpr double max_thrust = 12;  // N
 
 /// Hover at `hover_power` W in all, then as long at 10 m/s with `forward_power`; each row's noise
@@ -49,7 +49,7 @@ double thrust_flown(const Drone& drone, double airspeed) {
   for (int i = 0; i < 100; ++i) {
     const double tilt = (lo + hi) / 2;
     const double drag =
-        0.5 * density *
+        0.5 * air_density *
         (drone.drag.front_area * std::cos(tilt) + drone.drag.top_area * std::sin(tilt)) * airspeed *
         (airspeed + drone.drag.linear_speed);
     (drag > weight * std::tan(tilt) ? lo : hi) = tilt;
@@ -63,14 +63,14 @@ TEST_CASE("a hover gives its point of the curve, and momentum theory the rest") 
   std::mt19937_64 dice(1);
   const Drone drone = quadrotor();
   const FlownMotor motor =
-      flown_motor(flight_of(400, 400, 0, dice), drone, density, max_thrust, library_motors());
+      flown_motor(flight_of(400, 400, 0, dice), drone, air_density, max_thrust, library_motors());
   const double thrust = 1.6 * 9.80665 / 4;
   CHECK(motor.hover_thrust == Approx(thrust));
   CHECK(motor.hover_power == Approx(100));
   CHECK(motor.curve.power(thrust) == Approx(100).epsilon(1e-3));
   CHECK(motor.curve.power(2 * thrust) == Approx(100 * std::pow(2, 1.5)).epsilon(1e-3));
   CHECK(motor.curve.max_thrust() == Approx(max_thrust));
-  CHECK(motor.curve.measured_in() == density);
+  CHECK(motor.curve.measured_in() == air_density);
   CHECK(motor.hover_interval == Approx(0).margin(1e-12));
   CHECK(motor.band > 0.05);  // the library's motors are no ideal ones
   CHECK(motor.band < 0.3);
@@ -81,8 +81,8 @@ TEST_CASE("forward flight is compared at the thrust that the drag asks for") {
   const Drone drone = quadrotor();
   const double ratio = std::pow(thrust_flown(drone, 10) / thrust_flown(drone, 0), 1.5);
   CHECK(ratio > 1.01);
-  const FlownMotor motor = flown_motor(flight_of(400, 0.85 * ratio * 400, 0, dice), drone, density,
-                                       max_thrust, library_motors());
+  const FlownMotor motor = flown_motor(flight_of(400, 0.85 * ratio * 400, 0, dice), drone,
+                                       air_density, max_thrust, library_motors());
   REQUIRE(motor.forward);
   CHECK(motor.forward->rows == 600);
   CHECK(motor.forward->airspeed == Approx(10));
@@ -97,7 +97,7 @@ TEST_CASE("the hover's interval holds the true power about as often as it says")
   int held = 0;
   for (int i = 0; i < flights; ++i) {
     const FlownMotor motor =
-        flown_motor(flight_of(400, 400, 0.02, dice), quadrotor(), density, max_thrust, {});
+        flown_motor(flight_of(400, 400, 0.02, dice), quadrotor(), air_density, max_thrust, {});
     if (std::abs(motor.hover_power / 100 - 1) <= motor.hover_interval) ++held;
   }
   // 95 % of 400 is 380 ± 4.4; neighbouring stretches still resemble each other a little.
@@ -112,11 +112,12 @@ TEST_CASE("flights that tell no motor are refused with what is missing") {
   brief.time.resize(40);
   brief.airspeed.resize(40);
   brief.power.resize(40);
-  CHECK_THROWS_WITH(flown_motor(brief, quadrotor(), density, max_thrust, {}),
+  CHECK_THROWS_WITH(flown_motor(brief, quadrotor(), air_density, max_thrust, {}),
                     Contains("at least 50 rows and 20 s"));
-  CHECK_THROWS_WITH(flown_motor(flight, quadrotor(), density, 3.9, {}), Contains("400 g a motor"));
+  CHECK_THROWS_WITH(flown_motor(flight, quadrotor(), air_density, 3.9, {}),
+                    Contains("400 g a motor"));
   FlownPower reversed = flight;
   for (double& power : reversed.power) power = -power;
-  CHECK_THROWS_WITH(flown_motor(reversed, quadrotor(), density, max_thrust, {}),
+  CHECK_THROWS_WITH(flown_motor(reversed, quadrotor(), air_density, max_thrust, {}),
                     Contains("sign reversed"));
 }
