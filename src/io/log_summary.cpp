@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "io/logged_vehicle.hpp"
@@ -30,6 +31,39 @@ struct TimesOfMessage {
   double last = 0;
   double latest_seen = 0;  // of the message before
   double longest_gap = 0;
+};
+
+/// The stretches of time in which messages were written, in whatever order they stand in the log:
+/// a PX4 log begins with what was published long before, each with its own time.
+class WrittenTimes {
+ public:
+  void take(double time) {
+    if (last_ != ends_.end() && time >= last_->first && time <= last_->second) return;
+    // The first stretch that begins behind this moment, and the one before it.
+    auto next = ends_.upper_bound(time);
+    const bool joins_before =
+        next != ends_.begin() && time - std::prev(next)->second <= shortest_gap;
+    last_ = joins_before ? std::prev(next) : ends_.emplace_hint(next, time, time);
+    last_->second = std::max(last_->second, time);
+    next = std::next(last_);
+    if (next == ends_.end() || next->first - last_->second > shortest_gap) return;
+    last_->second = std::max(last_->second, next->second);
+    ends_.erase(next);
+  }
+
+  /// Between them, in order, the first that are told, and how many there are.
+  [[nodiscard]] std::pair<std::vector<LogSummary::Gap>, std::size_t> gaps() const {
+    std::vector<LogSummary::Gap> out;
+    for (auto at = ends_.begin(); at != ends_.end() && std::next(at) != ends_.end(); ++at) {
+      if (out.size() == most_gaps_told) break;
+      out.push_back({at->second, std::next(at)->first - at->second});
+    }
+    return {std::move(out), ends_.empty() ? 0 : ends_.size() - 1};
+  }
+
+ private:
+  std::map<double, double> ends_;  // of each stretch, by its beginning
+  std::map<double, double>::iterator last_ = ends_.end();
 };
 
 /// Follows the log's clock and keeps what belongs to it.
@@ -62,8 +96,7 @@ class Clock {
   std::map<std::string, TimesOfMessage, std::less<>> times;
   std::optional<double> first;
   std::optional<double> last;
-  std::vector<LogSummary::Gap> gaps;
-  std::size_t gap_count = 0;
+  WrittenTimes written;
   std::size_t disbelieved = 0;
 
  private:
@@ -73,10 +106,7 @@ class Clock {
   }
 
   void believe(const std::string& message, double time) {
-    if (first && time - now_ > shortest_gap) {
-      ++gap_count;
-      if (gaps.size() < most_gaps_told) gaps.push_back({now_, time - now_});
-    }
+    written.take(time);
     // Messages are written a little out of order; only a restart sets the clock back.
     now_ = !first || now_ - time > believed_step ? time : std::max(now_, time);
     first = first ? std::min(*first, time) : time;
@@ -372,8 +402,7 @@ LogSummary summarize_log(const AutopilotLog& log) {
   summary.types = message_table(log, clock);
   summary.first_time = clock.first;
   summary.last_time = clock.last;
-  summary.gaps = std::move(clock.gaps);
-  summary.gap_count = clock.gap_count;
+  std::tie(summary.gaps, summary.gap_count) = clock.written.gaps();
   summary.implausible_times = clock.disbelieved;
   LoggedVehicle vehicle = logged_vehicle(log);
   summary.firmware = std::move(vehicle.firmware);

@@ -68,6 +68,24 @@ TEST_CASE("counts, rates, time range and gaps of a log are told") {
   CHECK_FALSE(message(summary, "FMT").first_time.has_value());
 }
 
+TEST_CASE("gaps are where nothing was written, in whatever order the messages stand") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  add_samples(log, 30, 31, 0);
+  // Before and behind it, then what closes a gap, then what lies between two.
+  add_samples(log, 10, 11, 0);
+  add_samples(log, 50, 51, 0);
+  add_samples(log, 11, 30, 0);
+  add_samples(log, 40, 41, 0);
+  const LogSummary summary = summarized(log);
+  REQUIRE(summary.gap_count == 2);
+  REQUIRE(summary.gaps.size() == 2);
+  CHECK(summary.gaps[0].start == Approx(30.9));
+  CHECK(summary.gaps[0].duration == Approx(9.1));
+  CHECK(summary.gaps[1].start == Approx(40.9));
+  CHECK(summary.gaps[1].duration == Approx(9.1));
+}
+
 TEST_CASE("one time that is far off is not believed but a long pause is") {
   DataFlashWriter log;
   test::define_xkf1(log);
