@@ -159,7 +159,7 @@ TEST_CASE("init writes over an edited spec only where it is told to") {
   CHECK(file_text(spec) != edited);
 }
 
-TEST_CASE("--output - is standard output") {
+TEST_CASE("standard output is what --output - names") {
   CHECK(run_tethercalc({"optimize", published, "--output", "-"}).out ==
         run_tethercalc({"optimize", published}).out);
 }
@@ -175,7 +175,7 @@ TEST_CASE("a cross-section may be typed as a standard size") {
   }
 }
 
-TEST_CASE("--color and --quiet do what they are told, terminal or not") {
+TEST_CASE("what --color and --quiet say is done, terminal or not") {
   const Ran plain = run_tethercalc({"optimize", published});
   CHECK_THAT(plain.out, !Contains("\x1b"));
   CHECK_THAT(run_tethercalc({"optimize", published, "--color", "always"}).out, Contains("\x1b["));

@@ -75,7 +75,7 @@ TEST_CASE("a limit on the size of files is told, and no half-written file is lef
   CHECK(fs::is_empty(folder.path()));
 }
 
-TEST_CASE("--output /dev/stdout goes on where others have written before") {
+TEST_CASE("with --output /dev/stdout, what others have written before stays") {
   const TemporaryFolder folder;
   const auto file = shell_quoted((folder.path() / "all").string());
   const std::string text = "( echo first; " + command + " init --output /dev/stdout; echo last )";
@@ -92,7 +92,7 @@ TEST_CASE("--output /dev/stdout goes on where others have written before") {
   CHECK(std::count(swept.begin(), swept.end(), '\n') == 6);
 }
 
-TEST_CASE("--output leaves a socket what it is") {
+TEST_CASE("a socket stays what it is when --output names it") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "s").string();
   const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);

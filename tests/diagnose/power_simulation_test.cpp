@@ -127,6 +127,7 @@ double value_off_neutral(const SpecField& field, const Design& d) {
       {"/tether/drum/width_mm", 200},
       {"/tether/drum/package_conductivity_W_mK", 0.2},
       {"/tether/strength_member/cross_section_mm2", 1},
+      {"/tether/vibration_amplitude", 0.1},
       {"/tether/winch_pull_N", 2},
       {"/supply/converter/losses/fixed_W", 12},
       {"/supply/converter/losses/square_per_W", 1e-4},

@@ -86,6 +86,7 @@ void settle(Design& design, const Design& base) {
     design.supply.voltage = base.supply.voltage;
     design.supply.converter = base.supply.converter;
     design.tether.insulation.dielectric_safety_factor = 0;
+    design.tether.drag_by_reynolds_number = base.tether.drag_by_reynolds_number;
     design.flight.horizontal_offset = base.flight.horizontal_offset;
     design.flight.roughness_length = base.flight.roughness_length;
     const Drum& drum = design.tether.drum;

@@ -130,7 +130,9 @@ TEST_CASE("every field of a spec that changes the result can vary") {
         CHECK(value_count(axis_of(path + "=all")) == library_insulation().size());
         break;
       default: {
-        const double value = field.range.contains(1) ? 1 : 0.5;
+        const double value = field.range.contains(1)     ? 1
+                             : field.range.contains(0.5) ? 0.5
+                                                         : field.range.min;
         const SweepAxis axis = axis_of(path + "=" + std::to_string(value));
         axis.apply(design, value);
         CHECK(field_value(design, field).value() == Approx(value));

@@ -29,10 +29,10 @@ constexpr double max_thrust = 12;  // N
 FlownPower flight_of(double hover_power, double forward_power, double noise,
                      std::mt19937_64& dice) {
   FlownPower out;
-  std::normal_distribution<double> fresh(0, noise);
+  std::normal_distribution<double> fresh;
   double error = 0;
   for (int i = 0; i < 1200; ++i) {
-    error = 0.9 * error + fresh(dice);
+    error = 0.9 * error + noise * fresh(dice);
     const bool hover = i < 600;
     out.time.push_back(0.2 * i);
     out.airspeed.push_back(hover ? 0.2 : 10);
