@@ -225,9 +225,9 @@ bool Framing::is_credible(const std::byte* message, std::size_t length,
     case 'L':
     case 'C': {
       const std::size_t words_at = header_size + (letter_of(message) == 'L' ? 9 : 11);
+      if (length <= words_at) return false;
       const std::uint8_t level = byte_at(message + header_size);
-      return length > words_at && level >= '0' && level <= '7' &&
-             is_words(text_from(message, words_at));
+      return level >= '0' && level <= '7' && is_words(text_from(message, words_at));
     }
     case 'S':
       return size == sync_magic.size() &&

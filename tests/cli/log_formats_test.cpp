@@ -166,8 +166,8 @@ TEST_CASE("diagnose says the same of a flight from ULog and from CSV") {
     CAPTURE(run.err);
     REQUIRE(run.exit_code == 0);
     std::vector<std::string> ids;
-    for (const json& finding : json::parse(run.out).at("findings"))
-      ids.push_back(finding.at("effect"));
+    const json told = json::parse(run.out);
+    for (const json& finding : told.at("findings")) ids.push_back(finding.at("effect"));
     return ids;
   };
   CHECK(findings(log) == findings(example));
