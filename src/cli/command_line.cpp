@@ -537,7 +537,7 @@ class CommandLine {
   }
 
   void add_pictures() {
-    add("plot", "A figure of a result, drawn by gnuplot",
+    add("plot", "A figure of a result",
         [this] {
           for (const CLI::Option* option : app_.get_subcommand("plot")->get_options()) {
             if (option->count() > 0) plot_.given.push_back(option->get_name());
@@ -549,9 +549,10 @@ class CommandLine {
         .argument("FILE", plot_.files, "What it is drawn from")
         .repeatable("--set PATH=VALUE", plot_.made_of.spec.overrides,
                     "Change a field of the spec: path=value; repeatable")
-        .option("-o,--output FILE", output_.file,
-                "F.svg, .png, .pdf, .gp (the gnuplot script) or .txt; without it the figure is "
-                "drawn with characters, as wide as the terminal (COLUMNS, else 100)")
+        .option(
+            "-o,--output FILE", output_.file,
+            "F.svg, .txt, .pdf and .png (by gnuplot) or .gp (its script); without it the figure is "
+            "drawn with characters, as wide as the terminal (COLUMNS, else 100)")
         .voice(output_)
         .group("Figure")
         .option("--title WORDS", plot_.title,

@@ -237,7 +237,6 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   PageContent content;
   content.file = file;
   content.command = command;
-  content.gnuplot = run_gnuplot;
   if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
   if (!options.flight_logs.empty() || !options.power_log.empty()) {
     const ToldDiagnosis told = diagnose_logs(options, file);

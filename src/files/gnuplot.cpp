@@ -68,11 +68,11 @@ std::string run_gnuplot(const std::string& script) {
       ::posix_spawnp(&child, program.data(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) {
-    throw InputError("gnuplot", "draws the figures and cannot be started (" +
-                                    std::generic_category().message(error) +
-                                    "); install the Debian package gnuplot-nox, or let "
-                                    "tethercalc plot write the script for it with --output "
-                                    "FILE.gp");
+    throw InputError("gnuplot",
+                     "draws figures as .pdf and .png and cannot be started (" +
+                         std::generic_category().message(error) +
+                         "); install the Debian package gnuplot-nox, or draw the figure as .svg "
+                         "or with characters, which need none; FILE.gp is the script for it");
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {

@@ -1,8 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
-#include "report/gnuplot_script.hpp"
+#include "report/figure_data.hpp"
 #include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/text_table.hpp"
 
@@ -41,31 +42,43 @@ std::string words_of(std::span<const ShapeRequest> requests, const ShapeRequest&
   return out;
 }
 
-/// Around `needed`, as long as `length`.
-gp::Range widened(gp::Range needed, double length) {
-  const double spare = length - (needed.hi - needed.lo);
-  return {needed.lo - 0.5 * spare, needed.hi + 0.5 * spare};
-}
-
-gp::Range extent_of(const std::vector<Drawn>& drawn, double Vector3::*member) {
-  gp::Range range{0, 0};
+plot::Range extent_of(const std::vector<Drawn>& drawn, double Vector3::*member) {
+  plot::Range range{0, 0};
   for (const Drawn& one : drawn) {
     for (const CablePoint& p : one.study->shape.points) {
-      range = gp::joint(range, {p.position.*member, p.position.*member});
+      range = plot::joint(range, {p.position.*member, p.position.*member});
     }
   }
   return range;
 }
 
-gp::Plot view(const std::vector<Drawn>& drawn, int column, const Vector3& drone, double across) {
-  gp::Plot plot;
+/// The cables in the plane of `x` and another direction.
+plot::Panel view(const std::vector<Drawn>& drawn, double Vector3::*member, bool legend) {
+  plot::Panel panel{
+      .x = {.label = "to where the drone stands aside (m)", .range = extent_of(drawn, &Vector3::x)},
+      .y = {.range = extent_of(drawn, member)},
+      .layers = {plot::zero_line()}};
   for (std::size_t k = 0; k < drawn.size(); ++k) {
-    plot.curve(fmt::format("$cable{} using 1:{}", k, column), gp::curve_line(k, 1.2),
-               drawn[k].words);
+    plot::Curve curve{.colour = plot::curve_colour(k),
+                      .dash = plot::curve_dash(k),
+                      .width = 1.2,
+                      .words = legend ? drawn[k].words : ""};
+    for (const CablePoint& p : drawn[k].study->shape.points) {
+      curve.x.push_back(p.position.x);
+      curve.y.push_back(p.position.*member);
+    }
+    panel.layers.push_back(std::move(curve));
   }
-  plot.mark(0, 0, gp::point(colour::black, 5, 0.8), "station");
-  plot.mark(drone.x, across, gp::point(colour::black, 9, 0.9), "drone");
-  return plot;
+  const auto mark = [&](double x, double y, plot::Mark shape, const char* words) {
+    panel.layers.push_back(
+        plot::Points{.x = {x}, .y = {y}, .mark = shape, .words = legend ? words : ""});
+  };
+  const Vector3& drone = drawn.front().study->drone;
+  mark(0, 0, plot::Mark::square, "station");
+  mark(drone.x, drone.*member, plot::Mark::triangle, "drone");
+  panel.x.range = plot::with_margin(panel.x.range);
+  panel.y.range = plot::with_margin(panel.y.range);
+  return panel;
 }
 
 }  // namespace
@@ -84,57 +97,26 @@ Figure shape_figure(const std::string& name, std::span<const ShapeRequest> reque
   }
   if (drawn.empty()) throw std::invalid_argument("none of the cables asked for has a shape");
 
-  const gp::Range along = extent_of(drawn, &Vector3::x);
-  const gp::Range up = extent_of(drawn, &Vector3::z);
-  const gp::Range aside = extent_of(drawn, &Vector3::y);
+  const plot::Range up = extent_of(drawn, &Vector3::z);
+  const plot::Range aside = extent_of(drawn, &Vector3::y);
   const bool from_above = aside.hi - aside.lo > 1e-6 * (up.hi - up.lo);
-  const double rows = std::ceil(double(drawn.size() + 2) / 2);
-  const double top_of_second = 29.5 + rows;
-  Figure figure{.id = "shape",
-                .title = "The cable of " + name,
-                .description = {},
-                .lines = static_cast<int>(from_above ? top_of_second + 13 : 28.8 + rows)};
-  const gp::Layout layout(figure.lines, 0.105);
-  const double side = layout.shape_of_panel(3.5, 24);
-  const double above = layout.shape_of_panel(top_of_second, top_of_second + 9);
-  // One scale for all three directions.
-  const double width = 1.1 * std::max({along.hi - along.lo, (up.hi - up.lo) / side,
-                                       from_above ? (aside.hi - aside.lo) / above : 0.0});
-
+  Figure figure{.id = "shape", .title = "The cable of " + name, .heading = name, .to_scale = true};
   figure.description = fmt::format(
       "The cable between its station and a drone {} m up and {} m aside, to scale, from the "
       "side{}: "
       "{} shapes.{}",
       significant(requests.front().height, 3), significant(requests.front().offset, 3),
       from_above ? " and from above" : "", drawn.size(), left_out);
-  figure.script = gp::prelude();
-  for (std::size_t k = 0; k < drawn.size(); ++k) {
-    std::vector<double> x;
-    std::vector<double> y;
-    std::vector<double> z;
-    for (const CablePoint& p : drawn[k].study->shape.points) {
-      x.push_back(p.position.x);
-      y.push_back(p.position.y);
-      z.push_back(p.position.z);
-    }
-    figure.script += gp::data_block(fmt::format("cable{}", k), {x, y, z});
-  }
-  figure.script += gp::set_range("x", widened(along, width)) + gp::zero_line + "set multiplot\n";
-  const Vector3& drone = drawn.front().study->drone;
-  const gp::Plot from_side = view(drawn, 3, drone, drone.z);
-  figure.script += layout.panel(3.5, 24) + layout.heading(name) +
-                   layout.above(2.6, "height over the station (m)") +
-                   layout.below(26.6, "to where the drone stands aside (m)") +
-                   layout.legend(27.9, 2, from_side.legend()) +
-                   gp::set_range("y", widened(up, width * side)) + from_side.text();
+  plot::Panel side = view(drawn, &Vector3::z, true);
+  side.y.label = "height over the station (m)";
+  side.lines = 20.5;
+  figure.parts.emplace_back(std::move(side));
   if (from_above) {
-    const gp::Plot seen_from_above = view(drawn, 2, drone, drone.y);
-    figure.script += layout.panel(top_of_second, top_of_second + 9) + layout.legend(0, 1, {}) +
-                     layout.above(top_of_second - 0.9, "from above: to the left of that (m)") +
-                     layout.below(top_of_second + 11.6, "to where the drone stands aside (m)") +
-                     gp::set_range("y", widened(aside, width * above)) + seen_from_above.text();
+    plot::Panel above = view(drawn, &Vector3::y, false);
+    above.y.label = "from above: to the left of that (m)";
+    above.lines = 9;
+    figure.parts.emplace_back(std::move(above));
   }
-  figure.script += "unset multiplot\n";
   return figure;
 }
 

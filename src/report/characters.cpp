@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -44,10 +45,10 @@ bool unprintable(std::uint32_t c) {
 
 bool is_white_space(std::uint32_t c) { return c == '\n' || c == '\r' || c == '\t'; }
 
-/// Calls `take` with each character of `text` and its bytes, which are those of U+FFFD where there
-/// is no character.
-template <typename Take>
-void for_each_character(std::string_view text, const Take& take) {
+}  // namespace
+
+void for_each_character(std::string_view text,
+                        const std::function<void(std::uint32_t, std::string_view)>& take) {
   while (!text.empty()) {
     const auto [character, length] = first_character(text);
     take(character, character == 0xFFFD ? replacement : text.substr(0, length));
@@ -55,7 +56,45 @@ void for_each_character(std::string_view text, const Take& take) {
   }
 }
 
-}  // namespace
+int columns_of(std::uint32_t c) {
+  struct Range {
+    std::uint32_t first, last;
+  };
+  constexpr std::array<Range, 4> put_on{
+      {{0x0300, 0x036F}, {0x200B, 0x200D}, {0x20D0, 0x20FF}, {0xFE00, 0xFE0F}}};
+  constexpr std::array<Range, 10> wide{{{0x1100, 0x115F},
+                                        {0x2E80, 0x303E},
+                                        {0x3041, 0xA4CF},
+                                        {0xAC00, 0xD7A3},
+                                        {0xF900, 0xFAFF},
+                                        {0xFE30, 0xFE6F},
+                                        {0xFF00, 0xFF60},
+                                        {0xFFE0, 0xFFE6},
+                                        {0x1F300, 0x1FAFF},
+                                        {0x20000, 0x3FFFD}}};
+  const auto holds = [c](const Range& range) { return range.first <= c && c <= range.last; };
+  if (std::ranges::any_of(put_on, holds)) return 0;
+  return std::ranges::any_of(wide, holds) ? 2 : 1;
+}
+
+int columns_of(std::string_view text) {
+  int columns = 0;
+  for_each_character(text, [&](std::uint32_t c, std::string_view) { columns += columns_of(c); });
+  return columns;
+}
+
+std::string cut_to_columns(std::string_view text, int room) {
+  if (columns_of(text) <= room) return std::string(text);
+  std::string out;
+  int columns = 1;  // of the ellipsis
+  bool full = false;
+  for_each_character(text, [&](std::uint32_t c, std::string_view bytes) {
+    columns += columns_of(c);
+    full = full || columns > room;
+    if (!full) out += bytes;
+  });
+  return out + "…";
+}
 
 std::string printable(std::string_view text, std::size_t longest) {
   std::vector<std::string_view> characters;

@@ -1,9 +1,14 @@
 #include "tethercalc/report/result_figures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "report/gnuplot_script.hpp"
+#include "model/constants.hpp"
+#include "report/figure_data.hpp"
+#include "report/figure_ticks.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
@@ -11,10 +16,15 @@ namespace {
 
 constexpr std::size_t most_samples = 700;
 
-std::string outline_block(std::string_view name, std::span<const double> time,
-                          std::span<const double> values) {
-  const gp::Series drawn = gp::outline(time, values);
-  return gp::data_block(name, {drawn.x, drawn.y});
+plot::Curve outline_curve(std::span<const double> time, std::span<const double> values,
+                          plot::Colour colour, plot::Dash dash, const std::string& words = "") {
+  plot::Series drawn = plot::outline(time, values);
+  return {.x = std::move(drawn.x),
+          .y = std::move(drawn.y),
+          .colour = colour,
+          .dash = dash,
+          .width = 0.8,
+          .words = words};
 }
 
 double root_mean_square(std::span<const double> values) {
@@ -71,7 +81,7 @@ struct SteadyPoint {
 };
 
 /// Steady flight in both directions, over `range` in m/s.
-std::vector<SteadyPoint> steady_line(const DragFit& fit, gp::Range range) {
+std::vector<SteadyPoint> steady_line(const DragFit& fit, plot::Range range) {
   std::vector<SteadyPoint> out;
   constexpr int steps = 60;
   for (int i = 0; i <= steps; ++i) {
@@ -98,7 +108,7 @@ std::string parameter_words(const DragFit& fit) {
 }
 
 /// How many values the frame leaves out, where it does.
-std::string outside_words(std::span<const double> values, gp::Range range) {
+std::string outside_words(std::span<const double> values, plot::Range range) {
   const auto outside = std::ranges::count_if(
       values, [range](double value) { return value < range.lo || value > range.hi; });
   return outside == 0 ? "" : fmt::format("{} sample{} outside", outside, outside == 1 ? "" : "s");
@@ -112,13 +122,100 @@ std::string samples_words(std::size_t step) {
   return fmt::format(" (every {}{})", step, ending);
 }
 
+/// Those of the samples as points over the airspeed.
+plot::Points over_airspeed(const std::vector<DragSample>& samples, double DragSample::*member,
+                           plot::Mark mark, plot::Colour colour, const std::string& words) {
+  return {.x = plot::column(samples, &DragSample::airspeed),
+          .y = plot::column(samples, member),
+          .mark = mark,
+          .colour = colour,
+          .words = words};
+}
+
+plot::Curve steady_curve(const std::vector<SteadyPoint>& steady, double SteadyPoint::*member,
+                         const std::string& words) {
+  return {.x = plot::column(steady, &SteadyPoint::airspeed),
+          .y = plot::column(steady, member),
+          .width = 1.5,
+          .words = words};
+}
+
+/// What the fitted drag is over airspeed and tilt.
+class DragSurface {
+ public:
+  DragSurface(const DragFit& fit, plot::Range airspeeds, plot::Range tilts)
+      : fit_(fit), airspeeds_(airspeeds), tilts_(tilts) {}
+
+  /// Lines of equal drag at round numbers of newtons.
+  [[nodiscard]] std::vector<plot::Layer> contours() const {
+    plot::Range forces =
+        plot::extent(std::array{force(airspeeds_.lo, tilts_.lo), force(airspeeds_.lo, tilts_.hi),
+                                force(airspeeds_.hi, tilts_.lo), force(airspeeds_.hi, tilts_.hi)});
+    std::vector<plot::Layer> out;
+    for (const plot::Tick& level : plot::round_ticks(forces, 9, plot::Minus::typographic)) {
+      plot::Curve line = contour(level.at);
+      const auto shown = std::ranges::count_if(line.x, [](double x) { return std::isfinite(x); });
+      if (shown < 2) continue;
+      line.label = level.words + " N";
+      line.words = out.empty() ? "fitted drag" : "";
+      out.push_back(std::move(line));
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] double force(double airspeed, double tilt) const {
+    return airframe_drag_force(fit_.drag(), fit_.conditions.air_density, airspeed,
+                               std::tan(tilt * unit::degree));
+  }
+
+  /// At each tilt, drag rises with the airspeed.
+  [[nodiscard]] plot::Curve contour(double level) const {
+    plot::Curve out{.colour = plot::Colour::grey, .width = 0.8};
+    constexpr int steps = 60;
+    for (int i = 0; i <= steps; ++i) {
+      const double tilt = tilts_.lo + (tilts_.hi - tilts_.lo) * i / steps;
+      auto [lo, hi] = airspeeds_;
+      const bool reached = force(lo, tilt) <= level && level <= force(hi, tilt);
+      constexpr int halvings = 40;
+      for (int k = 0; k < halvings; ++k) {
+        const double middle = (lo + hi) / 2;
+        (force(middle, tilt) < level ? lo : hi) = middle;
+      }
+      out.x.push_back(reached ? lo : nan);
+      out.y.push_back(tilt);
+    }
+    return out;
+  }
+
+  const DragFit& fit_;
+  plot::Range airspeeds_;
+  plot::Range tilts_;
+};
+
+/// The samples that the fit leaves something of, either more or less than it; the area of a mark
+/// goes with how much.
+plot::Points left_over(const std::vector<DragSample>& samples, bool more, double most,
+                       const std::string& words) {
+  plot::Points out{.mark = more ? plot::Mark::dot : plot::Mark::circle,
+                   .colour = more ? plot::Colour::blue : plot::Colour::vermilion,
+                   .words = words};
+  for (const DragSample& sample : samples) {
+    if ((sample.residual > 0) != more) continue;
+    out.x.push_back(sample.airspeed);
+    out.y.push_back(sample.tilt);
+    out.sizes.push_back(1.2 * std::sqrt(std::min(1.0, std::abs(sample.residual) / most)));
+  }
+  return out;
+}
+
 }  // namespace
 
 Figure log_figure(const std::string& name, const Observations& flight) {
-  Figure figure{.id = "log", .title = "Accelerations of " + name, .description = {}, .lines = 43};
+  Figure figure{.id = "log", .title = "Accelerations of " + name, .heading = name};
   const std::vector<double> drag = forward_drag_over_mass(flight);
-  const gp::Range drags = gp::extent(drag);
-  const gp::Range speeds = gp::extent(flight.forward_speed);
+  const plot::Range drags = plot::extent(drag);
+  const plot::Range speeds = plot::extent(flight.forward_speed);
   figure.description = fmt::format(
       "Three diagrams over {} s of flight, {} samples: forward acceleration expected from the "
       "attitude and observed; drag per mass, their difference, {} m/s² root mean square and at "
@@ -126,169 +223,121 @@ Figure log_figure(const std::string& name, const Observations& flight) {
       fixed(flight.time.back() - flight.time.front(), 0), flight.size(),
       fixed(root_mean_square(drag), 2), fixed(std::max(drags.hi, -drags.lo), 2),
       fixed(speeds.lo, 1), fixed(speeds.hi, 1));
-  const gp::Layout layout(figure.lines, 0.105);
-  figure.script = gp::prelude() +
-                  outline_block("expected", flight.time, flight.expected_acceleration) +
-                  outline_block("observed", flight.time, flight.forward_acceleration) +
-                  outline_block("drag", flight.time, drag) +
-                  outline_block("speed", flight.time, flight.forward_speed);
-  figure.script += gp::set_range("x", {flight.time.front(), flight.time.back()}) + gp::zero_line +
-                   "set multiplot\n";
-
-  gp::Plot accelerations;
-  accelerations.curve("$expected using 1:2", gp::line(colour::blue, 1, 0.7), "expected (attitude)");
-  accelerations.curve("$observed using 1:2", gp::line(colour::sky, 1, 0.7), "observed");
-  figure.script +=
-      layout.panel(3.5, 14.5) + layout.heading(name) +
-      layout.above(2.6, "forward acceleration (m/s²)") +
-      layout.legend(15.6, 2, accelerations.legend()) +
-      gp::set_range("y", gp::with_margin(gp::joint(gp::extent(flight.expected_acceleration),
-                                                   gp::extent(flight.forward_acceleration)))) +
-      "set format x ''\n" + accelerations.text();
-
-  gp::Plot difference_plot;
-  difference_plot.curve("$drag using 1:2", gp::line(colour::vermilion, 1, 0.7));
-  figure.script += layout.panel(18.5, 28) + layout.legend(0, 1, {}) +
-                   layout.above(17.6, "drag per mass, expected less observed (m/s²)") +
-                   gp::set_range("y", gp::with_margin(drags)) + difference_plot.text();
-
-  gp::Plot speed;
-  speed.curve("$speed using 1:2", gp::line(colour::black, 1, 0.8));
-  figure.script += layout.panel(30.6, 39) + layout.legend(0, 1, {}) +
-                   layout.above(29.7, "forward speed over ground (m/s)") +
-                   layout.below(41.6, "time of the log (s)") +
-                   gp::set_range("y", gp::with_margin(speeds)) + "set format x '%g'\n" +
-                   speed.text() + "unset multiplot\n";
+  using plot::Colour;
+  using plot::Dash;
+  const plot::Range times{flight.time.front(), flight.time.back()};
+  const auto panel = [&](const std::string& label, double lines, plot::Range range,
+                         std::vector<plot::Layer> curves) {
+    curves.insert(curves.begin(), plot::zero_line());
+    return plot::Panel{.x = {.range = times, .numbers = false},
+                       .y = {.label = label, .range = plot::with_margin(range)},
+                       .lines = lines,
+                       .layers = std::move(curves)};
+  };
+  figure.parts.emplace_back(panel("forward acceleration (m/s²)", 11,
+                                  plot::joint(plot::extent(flight.expected_acceleration),
+                                              plot::extent(flight.forward_acceleration)),
+                                  {outline_curve(flight.time, flight.expected_acceleration,
+                                                 Colour::blue, Dash::solid, "expected (attitude)"),
+                                   outline_curve(flight.time, flight.forward_acceleration,
+                                                 Colour::orange, Dash::dashed, "observed")}));
+  figure.parts.emplace_back(
+      panel("drag per mass, expected less observed (m/s²)", 9.5, drags,
+            {outline_curve(flight.time, drag, Colour::vermilion, Dash::solid)}));
+  plot::Panel speed =
+      panel("forward speed over ground (m/s)", 8.5, speeds,
+            {outline_curve(flight.time, flight.forward_speed, Colour::ink, Dash::solid)});
+  speed.x.label = "time of the log (s)";
+  speed.x.numbers = true;
+  figure.parts.emplace_back(std::move(speed));
   return figure;
 }
 
 Figure drag_figure(const DragStudy& drag) {
   const std::vector<DragSample> all = samples_of(drag);
-  const std::size_t step = gp::thinning(all.size(), most_samples);
+  const std::size_t step = plot::thinning(all.size(), most_samples);
   const std::vector<DragSample> shown = thinned(all, step);
-  const std::vector<double> measured = gp::column(all, &DragSample::measured);
-  const gp::Range flown = gp::extent(gp::column(all, &DragSample::airspeed));
-  const gp::Range speeds = gp::with_margin(flown, 0.03);
+  const std::vector<double> measured = plot::column(all, &DragSample::measured);
+  const plot::Range flown = plot::extent(plot::column(all, &DragSample::airspeed));
+  const plot::Range speeds = plot::with_margin(flown, 0.03);
   const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, flown);
 
-  Figure figure{.id = "drag", .title = "Drag of " + drag.name, .description = {}, .lines = 40};
+  Figure figure{.id = "drag", .title = "Drag of " + drag.name, .heading = drag.name};
   figure.description = fmt::format(
       "Drag in newtons over airspeed from {} to {} m/s, measured at {} samples{} and fitted: {}. "
       "The line is steady flight. Below, measured less fitted: {} m/s² root mean square.",
       fixed(flown.lo, 1), fixed(flown.hi, 1), all.size(), samples_words(step),
       parameter_words(drag.identified.fit), fixed(drag.identified.fit.quality.rmse, 3));
-  const gp::Layout layout(figure.lines, 0.105);
-  figure.script = gp::prelude() +
-                  gp::data_block("samples", shown,
-                                 {&DragSample::airspeed, &DragSample::measured, &DragSample::fitted,
-                                  &DragSample::residual}) +
-                  gp::data_block("steady", steady,
-                                 {&SteadyPoint::airspeed, &SteadyPoint::force, &SteadyPoint::lower,
-                                  &SteadyPoint::upper});
-
-  gp::Plot plot;
-  const double dot = 0.004 * (speeds.hi - speeds.lo);
-  plot.add("$steady using 1:3:4 with filledcurves " + gp::area(colour::black, 0.25));
-  plot.dots("$samples", 1, 2, dot, colour::blue, "measured" + samples_words(step));
-  plot.dots("$samples", 1, 3, dot, colour::vermilion, "fitted" + samples_words(step));
-  plot.curve("$steady using 1:2", gp::line(colour::black, 1, 1.4), "steady flight");
+  using plot::Colour;
+  using plot::Mark;
+  const plot::Range forces = plot::bulk(measured);
+  plot::Panel fit{.x = {.range = speeds, .numbers = false},
+                  .y = {.label = "drag (N)", .range = forces},
+                  .remark = outside_words(measured, forces),
+                  .lines = 16.5};
+  fit.layers = {plot::zero_line(),
+                plot::Band{.x = plot::column(steady, &SteadyPoint::airspeed),
+                           .lower = plot::column(steady, &SteadyPoint::lower),
+                           .upper = plot::column(steady, &SteadyPoint::upper),
+                           .words = "its 95 % interval"},
+                over_airspeed(shown, &DragSample::measured, Mark::speck, Colour::blue,
+                              "measured" + samples_words(step)),
+                over_airspeed(shown, &DragSample::fitted, Mark::cross, Colour::vermilion,
+                              "fitted" + samples_words(step)),
+                steady_curve(steady, &SteadyPoint::force, "steady flight")};
   if (drag.without_linear) {
-    figure.script += gp::data_block("bare", steady_line(*drag.without_linear, flown),
-                                    {&SteadyPoint::airspeed, &SteadyPoint::force});
-    plot.curve("$bare using 1:2", gp::line(colour::orange, 2, 1.6), "without a linear term");
+    plot::Curve bare = steady_curve(steady_line(*drag.without_linear, flown), &SteadyPoint::force,
+                                    "without a linear term");
+    bare.colour = Colour::orange;
+    bare.dash = plot::Dash::dashed;
+    fit.layers.emplace_back(std::move(bare));
   }
-  plot.entry({gp::LegendEntry::Sample::area, gp::area(colour::black, 0.25), "its 95 % interval"});
-  gp::Plot rest;
-  rest.dots("$samples", 1, 4, dot, colour::green);
-
-  figure.script += gp::set_range("x", speeds) + gp::zero_line + "set multiplot\n";
-  const gp::Range forces = gp::bulk(measured);
-  figure.script += layout.panel(3.5, 20) + layout.heading(drag.name) +
-                   layout.above(2.6, "drag (N)", outside_words(measured, forces)) +
-                   layout.legend(21.2, 2, plot.legend()) + gp::set_range("y", forces) +
-                   "set format x ''\n" + plot.text();
-  figure.script += layout.panel(27, 36) + layout.above(26, "measured less fitted (N)") +
-                   layout.legend(0, 1, {}) + layout.below(38.6, "airspeed, forward (m/s)") +
-                   gp::set_range("y", gp::bulk(gp::column(shown, &DragSample::residual))) +
-                   "set format x '%g'\n" + rest.text() + "unset multiplot\n";
+  const plot::Panel rest{
+      .x = {.label = "airspeed, forward (m/s)", .range = speeds},
+      .y = {.label = "measured less fitted (N)",
+            .range = plot::bulk(plot::column(shown, &DragSample::residual))},
+      .lines = 9,
+      .layers = {plot::zero_line(),
+                 over_airspeed(shown, &DragSample::residual, Mark::speck, Colour::green, "")}};
+  figure.parts = {std::move(fit), rest};
   return figure;
 }
 
 Figure drag_surface_figure(const DragStudy& drag) {
   const std::vector<DragSample> all = samples_of(drag);
   constexpr std::size_t most_dots = 500;
-  const std::size_t step = gp::thinning(all.size(), most_dots);
-  const std::vector<double> measured = gp::column(all, &DragSample::measured);
-  const auto [slowest, fastest] = gp::extent(gp::column(all, &DragSample::airspeed));
-  const auto [least_tilt, most_tilt] = gp::extent(gp::column(all, &DragSample::tilt));
-  const gp::Range forces = gp::bulk(measured);
-  const std::string outside = outside_words(measured, forces);
+  const std::size_t step = plot::thinning(all.size(), most_dots);
+  const std::vector<DragSample> shown = thinned(all, step);
+  const plot::Range airspeeds = plot::extent(plot::column(all, &DragSample::airspeed));
+  const plot::Range tilts = plot::extent(plot::column(all, &DragSample::tilt));
+  const DragFit& fit = drag.identified.fit;
+  std::vector<double> sizes;
+  for (const DragSample& sample : all) sizes.push_back(std::abs(sample.residual));
+  std::ranges::sort(sizes);
+  const double large = sizes[sizes.size() * 99 / 100];  // rare ones would make specks of the rest
 
   Figure figure{.id = "dragsurface",
                 .title = "Drag of " + drag.name + " over airspeed and tilt",
-                .description = {},
-                .lines = 32};
+                .heading = drag.name};
   figure.description = fmt::format(
-      "A surface of drag in newtons over airspeed from {} to {} m/s and tilt from {} to {} "
-      "degrees, positive leaning forward: {}. Dots are measured drag{}, the line is steady "
-      "flight{}.",
-      fixed(slowest, 1), fixed(fastest, 1), fixed(least_tilt, 0), fixed(most_tilt, 0),
-      parameter_words(drag.identified.fit), samples_words(step),
-      outside.empty() ? "" : "; " + outside);
-  constexpr int grid = 16;
-  figure.script = gp::prelude() + "$surface << EOD\n";
-  for (int i = 0; i <= grid; ++i) {
-    const double airspeed = slowest + (fastest - slowest) * i / grid;
-    for (int k = 0; k <= grid; ++k) {
-      const double tilt = least_tilt + (most_tilt - least_tilt) * k / grid;
-      const double force = airframe_drag_force(drag.identified.fit.drag(),
-                                               drag.identified.fit.conditions.air_density, airspeed,
-                                               std::tan(tilt * unit::degree));
-      figure.script +=
-          fmt::format("{} {} {}\n", gp::number(airspeed), gp::number(tilt), gp::number(force));
-    }
-    figure.script += "\n";
-  }
-  figure.script += "EOD\n";
-  const std::vector<SteadyPoint> steady = steady_line(drag.identified.fit, {slowest, fastest});
-  figure.script +=
-      gp::data_block(
-          "samples", thinned(all, step),
-          {&DragSample::airspeed, &DragSample::tilt, &DragSample::measured, &DragSample::fitted}) +
-      gp::data_block("steady", steady,
-                     {&SteadyPoint::airspeed, &SteadyPoint::tilt, &SteadyPoint::force});
-
-  gp::Plot plot;
-  const double dot = 0.004 * (fastest - slowest);
-  plot.curve("$surface using 1:2:3", gp::line(colour::vermilion, 1, 0.5), "fitted");
-  plot.add("$samples using 1:2:4:(0):(0):($3-$4) with vectors nohead " +
-           gp::line(colour::sky, 1, 0.5));
-  plot.add(fmt::format("$samples using 1:2:3:({}*dot_length):(0):(0) with vectors nohead {}",
-                       gp::number(dot), gp::line(colour::blue, 1, 1.4)),
-           "measured" + samples_words(step));
-  plot.entry({gp::LegendEntry::Sample::point, gp::point(colour::blue, 5, 0.4),
-              "measured" + samples_words(step)});
-  plot.entry({gp::LegendEntry::Sample::line, gp::line(colour::sky, 1, 0.8), "what the fit leaves"});
-  plot.curve("$steady using 1:2:3", gp::line(colour::black, 1, 2), "steady flight");
-
-  const gp::Layout layout(figure.lines, 0.105);
-  figure.script += layout.heading(drag.name) + layout.above(6.5, "drag (N)") +
-                   layout.legend(29, 2, plot.legend());
-  figure.script +=
-      "set view 58,332,1.2,0.85\n"
-      "set size 1,0.82\n"
-      "set origin 0,0.12\n"
-      "set ticslevel 0\n"
-      "set border 31 lw 0.5\n"
-      "set grid lw 0.3\n"
-      "set xtics offset 0,-0.3\n"
-      "set ytics offset 0.3,-0.2\n"
-      // gnuplot's own axis labels may be pushed out of the picture, and are then left out.
-      "set label 1 'tilt (deg)' at screen 0.01,screen 0.24 left\n"
-      "set label 2 'airspeed (m/s)' at screen 0.97,screen 0.18 right\n";
-  figure.script += gp::set_range("x", {slowest, fastest}) +
-                   gp::set_range("y", {least_tilt, most_tilt}) + gp::set_range("z", forces) +
-                   plot.text("splot");
+      "Lines of equal fitted drag over airspeed from {} to {} m/s and tilt from {} to {} degrees, "
+      "positive leaning forward: {}. Marks are samples{}, full where measured drag is more than "
+      "fitted and hollow where it is less; the largest stand for {} N and more. The thick line is "
+      "steady flight.",
+      fixed(airspeeds.lo, 1), fixed(airspeeds.hi, 1), fixed(tilts.lo, 0), fixed(tilts.hi, 0),
+      parameter_words(fit), samples_words(step), significant(large, 2));
+  plot::Panel panel{
+      .x = {.label = "airspeed, forward (m/s)", .range = plot::with_margin(airspeeds, 0.03)},
+      .y = {.label = "tilt (deg)", .range = plot::with_margin(tilts, 0.03)},
+      .lines = 20,
+      .layers = DragSurface(fit, airspeeds, tilts).contours()};
+  panel.layers.emplace_back(left_over(shown, true, large, "measured more" + samples_words(step)));
+  panel.layers.emplace_back(left_over(shown, false, large, "measured less" + samples_words(step)));
+  panel.layers.emplace_back(
+      steady_curve(steady_line(fit, airspeeds), &SteadyPoint::tilt, "steady flight"));
+  panel.key = {fmt::format("The largest marks are {} N and more off the fitted drag.",
+                           significant(large, 2))};
+  figure.parts = {std::move(panel)};
   return figure;
 }
 

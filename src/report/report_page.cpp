@@ -10,6 +10,7 @@
 
 #include "io/embedded_files.hpp"
 #include "report/characters.hpp"
+#include "report/figure_svg.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
@@ -99,19 +100,9 @@ std::string listing(std::string_view text, std::string_view label) {
                                                  markup_text(label))));
 }
 
-/// The figure as inline SVG, drawn by gnuplot; see `render`.
-std::string picture(const Figure& figure, const GnuplotRunner& gnuplot) {
-  std::string svg = render(figure, FigureFormat::svg, gnuplot);
-  const std::size_t root = svg.find("<svg ");
-  if (root == std::string::npos) throw std::runtime_error("gnuplot wrote no SVG");
-  svg.erase(0, root);
-  // Titles that gnuplot numbers its curves by would show up under the pointer.
-  const std::string_view begin = "<title>";
-  const std::string_view end = "</title>";
-  for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
-    svg.erase(at, svg.find(end, at) + end.size() - at);
-  }
-  return "<figure class=\"picture\">\n" + svg + "</figure>\n";
+/// The figure as inline SVG, in the page's colours.
+std::string picture(const Figure& figure) {
+  return "<figure class=\"picture\">\n" + plot::svg_element(figure) + "</figure>\n";
 }
 
 }  // namespace html
@@ -172,8 +163,7 @@ Section answer_section(const PageContent& content) {
 
 Section cross_sections(const PageContent& content) {
   const OptimumStudy& study = content.optimum;
-  std::string body =
-      html::picture(optimum_figure(content.file.name, study, content.curve), content.gnuplot);
+  std::string body = html::picture(optimum_figure(content.file.name, study, content.curve));
   if (!study.sizes.empty()) body += html::table(sizes_table(study), "table-sizes");
   if (!study.table.empty()) body += html::table(power_table(study), "table-power");
   return {"cross-sections", "Thrust and power over the cross-section", std::move(body)};
@@ -190,7 +180,7 @@ Section cable_section(const PageContent& content) {
       studies, [](const ShapeStudy& study) { return study.outcome == CableOutcome::hangs; });
   std::string body;
   if (any_hangs) {
-    body = html::picture(shape_figure(content.file.name, requests, studies), content.gnuplot);
+    body = html::picture(shape_figure(content.file.name, requests, studies));
     body += html::table(flown_cable_table(content.cable), "table-cable");
   }
   body += html::paragraphs(flown_cable_sentences(content.cable));
@@ -199,7 +189,7 @@ Section cable_section(const PageContent& content) {
 
 Section other_motors(const PageContent& content) {
   const DesignFile& file = content.file;
-  std::string body = html::picture(motors_figure(file, content.motors), content.gnuplot);
+  std::string body = html::picture(motors_figure(file, content.motors));
   const TitledTable ranking = motor_table(file.design, content.motors);
   if (!ranking.table.rows().empty()) body += html::table(ranking, "table-motors");
   const std::vector<std::string> refused = refused_motors(content.motors);
@@ -207,26 +197,26 @@ Section other_motors(const PageContent& content) {
   return {"motors", "The same drone, motor by motor", std::move(body)};
 }
 
-Section drag_section(const DragStudy& drag, const GnuplotRunner& gnuplot) {
+Section drag_section(const DragStudy& drag) {
   const DragFit& fit = drag.identified.fit;
   const DragSentences told = drag_sentences(drag.identified);
   std::string body = html::paragraphs(told.made_of);
   body += html::table(drag_parameter_table(fit), "table-drag");
   body += html::paragraphs(told.quality);
-  body += html::picture(drag_figure(drag), gnuplot);
+  body += html::picture(drag_figure(drag));
   const TitledTable steady = steady_flight_table(fit);
   if (!steady.table.rows().empty()) body += html::table(steady, "table-steady-drag");
   return {"drag", "Drag learned from " + drag.name, std::move(body)};
 }
 
 /// The story with its figure after the opening paragraphs, which say what it shows.
-Section diagnosis_section(const LogDiagnosis& log, const GnuplotRunner& gnuplot) {
+Section diagnosis_section(const LogDiagnosis& log) {
   const std::string id = log.diagnosis.kind + "-diagnosis";
   std::string picture;
   if (!log.diagnosis.compared.empty()) {  // the log was long enough to judge by
     Figure figure = diagnosis_figure(log.log, log.diagnosis);
     figure.id = log.diagnosis.kind + "_diagnosis";  // a page may hold two
-    picture = html::picture(figure, gnuplot);
+    picture = html::picture(figure);
   }
   std::string body;
   int tables = 0;
@@ -318,9 +308,8 @@ std::string report_page(const PageContent& content) {
   std::vector<Section> sections{answer_section(content), cross_sections(content)};
   if (!content.cable.empty()) sections.push_back(cable_section(content));
   if (!content.motors.empty()) sections.push_back(other_motors(content));
-  if (content.drag) sections.push_back(drag_section(*content.drag, content.gnuplot));
-  for (const LogDiagnosis& log : content.diagnoses)
-    sections.push_back(diagnosis_section(log, content.gnuplot));
+  if (content.drag) sections.push_back(drag_section(*content.drag));
+  for (const LogDiagnosis& log : content.diagnoses) sections.push_back(diagnosis_section(log));
   sections.push_back(spec_section(content.file));
   sections.push_back(method_section(content));
 

@@ -1,5 +1,7 @@
 #include "tethercalc/report/sweep_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,7 @@
 #include "io/closest_name.hpp"
 #include "io/csv.hpp"
 #include "model/constants.hpp"
-#include "report/gnuplot_script.hpp"
+#include "report/figure_data.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
@@ -142,12 +144,6 @@ std::pair<std::string_view, const char*> unit_ending(std::string_view name) {
 constexpr std::size_t most_curves = 7;
 constexpr std::size_t most_cells = 40000;
 
-/// Viridis of matplotlib (van der Walt and Smith 2015, public domain): evenly rising lightness,
-/// read alike with every kind of colour vision and in print without colour.
-constexpr const char* palette =
-    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', "
-    "5 '#1f9e89', 6 '#35b779', 7 '#6ece58', 8 '#b5de2b', 9 '#fde725') maxcolors 64\n";
-
 std::vector<const SweepColumn*> varying(const SweepTable& table) {
   std::vector<const SweepColumn*> out;
   for (const SweepColumn& column : table.varied) {
@@ -210,28 +206,28 @@ std::string others_words(const SweepTable& table, const Axes& axes) {
 }
 
 /// The least value at every place.
-struct Cell {
+struct Outcome {
   double x = 0;
   double y = 0;
   double value = nan;
 };
 
-std::vector<Cell> cells_of(const SweepTable& table, const Axes& axes) {
+std::vector<Outcome> outcomes_of(const SweepTable& table, const Axes& axes) {
   std::map<std::pair<double, double>, double> least;  // by y, then x
   for (std::size_t i = 0; i < table.value.size(); ++i) {
     const double y = axes.y == nullptr ? 0 : axes.y->values[i];
     double& value = least.emplace(std::pair{y, axes.x->values[i]}, nan).first->second;
     value = std::fmin(value, table.value[i]);  // of a number and NaN, the number
   }
-  std::vector<Cell> out;
+  std::vector<Outcome> out;
   for (const auto& [place, value] : least) out.push_back({place.second, place.first, value});
   return out;
 }
 
-const Cell* least_of(const std::vector<Cell>& cells) {
-  const Cell* least = nullptr;
-  for (const Cell& cell : cells) {
-    if (std::isfinite(cell.value) && (least == nullptr || cell.value < least->value)) least = &cell;
+const Outcome* least_of(const std::vector<Outcome>& outcomes) {
+  const Outcome* least = nullptr;
+  for (const Outcome& one : outcomes) {
+    if (std::isfinite(one.value) && (least == nullptr || one.value < least->value)) least = &one;
   }
   return least;
 }
@@ -241,7 +237,7 @@ std::string value_words(const SweepColumn& column, double value) {
   return column.names.empty() ? fmt::format("{:.4g}", value) : column.names[std::size_t(value)];
 }
 
-std::string least_words(const Axes& axes, const Cell& least) {
+std::string least_words(const Axes& axes, const Outcome& least) {
   std::string out = significant(least.value, 4) + " at " + value_words(*axes.x, least.x);
   if (axes.y != nullptr) out += ", " + value_words(*axes.y, least.y);
   return out;
@@ -262,27 +258,27 @@ struct Edges {
     edges.push_back(values.back() + last / 2);
   }
 
-  [[nodiscard]] gp::Range range() const { return {edges.front(), edges.back()}; }
-  [[nodiscard]] std::size_t index(double value) const {
-    return std::size_t(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+  [[nodiscard]] plot::Range range() const { return {edges.front(), edges.back()}; }
+  /// The cell of a value.
+  [[nodiscard]] plot::Range around(double value) const {
+    const auto at = std::lower_bound(values.begin(), values.end(), value) - values.begin();
+    return {edges[std::size_t(at)], edges[std::size_t(at) + 1]};
   }
 };
 
-/// Ticks at names, numbered from 1; numbers get gnuplot's own.
-std::string tics(std::string_view axis, const SweepColumn& column) {
-  if (column.names.empty()) return fmt::format("set {}tics autofreq\n", axis);
-  std::string list;
+/// The axis of a field: names stand as numbers from 1, numbers as themselves.
+plot::Axis axis_over(const SweepColumn& column, plot::Range range) {
+  plot::Axis axis{.label = axis_label(column.path), .range = range};
   for (std::size_t i = 0; i < column.names.size(); ++i) {
-    list += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", i + 1, i);
+    axis.ticks.push_back({double(i), std::to_string(i + 1)});
   }
-  return fmt::format("set {}tics ({})\n", axis, list);
+  return axis;
 }
 
-/// Explains in the legend what the numbers along an axis of names stand for.
-void explain_names(gp::Plot& plot, const SweepColumn& column) {
+/// What the numbers along an axis of names stand for.
+void explain_names(plot::Panel& panel, const SweepColumn& column) {
   for (std::size_t i = 0; i < column.names.size(); ++i) {
-    plot.entry({gp::LegendEntry::Sample::none, "",
-                fmt::format("{} {}: {}", axis_label(column.path), i + 1, column.names[i])});
+    panel.key.push_back(fmt::format("{} {}: {}", axis_label(column.path), i + 1, column.names[i]));
   }
 }
 
@@ -292,131 +288,99 @@ std::string subtitle(const SweepTable& table, const Axes& axes) {
 }
 
 std::string description_of(const SweepTable& table, const Axes& axes,
-                           const std::vector<Cell>& cells) {
+                           const std::vector<Outcome>& outcomes) {
   std::string out =
       fmt::format("{} over {}", axis_label(table.value_column), axis_label(axes.x->path));
   if (axes.y != nullptr) out += fmt::format(" and {}", axis_label(axes.y->path));
   const std::string others = others_words(table, axes);
   if (!others.empty()) out += ", " + others;
   out += fmt::format(", from {} rows", table.value.size());
-  if (const Cell* least = least_of(cells)) {
+  if (const Outcome* least = least_of(outcomes)) {
     out += fmt::format("; least {}", least_words(axes, *least));
   }
   if (table.infeasible > 0) out += fmt::format("; {} rows have no value", table.infeasible);
   return out + ".";
 }
 
+plot::Points least_mark(const Axes& axes, const Outcome& least, double y) {
+  return {.x = {least.x},
+          .y = {y},
+          .mark = plot::Mark::diamond,
+          .colour = plot::Colour::vermilion,
+          .words = "least: " + least_words(axes, least)};
+}
+
 /// Curves over x: one, or one a name of y.
-Figure curves_figure(const SweepTable& table, const Axes& axes, const std::vector<Cell>& cells,
-                     Figure figure) {
-  gp::Plot plot;
-  figure.script = gp::prelude();
+plot::Panel curves_panel(const SweepTable& table, const Axes& axes,
+                         const std::vector<Outcome>& outcomes) {
+  const plot::Range places = plot::extent(plot::column(outcomes, &Outcome::x));
+  const plot::Range values = plot::extent(plot::column(outcomes, &Outcome::value));
+  plot::Panel panel{.x = axis_over(*axes.x, plot::with_margin(places, 0.03)),
+                    .y = {.label = subtitle(table, axes), .range = plot::with_margin(values, 0.06)},
+                    .lines = 18.5};
   const std::size_t curves = axes.y == nullptr ? 1 : axes.y->names.size();
   for (std::size_t k = 0; k < curves; ++k) {
-    std::vector<Cell> own;
-    for (const Cell& cell : cells) {
-      if (axes.y == nullptr || cell.y == double(k)) own.push_back(cell);
+    std::vector<Outcome> own;
+    for (const Outcome& one : outcomes) {
+      if (axes.y == nullptr || one.y == double(k)) own.push_back(one);
     }
-    const std::string name = fmt::format("curve{}", k + 1);
-    figure.script += gp::data_block(name, own, {&Cell::x, &Cell::value});
-    const std::string data = fmt::format("${} using 1:2", name);
     const std::string words = axes.y == nullptr ? "" : axes.y->names[k];
-    const std::string dots = gp::point(gp::curve_colour(k), 7, 0.4);
-    constexpr std::size_t most_marked = 40;
-    if (!axes.x->names.empty()) {
-      plot.points(data, dots, words);  // there is nothing between two names
-    } else {
-      plot.curve(data, gp::curve_line(k, 1.5), words);
-      if (own.size() <= most_marked) plot.points(data, dots);
+    const bool names = !axes.x->names.empty();  // there is nothing between two of them
+    plot::Points points{.x = plot::column(own, &Outcome::x),
+                        .y = plot::column(own, &Outcome::value),
+                        .mark = plot::Mark::dot,
+                        .colour = plot::curve_colour(k),
+                        .words = names ? words : "",
+                        .sizes = std::vector<double>(own.size(), 0.7)};
+    if (!names) {
+      panel.layers.push_back(plot::Curve{.x = points.x,
+                                         .y = points.y,
+                                         .colour = points.colour,
+                                         .dash = plot::curve_dash(k),
+                                         .width = 1.5,
+                                         .words = words});
     }
+    constexpr std::size_t most_marked = 40;
+    if (names || own.size() <= most_marked) panel.layers.push_back(std::move(points));
   }
-  if (const Cell* least = least_of(cells)) {
-    plot.mark(least->x, least->value, gp::point(colour::black, 12, 1),
-              "least: " + least_words(axes, *least));
-  }
-  explain_names(plot, *axes.x);
-  figure.lines = 29 + int(plot.legend().size());
-  const gp::Layout layout(figure.lines, 0.125, 0.045);
-  const gp::Range values = gp::extent(gp::column(cells, &Cell::value));
-  const gp::Range places = gp::extent(gp::column(cells, &Cell::x));
-  figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
-                   layout.above(2.7, subtitle(table, axes)) +
-                   layout.below(25, axis_label(axes.x->path)) +
-                   layout.legend(27, 1, plot.legend()) + tics("x", *axes.x) +
-                   gp::set_range("x", gp::with_margin(places, 0.03)) +
-                   gp::set_range("y", gp::with_margin(values, 0.06)) + plot.text();
-  return figure;
+  const Outcome& least = *least_of(outcomes);
+  panel.layers.push_back(least_mark(axes, least, least.value));
+  explain_names(panel, *axes.x);
+  return panel;
 }
 
-/// A digit for every place, 0 for the least tenth of the range, where characters are all there is.
-std::string digits(gp::Range range) {
-  return fmt::format(
-      "plot $cells using 1:2:($7 == $7 ? sprintf('%d', int(9.999*($7 - {0})/{1})) : '.') "
-      "with labels\n",
-      gp::number(range.lo), gp::number(std::max(range.hi - range.lo, 1e-300)));
-}
-
-Figure map_figure(const SweepTable& table, const Axes& axes, const std::vector<Cell>& cells,
-                  Figure figure) {
-  if (cells.size() > most_cells) {
+plot::Panel map_panel(const SweepTable& table, const Axes& axes,
+                      const std::vector<Outcome>& outcomes) {
+  if (outcomes.size() > most_cells) {
     throw InputError(table.file, fmt::format("makes a map of {} cells; at most {} can be drawn",
-                                             cells.size(), most_cells));
+                                             outcomes.size(), most_cells));
   }
   const Edges x(*axes.x);
   const Edges y(*axes.y);
+  plot::Range values = plot::extent(plot::column(outcomes, &Outcome::value));
+  if (!(values.lo < values.hi)) values = plot::with_margin(values);
+  plot::Panel panel{.x = axis_over(*axes.x, x.range()),
+                    .y = axis_over(*axes.y, y.range()),
+                    .lines = 18.5,
+                    .scale = plot::ColourScale{.label = subtitle(table, axes), .range = values}};
   // The places of a sample do not fill their grid well enough to be cells of it.
-  const bool grid = 2 * cells.size() >= x.values.size() * y.values.size();
-  figure.script = gp::prelude() + "$cells << EOD\n";
-  for (const Cell& cell : cells) {
-    const std::size_t column = x.index(cell.x);
-    const std::size_t row = y.index(cell.y);
-    for (const double number :
-         {cell.x, cell.y, x.edges[column], x.edges[column + 1], y.edges[row], y.edges[row + 1]}) {
-      figure.script += gp::number(number) + " ";
-    }
-    figure.script += gp::number(cell.value) + "\n";
-  }
-  figure.script += "EOD\n";
-
-  gp::Plot plot;
-  plot.add(grid ? "$cells using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid noborder lc palette"
-                : "$cells using 1:2:7 with points pt 7 ps 0.5*dot_scale lc palette");
-  const Cell* const least = least_of(cells);
-  if (least != nullptr) {
-    plot.mark(least->x, least->y, "lc rgb '#ffffff' pt 7 ps 1.2*dot_scale");
-    plot.mark(least->x, least->y, gp::point(colour::vermilion, 7, 0.8),
-              "least: " + least_words(axes, *least));
-  }
-  const std::string blank = gp::area("#cccccc", 1);
-  if (table.infeasible > 0 && grid) {
-    plot.entry({gp::LegendEntry::Sample::area, blank, "infeasible"});
-  }
-  explain_names(plot, *axes.x);
-  explain_names(plot, *axes.y);
-
-  figure.lines = 34 + int(plot.legend().size());
-  const gp::Layout layout(figure.lines, 0.125, 0.045);
-  const gp::Range values = gp::extent(gp::column(cells, &Cell::value));
-  figure.script += "set samples 2\n" + layout.panel(3.6, 22) + layout.heading(figure.title) +
-                   layout.above(2.7, axis_label(axes.y->path)) +
-                   layout.below(25, axis_label(axes.x->path)) +
-                   layout.title(27, subtitle(table, axes)) + layout.legend(32, 1, plot.legend()) +
-                   layout.colour_box(28, 29) +
-                   layout.note_for_characters(
-                       28.2, fmt::format("0 begins at {}, 9 ends at {}", significant(values.lo, 4),
-                                         significant(values.hi, 4))) +
-                   palette + tics("x", *axes.x) + tics("y", *axes.y) + "set tics front\n" +
-                   gp::set_range("x", x.range()) + gp::set_range("y", y.range()) +
-                   gp::set_range("cb", values) + gp::set_tics("cb", values, 5);
+  const bool grid = 2 * outcomes.size() >= x.values.size() * y.values.size();
   if (grid) {
-    figure.script += fmt::format(
-        "if (!characters) {{\n  set object 1 rectangle from graph 0,0 to "
-        "graph 1,1 behind {}\n}}\n",
-        blank);
+    plot::Cells cells{.words_of_grey = table.infeasible > 0 ? "infeasible" : ""};
+    for (const Outcome& one : outcomes) {
+      cells.cells.push_back({x.around(one.x), y.around(one.y), one.value});
+    }
+    panel.layers.push_back(std::move(cells));
+  } else {
+    panel.layers.push_back(plot::Points{.x = plot::column(outcomes, &Outcome::x),
+                                        .y = plot::column(outcomes, &Outcome::y),
+                                        .values = plot::column(outcomes, &Outcome::value)});
   }
-  figure.script += "if (characters) {\n  unset colorbox\n  " + digits(values) + "} else {\n  " +
-                   plot.text() + "}\n";
-  return figure;
+  const Outcome& least = *least_of(outcomes);
+  panel.layers.push_back(least_mark(axes, least, least.y));
+  explain_names(panel, *axes.x);
+  explain_names(panel, *axes.y);
+  return panel;
 }
 
 }  // namespace
@@ -449,17 +413,17 @@ std::string axis_label(std::string_view name) {
 
 Figure sweep_figure(const SweepTable& table, const SweepView& view) {
   const Axes axes = axes_of(table, view);
-  const std::vector<Cell> cells = cells_of(table, axes);
-  if (least_of(cells) == nullptr) {
+  const std::vector<Outcome> outcomes = outcomes_of(table, axes);
+  if (least_of(outcomes) == nullptr) {
     throw InputError(table.file, fmt::format("has no row with a value of {}", table.value_column));
   }
-  Figure figure{.id = "sweep",
-                .title = view.title.empty() ? table.file : view.title,
-                .description = description_of(table, axes, cells)};
   const bool curves = axes.y == nullptr || (axes.x->names.empty() && !axes.y->names.empty() &&
                                             axes.y->names.size() <= most_curves);
-  return curves ? curves_figure(table, axes, cells, std::move(figure))
-                : map_figure(table, axes, cells, std::move(figure));
+  return {
+      .id = "sweep",
+      .title = view.title.empty() ? table.file : view.title,
+      .description = description_of(table, axes, outcomes),
+      .parts = {curves ? curves_panel(table, axes, outcomes) : map_panel(table, axes, outcomes)}};
 }
 
 }  // namespace tethercalc

@@ -1,12 +1,11 @@
 #include "tethercalc/report/sweep_figure.hpp"
-#include "tethercalc/files/gnuplot.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "report/result_values.hpp"
-#include "support/gnuplot.hpp"
+#include "support/figures.hpp"
 #include "support/random.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -34,6 +33,13 @@ std::string grid() {
   return csv;
 }
 
+/// The cells of the heat map.
+std::vector<plot::Cell> cells_of(const Figure& figure) {
+  return layers_of<plot::Cells>(panels_of(figure).front()).front().cells;
+}
+
+double middle(plot::Range range) { return (range.lo + range.hi) / 2; }
+
 std::vector<InputProblem> problems_of(const std::string& csv, const std::string& value = "") {
   try {
     (void)parse_sweep_csv(csv, "rows.csv", value);
@@ -48,32 +54,31 @@ std::vector<InputProblem> problems_of(const std::string& csv, const std::string&
 TEST_CASE("a heat map has the sweep's values at their places and gaps where there is none") {
   const SweepTable table = parse_sweep_csv(grid(), "rows.csv");
   CHECK(table.infeasible == 1);
-  const auto cells = block_of(sweep_figure(table).script, "cells");
+  const auto cells = cells_of(sweep_figure(table));
   REQUIRE(cells.size() == 20);
-  for (const auto& cell : cells) {
-    REQUIRE(cell.size() == 7);
-    CHECK(cell[2] == cell[0] - 5);
-    CHECK(cell[3] == cell[0] + 5);
-    CHECK(cell[4] == cell[1] - 5);
-    CHECK(cell[5] == cell[1] + 5);
-    if (cell[0] == 40 && cell[1] == 40) {
-      CHECK(std::isnan(cell[6]));
+  for (const plot::Cell& cell : cells) {
+    CHECK(cell.x.hi - cell.x.lo == 10);
+    CHECK(cell.y.hi - cell.y.lo == 10);
+    if (middle(cell.x) == 40 && middle(cell.y) == 40) {
+      CHECK(std::isnan(cell.value));
     } else {
-      CHECK(cell[6] == 300 + 4 * cell[1] - cell[0]);
+      CHECK(cell.value == 300 + 4 * middle(cell.y) - middle(cell.x));
     }
   }
-  CHECK_THAT(sweep_figure(table).script,
-             Contains("'supply voltage (V)'") && Contains("'tether length (m)'") &&
-                 Contains("'forward total power (W)'") && Contains("'least: 260.0 at 80, 10'"));
+  const std::string svg = render(sweep_figure(table), FigureFormat::svg, {});
+  for (const char* words : {"supply voltage (V)", "tether length (m)", "forward total power (W)",
+                            "least: 260.0 at 80, 10", "infeasible"}) {
+    INFO(words);
+    CHECK(shows(svg, words));
+  }
 }
 
 TEST_CASE("axes can be chosen, exchanged and left to the least of the rest") {
   const SweepTable table = parse_sweep_csv(grid(), "rows.csv");
-  const auto turned =
-      block_of(sweep_figure(table, {"tether.length_m", "supply.voltage_V"}).script, "cells");
+  const auto turned = cells_of(sweep_figure(table, {"tether.length_m", "supply.voltage_V"}));
   REQUIRE(turned.size() == 20);
-  CHECK(turned.front()[0] == 10);
-  CHECK(turned.front()[1] == 40);
+  CHECK(middle(turned.front().x) == 10);
+  CHECK(middle(turned.front().y) == 40);
 
   std::string three = "a_V,b_m,c_g" + ending;
   for (int i = 0; i < 27; ++i) {
@@ -81,10 +86,10 @@ TEST_CASE("axes can be chosen, exchanged and left to the least of the rest") {
              ",optimal,1," + std::to_string(100 + i) + ",\n";
   }
   const Figure figure = sweep_figure(parse_sweep_csv(three, "rows.csv"));
-  for (const auto& cell : block_of(figure.script, "cells")) {
-    CHECK(cell[6] == 100 + 9 * cell[0] + 3 * cell[1]);
+  for (const plot::Cell& cell : cells_of(figure)) {
+    CHECK(cell.value == 100 + 9 * middle(cell.x) + 3 * middle(cell.y));
   }
-  CHECK_THAT(figure.script, Contains("least over c_g"));
+  CHECK_THAT(render(figure, FigureFormat::svg, {}), Contains("least over c_g"));
   CHECK_THROWS_WITH(sweep_figure(table, {"tether.lenght_m", ""}), Contains("tether.length_m"));
   CHECK_THROWS_WITH(sweep_figure(table, {"tether.length_m", "tether.length_m"}),
                     Contains("other axis"));
@@ -95,10 +100,11 @@ TEST_CASE("one field makes a curve, with one curve for each of a few names") {
   for (int v = 60; v >= 40; v -= 5) {
     one += std::to_string(v) + ",optimal,1," + std::to_string(1000 / v) + ",\n";
   }
-  const auto curve = block_of(sweep_figure(parse_sweep_csv(one, "rows.csv")).script, "curve1");
-  REQUIRE(curve.size() == 5);
-  CHECK(curve.front() == std::vector<double>{40, 25});
-  CHECK(curve.back() == std::vector<double>{60, 16});
+  const auto curve =
+      layers_of<plot::Curve>(panels_of(sweep_figure(parse_sweep_csv(one, "rows.csv"))).front())
+          .front();
+  CHECK(curve.x == std::vector<double>{40, 45, 50, 55, 60});
+  CHECK(curve.y == std::vector<double>{25, 22, 20, 18, 16});
 
   std::string two = "drone.motor,supply.voltage_V" + ending;
   for (const char* motor : {"heavy", "\"light, fast\""}) {
@@ -108,9 +114,10 @@ TEST_CASE("one field makes a curve, with one curve for each of a few names") {
     }
   }
   const Figure figure = sweep_figure(parse_sweep_csv(two, "rows.csv"));
-  for (const auto& row : block_of(figure.script, "curve1")) CHECK(row[1] == row[0]);
-  for (const auto& row : block_of(figure.script, "curve2")) CHECK(row[1] == 2 * row[0]);
-  CHECK_THAT(figure.script, Contains("'light, fast'"));
+  const auto heavy = named<plot::Curve>(panels_of(figure).front(), "heavy");
+  const auto light = named<plot::Curve>(panels_of(figure).front(), "light, fast");
+  CHECK(heavy.y == heavy.x);
+  CHECK(light.y == std::vector<double>{80, 100, 120});
 }
 
 TEST_CASE("what is wrong with a sweep's file is told by line, all at once") {
@@ -178,7 +185,6 @@ TEST_CASE("the unit in a field's name is the unit on the axis") {
 }
 
 TEST_CASE("figures of sweeps keep their texts apart") {
-  if (!gnuplot_is_there()) return;
   std::string names = "drone.motor,tether.conductor" + ending;
   std::string sample = "supply.voltage_V,tether.length_m" + ending;
   Random random(run_seed());
@@ -190,6 +196,6 @@ TEST_CASE("figures of sweeps keep their texts apart") {
   }
   for (const std::string& csv : {grid(), names, sample}) {
     const Figure figure = sweep_figure(parse_sweep_csv(csv, "rows.csv"));
-    CHECK(layout_problems(render(figure, FigureFormat::svg, run_gnuplot)) == no_problems);
+    CHECK(layout_problems(render(figure, FigureFormat::svg, {})) == no_problems);
   }
 }

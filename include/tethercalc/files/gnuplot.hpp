@@ -1,4 +1,4 @@
-// Figures drawn by the program gnuplot.
+// Figures drawn by the program gnuplot: those as PDF and PNG.
 #pragma once
 
 #include "tethercalc/report/figure.hpp"

@@ -1,32 +1,183 @@
-// A picture of a result: what it shows in words, and the gnuplot commands that draw it.
+// A picture of a result as plain data: what stands on which axes, and in words. Drawers of several
+// kinds make a file of it; see `render`.
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace tethercalc {
 
-/// A picture that has not been drawn yet: commands and data in one text, without any terminal.
-///
-/// Every text that came from a user (names of designs, motors, logs) is quoted by `gnuplot_text`,
-/// and every number comes from the result that the figure is made of; one that does not exist is a
-/// gap in its curve.
+/// The pieces of a figure. All texts are plain: drawers make them fit, cut them with "…" where they
+/// do not, and quote them for their formats. A number that does not exist (NaN) is a gap.
+namespace plot {
+
+/// The eight colours of Okabe and Ito (2008), told apart with every common kind of colour vision.
+enum class Colour { ink, orange, sky, green, blue, vermilion, purple, grey };
+
+/// So that lines differ where there are no colours.
+enum class Dash { solid, dashed, dotted, dash_dotted, dash_dot_dotted };
+
+/// What stands at a point. Specks (tiny dots) and crosses (tiny ×) are for hundreds of them.
+enum class Mark { speck, cross, dot, circle, diamond, square, triangle, plus };
+
+/// What an axis shows, `lo` < `hi`.
+struct Range {
+  double lo = 0;
+  double hi = 1;
+};
+
+/// A place on an axis with its words, which may be empty.
+struct Tick {
+  double at = 0;
+  std::string words{};
+};
+
+/// An axis of a panel.
+struct Axis {
+  std::string label{};        ///< quantity and unit: "thrust per motor (g)"
+  Range range{};              ///< above zero where logarithmic
+  bool logarithmic = false;   ///< ticks are then at 1, 2 and 5 times the powers of ten
+  std::vector<Tick> ticks{};  ///< empty: round numbers. Else these within the range, the important
+                              ///< first: words that would touch earlier ones are left out
+  bool numbers = true;        ///< false: ticks have no words, or there is nothing to count
+};
+
+/// A line through points in their order.
+struct Curve {
+  std::vector<double> x{};
+  std::vector<double> y{};
+  Colour colour = Colour::ink;
+  Dash dash = Dash::solid;
+  double width = 1;                  ///< times 0.75 pt
+  std::string words{};               ///< in the legend; empty: not there
+  std::vector<std::string> cells{};  ///< further columns of the legend, as `Panel::legend_heads`
+  std::string label{};               ///< at that end of the line where there is more room
+};
+
+/// Points, each on its own.
+struct Points {
+  std::vector<double> x{};
+  std::vector<double> y{};
+  Mark mark = Mark::dot;
+  Colour colour = Colour::ink;
+  std::string words{};           ///< in the legend; empty: not there
+  std::vector<double> sizes{};   ///< times the usual size, one a point; empty: 1
+  std::vector<double> values{};  ///< by `Panel::scale` the colours, one a point; empty: `colour`
+};
+
+/// The area between two lines.
+struct Band {
+  std::vector<double> x{};
+  std::vector<double> lower{};
+  std::vector<double> upper{};
+  Colour colour = Colour::grey;
+  std::string words{};  ///< in the legend; empty: not there
+};
+
+/// A stretch of the horizontal axis, over the panel's whole height.
+struct Span {
+  Range range{};
+  Colour colour = Colour::green;
+  std::string words{};  ///< in the legend; empty: not there
+};
+
+/// A line across the panel at one number of an axis.
+struct Reference {
+  double at = 0;
+  bool vertical = false;  ///< at a number of the horizontal axis
+  Colour colour = Colour::grey;
+  Dash dash = Dash::solid;
+  std::string words{};  ///< beside a vertical line, near its lower end; empty: nothing
+};
+
+/// Words around a point.
+struct Note {
+  double x = 0;
+  double y = 0;
+  std::string words{};
+};
+
+/// A rectangle of a heat map.
+struct Cell {
+  Range x{};
+  Range y{};
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: grey
+};
+
+/// A heat map, coloured by `Panel::scale`.
+struct Cells {
+  std::vector<Cell> cells{};
+  std::string words_of_grey{};  ///< what grey means, in the legend; empty: not there
+};
+
+/// What is drawn, later ones over earlier ones.
+using Layer = std::variant<Curve, Points, Band, Span, Reference, Note, Cells>;
+
+/// What the colours of a heat map mean: viridis of matplotlib (van der Walt and Smith 2015, public
+/// domain) over the range, its lightness rising evenly.
+struct ColourScale {
+  std::string label{};  ///< quantity and unit
+  Range range{};
+};
+
+/// A frame with axes.
+struct Panel {
+  std::string title{};  ///< above it; may be empty
+  Axis x{};
+  Axis y{};
+  std::optional<Axis> top{};  ///< ticks along the upper edge, at numbers of `x`
+  std::string remark{};       ///< above the right end, where there is no `top`
+  double lines = 14;          ///< height of its frame in lines of text, in one column
+  bool beside = false;        ///< right of the panel before it, whose `y` it shares
+  std::vector<Layer> layers{};
+  std::vector<std::string> legend_heads{};  ///< above further columns of the legend
+  std::vector<std::string> key{};           ///< further lines of the legend, without a sample
+  std::optional<ColourScale> scale{};       ///< of `Cells` and of `Points::values`
+};
+
+/// One of several shares.
+struct Bar {
+  std::string words{};
+  double share = 0;      ///< 0 to 1; what is beyond is cut off
+  std::string number{};  ///< the share in digits
+  Colour colour = Colour::ink;
+};
+
+/// Horizontal bars, each below its words.
+struct Bars {
+  std::string title{};
+  std::vector<Bar> bars{};
+};
+
+/// Lines of text.
+struct Lines {
+  std::string title{};
+  std::vector<std::string> texts{};
+};
+
+}  // namespace plot
+
+/// A picture that has not been drawn yet. Every number comes from the result that it is made of.
 struct Figure {
-  std::string id;           ///< letters and digits: "optimum"; begins the ids within its SVG
-  std::string title;        ///< one line
-  std::string description;  ///< what it shows with its main numbers, for those who cannot see it
-  int lines = 24;           ///< height in lines of text at one column's width (85 mm); the picture
-                            ///< keeps its proportions at other widths
-  std::string script{};     ///< gnuplot commands with their data inline
+  std::string id{};           ///< letters and digits: "optimum"; begins the ids within its SVG
+  std::string title{};        ///< one line
+  std::string heading{};      ///< above the picture, shorter than the title; empty: the title
+  std::string description{};  ///< what it shows with its main numbers, for those who cannot see it
+  bool to_scale = false;      ///< one scale for all axes: ranges are widened around what they hold
+  std::vector<std::variant<plot::Panel, plot::Bars, plot::Lines>> parts{};  ///< from top to bottom
 };
 
 /// What a figure is drawn as.
 enum class FigureFormat {
   svg,     ///< UTF-8 text on a white panel, with title and description; neither scripts nor links
-  png,     ///< at 300 dots per inch
-  pdf,     ///< vectors, fonts embedded
-  script,  ///< a gnuplot script that draws the figure as a PDF on its own
+  png,     ///< at 300 dots per inch; needs gnuplot
+  pdf,     ///< vectors, fonts embedded; needs gnuplot
+  script,  ///< a gnuplot script with the data that draws the figure as a PDF on its own
   text,    ///< characters for a terminal
 };
 
@@ -41,21 +192,17 @@ struct FigureSize {
 /// Runs gnuplot on a script and returns what it draws.
 using GnuplotRunner = std::function<std::string(const std::string& script)>;
 
-/// The drawn figure: the content of a file of that format. The script needs no gnuplot; everything
-/// else is drawn by `gnuplot`, whose errors are thrown on.
+/// The drawn figure: the content of a file of that format. Only PNG and PDF are drawn by `gnuplot`,
+/// whose errors are thrown on.
+///
+/// In the SVG every stroke and area takes its colour from the property `color` of an element whose
+/// class is the colour's name ("ink", "blue" …; "paper" is the background), so that a page's style
+/// may exchange them, for a dark screen such as.
 [[nodiscard]] std::string render(const Figure& figure, FigureFormat format,
                                  const GnuplotRunner& gnuplot, const FigureSize& size = {});
 
 /// The format that a file's suffix asks for: .svg, .png, .pdf, .gp (the script) or .txt. Throws
 /// InputError with the allowed ones, about the option or place called `where`.
 [[nodiscard]] FigureFormat figure_format(std::string_view file, const std::string& where);
-
-/// `text` as an expression of gnuplot that is nothing but text, quotes included, for use where
-/// enhanced text is off: between single quotes gnuplot substitutes neither commands in backquotes
-/// nor macros. A single quote within becomes ."'". between two literals: doubled, as the manual
-/// has it, gnuplot 5.4 takes it for the literal's end where it is the first or follows another.
-/// Line breaks become spaces; control characters and what is no UTF-8 become U+FFFD; more than
-/// `longest` characters are cut and end in "…".
-[[nodiscard]] std::string gnuplot_text(std::string_view text, std::size_t longest = 60);
 
 }  // namespace tethercalc

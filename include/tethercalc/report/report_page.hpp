@@ -25,7 +25,6 @@ struct PageContent {
   std::optional<DragStudy> drag;        ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told
   std::string command;                  ///< by which the page can be made again, for a shell
-  GnuplotRunner gnuplot;                ///< draws its figures
 };
 
 /// The page: the answer, what to mind, figures and tables, what the logs say, the spec as used, and
@@ -34,8 +33,7 @@ struct PageContent {
 ///
 /// The text is UTF-8, HTML and well-formed XML at once. It holds neither scripts nor references to
 /// anything outside of it, and its content security policy forbids both. Whatever a name holds
-/// stands there as text. The same content makes the same page, byte by byte. Throws as `render`
-/// does.
+/// stands there as text. The same content makes the same page, byte by byte.
 [[nodiscard]] std::string report_page(const PageContent& content);
 
 }  // namespace tethercalc

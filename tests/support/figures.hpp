@@ -1,15 +1,17 @@
-// What tests of figures need: gnuplot itself, the data in a script, and the texts in an SVG.
+// What tests of figures need: gnuplot itself, the pieces of a figure, and what stands in an SVG.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "tethercalc/report/figure.hpp"
 
 namespace tethercalc::test {
 
@@ -20,25 +22,33 @@ inline bool gnuplot_is_there() {
   return there;
 }
 
-/// Rows of numbers of the data block `name` in a script.
-inline std::vector<std::vector<double>> block_of(const std::string& script,
-                                                 const std::string& name) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(script);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (inside && line == "EOD") break;
-    if (inside) {
-      std::istringstream cells(line);
-      rows.emplace_back();
-      for (std::string cell; cells >> cell;) {
-        rows.back().push_back(cell == "NaN" ? std::numeric_limits<double>::quiet_NaN()
-                                            : std::stod(cell));
-      }
-    }
-    inside = inside || line == "$" + name + " << EOD";
+/// The panels of a figure, from top to bottom.
+inline std::vector<plot::Panel> panels_of(const Figure& figure) {
+  std::vector<plot::Panel> out;
+  for (const auto& part : figure.parts) {
+    if (const auto* panel = std::get_if<plot::Panel>(&part)) out.push_back(*panel);
   }
-  return rows;
+  return out;
+}
+
+/// The layers of one kind, in their order.
+template <typename Layer>
+std::vector<Layer> layers_of(const plot::Panel& panel) {
+  std::vector<Layer> out;
+  for (const plot::Layer& layer : panel.layers) {
+    if (const auto* one = std::get_if<Layer>(&layer)) out.push_back(*one);
+  }
+  return out;
+}
+
+/// The layer of that kind with these words in the legend; fails the test where there is none.
+template <typename Layer>
+Layer named(const plot::Panel& panel, const std::string& words) {
+  for (const Layer& one : layers_of<Layer>(panel)) {
+    if (one.words == words) return one;
+  }
+  FAIL("nothing in the legend is called " << words);
+  return {};
 }
 
 /// A text of a picture and the room it takes, in pixels.
@@ -55,20 +65,22 @@ inline constexpr std::array advance_widths{
     611, 685, 390, 337, 390, 838, 500, 500, 613, 635, 550, 635, 615, 352,  635, 634, 278, 278, 579,
     278, 974, 634, 612, 635, 635, 411, 521, 392, 634, 592, 818, 592, 592,  525, 636, 337, 636, 838};
 
-/// Width of a text over the font size; other characters than ASCII count as wide ones.
+/// Width of a text over the font size. Other characters than ASCII count as wide ones, those of
+/// East Asian scripts and emoji as high as wide.
 inline double text_width(const std::string& text) {
   double width = 0;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte & 0xC0) == 0x80) continue;
-    width += byte >= 0x20 && byte < 0x7F ? advance_widths[byte - 0x20] : 840;
+    const bool square = (byte >= 0xE3 && byte <= 0xED) || byte >= 0xF0;
+    width += byte >= 0x20 && byte < 0x7F ? advance_widths[byte - 0x20] : square ? 1000 : 840;
   }
   return width / 1000;
 }
 
 inline std::string without_entities(std::string text) {
   for (const auto& [entity, character] :
-       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}}) {
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&amp;", "&"}}) {
     for (std::size_t at = 0; (at = text.find(entity, at)) != std::string::npos; ++at) {
       text.replace(at, std::string(entity).size(), character);
     }
@@ -76,26 +88,38 @@ inline std::string without_entities(std::string text) {
   return text;
 }
 
-/// All texts that gnuplot's SVG shows, unrotated.
+/// All texts that an SVG shows.
 inline std::vector<TextBox> text_boxes(const std::string& svg) {
   static const std::regex element(
-      R"re(translate\(([-\d.]+),([-\d.]+)\)[^>]*font-size="([\d.]+)"[^>]*text-anchor="(\w+)">\s*<text>([\s\S]*?)</text>)re");
+      R"re(<text x="([-\d.]+)" y="([-\d.]+)"( text-anchor="(\w+)")?( font-weight="bold")?>([^<]*)</text>)re");
+  constexpr double size = 10;
   std::vector<TextBox> boxes;
   for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
     const std::smatch& m = *it;
-    std::string text = without_entities(std::regex_replace(m[5].str(), std::regex("<[^>]*>"), ""));
-    text.erase(0, text.find_first_not_of(" \t\n"));
-    text.erase(text.find_last_not_of(" \t\n") + 1);
-    if (text.empty()) continue;
+    const std::string text = without_entities(m[6]);
     const double x = std::stod(m[1]);
     const double y = std::stod(m[2]);
-    const double size = std::stod(m[3]);
-    const double width = size * text_width(text);
-    const double left = m[4] == "start" ? x : m[4] == "end" ? x - width : x - width / 2;
+    constexpr double bolder = 1.1;  // DejaVu Sans Bold
+    const double width = size * text_width(text) * (m[5].matched ? bolder : 1);
+    const std::string anchor = m[4];
+    const double left = anchor.empty() ? x : anchor == "end" ? x - width : x - width / 2;
     // Capitals and figures rise by 0.73 of the size, the longest tails hang by 0.24.
     boxes.push_back({text, left, left + width, y - 0.73 * size, y + 0.24 * size});
   }
   return boxes;
+}
+
+/// The texts alone, in their order.
+inline std::vector<std::string> texts_of(const std::string& svg) {
+  std::vector<std::string> out;
+  for (const TextBox& box : text_boxes(svg)) out.push_back(box.text);
+  return out;
+}
+
+/// Whether `svg` shows a text that is `words`.
+inline bool shows(const std::string& svg, const std::string& words) {
+  const std::vector<std::string> texts = texts_of(svg);
+  return std::find(texts.begin(), texts.end(), words) != texts.end();
 }
 
 /// "a | b" for every two texts that cover each other.
@@ -126,6 +150,7 @@ inline std::vector<std::string> layout_problems(const std::string& svg) {
     if (box.left < -1 || box.right > width + 1 || box.top < 0)
       out.push_back("outside: " + box.text);
   }
+  if (boxes.empty()) out.emplace_back("no text");
   return out;
 }
 
