@@ -5,13 +5,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
+#include "report/characters.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 extern "C" char** environ;
@@ -41,17 +46,24 @@ std::string content(std::FILE* file) {
   return out;
 }
 
-}  // namespace
+/// What a program did.
+struct Ended {
+  int start_error = 0;  ///< of errno, where it could not be started
+  bool well = false;    ///< whether it ended with exit code 0
+  std::string out{};
+  std::string err{};
+};
 
-// Standard input, output and error are files: nobody waits for anybody, whatever the sizes.
-std::string run_gnuplot(const std::string& script) {
+/// Runs a program found on PATH. Standard input, output and error are files: nobody waits for
+/// anybody, whatever the sizes.
+Ended run_program(std::vector<std::string> words, const std::string& input) {
   const Scratch in = scratch_file();
   const Scratch out = scratch_file();
   const Scratch err = scratch_file();
-  if (std::fwrite(script.data(), 1, script.size(), in.get()) != script.size() ||
+  if (std::fwrite(input.data(), 1, input.size(), in.get()) != input.size() ||
       std::fflush(in.get()) != 0) {
-    throw InputError("gnuplot",
-                     "cannot be given what to draw: " + std::generic_category().message(errno));
+    throw InputError(words.front(),
+                     "cannot be given its input: " + std::generic_category().message(errno));
   }
   std::rewind(in.get());
 
@@ -60,28 +72,62 @@ std::string run_gnuplot(const std::string& script) {
   posix_spawn_file_actions_adddup2(&actions, ::fileno(in.get()), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(out.get()), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(err.get()), STDERR_FILENO);
-  std::array<char, 8> program{"gnuplot"};
-  std::array<char, 3> defaults{"-d"};  // no start-up file of the user
-  const std::array<char*, 3> arguments{program.data(), defaults.data(), nullptr};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   pid_t child = 0;
   const int error =
-      ::posix_spawnp(&child, program.data(), &actions, nullptr, arguments.data(), environ);
+      ::posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
+  if (error != 0) return {.start_error = error};
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) {
+      throw std::system_error(errno, std::generic_category(), words.front() + " is lost");
+    }
+  }
+  return {.well = WIFEXITED(status) && WEXITSTATUS(status) == 0,
+          .out = content(out.get()),
+          .err = content(err.get())};
+}
+
+/// Whether some font has the character; fc-list comes with the library that draws gnuplot's
+/// letters.
+bool has_font(std::uint32_t character) {
+  constexpr std::uint32_t latin_end = 0x250;
+  if (character < latin_end) return true;
+  const Ended asked =
+      run_program({"fc-list", fmt::format(":charset={:x}", character), "family"}, "");
+  return asked.well && !asked.out.empty();
+}
+
+/// The script with a box for every character that no font has: gnuplot draws them as boxes of its
+/// own, with their number in digits, many times as large as letters.
+std::string with_fonts(const std::string& script) {
+  std::map<std::uint32_t, bool> known;
+  std::string out;
+  for_each_character(script, [&](std::uint32_t character, std::string_view bytes) {
+    const auto [at, first] = known.try_emplace(character, true);
+    if (first) at->second = has_font(character);
+    out += at->second ? bytes : "\u25A1";
+  });
+  return out;
+}
+
+}  // namespace
+
+std::string run_gnuplot(const std::string& script) {
+  // Without the start-up file of the user.
+  const Ended drawn = run_program({"gnuplot", "-d"}, with_fonts(script));
+  if (drawn.start_error != 0) {
     throw InputError("gnuplot",
                      "draws figures as .pdf and .png and cannot be started (" +
-                         std::generic_category().message(error) +
+                         std::generic_category().message(drawn.start_error) +
                          "); install the Debian package gnuplot-nox, or draw the figure as .svg "
                          "or with characters, which need none; FILE.gp is the script for it");
   }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "gnuplot is lost");
-  }
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    throw std::runtime_error("gnuplot failed: " + content(err.get()));
-  }
-  return content(out.get());
+  if (!drawn.well) throw std::runtime_error("gnuplot failed: " + drawn.err);
+  return drawn.out;
 }
 
 }  // namespace tethercalc

@@ -100,18 +100,19 @@ std::array<plot::Panel, 2> compared_panels(const Diagnosis& d, std::size_t k) {
   const plot::Range predicted = plot::joint(plot::bulk(rows[1]), plot::bulk(rows[2]));
   const Errors errors = errors_of(d, k);
   const auto panel = [&](bool after) {
-    return plot::Panel{.x = {.label = fmt::format("measured ({})", series.unit), .range = measured},
-                       .y = {.range = plot::joint(measured, predicted)},
-                       .remark = after ? "after: " + errors.after : "before: " + errors.before,
-                       .lines = 11,
-                       .beside = after,
-                       .layers = {plot::Points{.x = shown[0],
-                                               .y = shown[after ? 2 : 1],
-                                               .mark = plot::Mark::speck,
-                                               .colour = after ? Colour::blue : Colour::vermilion},
-                                  plot::Curve{.x = {measured.lo, measured.hi},
-                                              .y = {measured.lo, measured.hi},
-                                              .width = 0.8}}};
+    return plot::Panel{
+        .x = {.label = fmt::format("measured ({})", series.unit), .range = measured},
+        .y = {.range = plot::joint(measured, predicted)},
+        .remark = after ? "after: " + errors.after : "before: " + errors.before,
+        .lines = 11,
+        .beside = after,
+        .layers = {
+            plot::Curve{
+                .x = {measured.lo, measured.hi}, .y = {measured.lo, measured.hi}, .width = 0.8},
+            plot::Points{.x = shown[0],
+                         .y = shown[after ? 2 : 1],
+                         .mark = plot::Mark::speck,
+                         .colour = after ? Colour::blue : Colour::vermilion}}};
   };
   std::array panels{panel(false), panel(true)};
   panels[0].y.label = fmt::format("{}, predicted ({})", series.quantity, series.unit);

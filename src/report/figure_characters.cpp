@@ -96,15 +96,19 @@ std::vector<Tick> ticks_up(const Axis& axis, int rows) {
   return ticks_of(axis, rows - 1, 0.9, Minus::hyphen, rows_high);
 }
 
-/// The characters by which the layers of a panel are told apart.
+/// The characters by which the layers of a panel are told apart. A layer without words goes on like
+/// the one with words that is drawn alike, in its panel or above.
 class Glyphs {
  public:
-  explicit Glyphs(const Panel& panel) {
-    for (const Layer& layer : panel.layers) {
-      if (const auto* points = std::get_if<Points>(&layer)) of_points(*points);
-    }
-    for (const Layer& layer : panel.layers) {
-      if (const auto* curve = std::get_if<Curve>(&layer)) of_curve(*curve);
+  explicit Glyphs(const std::vector<Panel>& panels) {
+    for (const Panel& panel : panels) {
+      taken_.clear();
+      for (const Layer& layer : panel.layers) {
+        if (const auto* points = std::get_if<Points>(&layer)) add(*points);
+      }
+      for (const Layer& layer : panel.layers) {
+        if (const auto* curve = std::get_if<Curve>(&layer)) add(*curve);
+      }
     }
   }
 
@@ -123,34 +127,36 @@ class Glyphs {
   [[nodiscard]] char of(const void* one) const { return glyphs_.at(one); }
 
  private:
-  [[nodiscard]] bool taken(char c) const {
-    return std::ranges::any_of(glyphs_, [c](const auto& entry) { return entry.second == c; });
+  [[nodiscard]] bool taken(char c) const { return taken_.find(c) != std::string::npos; }
+
+  void give(const void* layer, char glyph) {
+    glyphs_[layer] = glyph;
+    taken_ += glyph;
   }
 
   /// Points of the same kind share one, a single one with words has a letter.
-  void of_points(const Points& points) {
+  void add(const Points& points) {
     constexpr std::array by_mark{'.', ',', '@', 'o', '#', '#', '^', '+'};
     char glyph = by_mark.at(std::size_t(points.mark));
-    const bool letter = points.x.size() == 1 && !points.words.empty();
-    if (letter) {
+    const std::pair alike{points.mark, points.colour};
+    const bool single = points.x.size() == 1;
+    if (single && !points.words.empty()) {
       const auto initial = static_cast<unsigned char>(points.words.front());
       if (std::isalpha(initial) != 0) glyph = char(std::toupper(initial));
       while (taken(glyph) && glyph < 'Z') ++glyph;
+      points_[alike] = glyph;
+    } else if (single && points_.contains(alike)) {
+      glyph = points_.at(alike);
     }
-    glyphs_[&points] = glyph;
+    give(&points, glyph);
   }
 
-  /// One without words goes on like the one before that is drawn alike.
-  void of_curve(const Curve& curve) {
-    if (curve.words.empty() && curve.label.empty()) {
-      for (const Curve* other : curves_) {
-        if (other->colour != curve.colour || other->dash != curve.dash) continue;
-        glyphs_[&curve] = glyphs_.at(other);
-        return;
-      }
-    }
-    curves_.push_back(&curve);
+  void add(const Curve& curve) {
     constexpr std::string_view series = "*x%~&$?abcdefghijklmnpqrstuvwyz";
+    const std::pair alike{curve.colour, curve.dash};
+    if (curve.words.empty() && curves_.contains(alike)) {
+      return give(&curve, curves_.at(alike));
+    }
     char glyph = series.back();
     if (curve.label.size() == 1) {
       glyph = curve.label.front();
@@ -158,11 +164,14 @@ class Glyphs {
       const auto next = std::ranges::find_if(series, [this](char c) { return !taken(c); });
       if (next != series.end()) glyph = *next;
     }
-    glyphs_[&curve] = glyph;
+    curves_[alike] = glyph;
+    give(&curve, glyph);
   }
 
   std::map<const void*, char> glyphs_;
-  std::vector<const Curve*> curves_;
+  std::map<std::pair<Mark, Colour>, char> points_;
+  std::map<std::pair<Colour, Dash>, char> curves_;
+  std::string taken_;  ///< in the panel
 };
 
 /// A whole number of characters near a share of `cells` of them.
@@ -187,6 +196,7 @@ class Printer {
   }
 
   std::string print() {
+    const Glyphs glyphs(panels_);
     const std::string& heading = figure_.heading.empty() ? figure_.title : figure_.heading;
     const std::string words = cut_to_columns(printable(heading), columns_);
     line(std::string(std::size_t((columns_ - columns_of(words)) / 2), ' ') + words);
@@ -198,7 +208,7 @@ class Printer {
       } else if (const auto* lines = std::get_if<Lines>(&part)) {
         print(*lines);
       } else {
-        print(panels_[next_panel++]);
+        print(panels_[next_panel++], glyphs);
       }
     }
     return std::move(out_);
@@ -247,18 +257,19 @@ class Printer {
     line(first + std::string(std::size_t(std::max(0, room - columns_of(first))), ' ') + last);
   }
 
-  void print(const Panel& panel) {
+  void print(const Panel& panel, const Glyphs& glyphs) {
     if (!panel.title.empty()) line(cut_to_columns(printable(panel.title), columns_));
     const std::string right = panel.top ? panel.top->label : panel.remark;
-    if (columns_of(panel.y.label) + columns_of(right) + 4 > columns_) {
-      ends(panel.y.label, "");
+    if (!panel.beside) row_label_ = panel.y.label;
+    const std::string& left = row_label_;
+    if (columns_of(left) + columns_of(right) + 4 > columns_) {
+      ends(left, "");
       ends("", right);
-    } else if (!panel.y.label.empty() || !right.empty()) {
-      ends(panel.y.label, right);
+    } else if (!left.empty() || !right.empty()) {
+      ends(left, right);
     }
     const int width = frame_columns();
     const int rows = rows_of(panel);
-    const Glyphs glyphs(panel);
     if (panel.top) edge_above(panel, ticks_across(*panel.top, width));
     Canvas canvas(width, rows);
     for (const Layer& layer : panel.layers) {
@@ -458,7 +469,8 @@ class Printer {
     const auto parts = visible_parts(curve, panel.x, panel.y);
     if (parts.empty()) return;
     const Place end = parts.back().back();
-    const std::string words = cut_to_columns(printable(curve.label), width);
+    std::string words = cut_to_columns(printable(curve.label), width);
+    if (words.starts_with("\u2212")) words.replace(0, std::string_view("\u2212").size(), "-");
     canvas.write(
         std::clamp(cell_at(end.x, width) - columns_of(words) / 2, 0, width - columns_of(words)),
         rows - 1 - cell_at(end.y, rows), words);
@@ -548,6 +560,7 @@ class Printer {
   bool colour_;
   int left_ = 0;
   std::vector<Panel> panels_;  ///< with their final ranges
+  std::string row_label_;      ///< of the vertical axis that panels beside share
   std::string out_;
 };
 

@@ -73,7 +73,7 @@ struct PointStyle {
 
 PointStyle point_style(plot::Mark mark) {
   constexpr std::array<PointStyle, 8> styles{
-      {{7, 0.13}, {2, 0.26}, {7, 0.6}, {6, 0.7}, {13, 1}, {5, 0.7}, {9, 1}, {1, 0.8}}};
+      {{7, 0.13}, {2, 0.32}, {7, 0.6}, {6, 0.7}, {13, 1}, {5, 0.7}, {9, 1}, {1, 0.8}}};
   return styles.at(std::size_t(mark));
 }
 
@@ -247,8 +247,9 @@ std::string sample(const plot::PlacedSample& sample) {
                        line_style(curve->colour, curve->dash, curve->width));
   }
   if (const auto* points = std::get_if<plot::Points>(sample.layer)) {
+    const bool tiny = points->mark == plot::Mark::speck || points->mark == plot::Mark::cross;
     return fmt::format("set label '' at {:.1f},{:.1f} point {}\n", (box.left + box.right) / 2,
-                       middle, point_words(points->mark, points->colour, 1));
+                       middle, point_words(points->mark, points->colour, tiny ? 2 : 1));
   }
   if (const auto* band = std::get_if<plot::Band>(sample.layer)) {
     return rectangle(box, area_style(band->colour, 0.36));

@@ -103,8 +103,8 @@ std::vector<Tick> ticks_of(const Axis& axis, double length, double gap, Minus mi
       return ticks.size() >= 2 && !any_touch(ticks);
     };
     const auto chosen = std::ranges::find_if(choice, fits);
-    out = chosen != choice.end() ? *chosen
-                                 : std::vector{choice.back().front(), choice.back().back()};
+    out =
+        chosen != choice.end() ? *chosen : std::vector{choice.back().front(), choice.back().back()};
   }
   if (!axis.numbers) {
     for (Tick& tick : out) tick.words.clear();

@@ -317,6 +317,19 @@ TEST_CASE("names in scripts without a font leave the figure its room") {
   }
 }
 
+TEST_CASE("what no font has is a box in a PNG and covers nothing") {
+  if (!gnuplot_is_there()) return;
+  // For private use of anybody, in the last plane: no font has it.
+  const std::string none = "\U0010FF00\U0010FF01 h\u00E9llo \u0394";
+  const std::string boxes = "\u25A1\u25A1 h\u00E9llo \u0394";
+  const auto labelled = [](const std::string& text) {
+    return "set terminal pngcairo noenhanced size 400,200\nset label 1 " + gnuplot_text(text) +
+           " at screen 0.1,0.5\nplot [0:1] x notitle\n";
+  };
+  CHECK(run_gnuplot(labelled(none)) == run_gnuplot(labelled(boxes)));
+  CHECK(run_gnuplot(labelled("hello")) != run_gnuplot(labelled(boxes)));
+}
+
 TEST_CASE("an SVG takes every colour from a class, for a page to exchange") {
   const std::string svg = render(figure_with("x"), FigureFormat::svg, {});
   for (const char* own : {"stroke=\"#", "fill=\"#", "stroke=\"black", "fill=\"black", "style="}) {

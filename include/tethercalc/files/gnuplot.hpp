@@ -6,8 +6,9 @@
 namespace tethercalc {
 
 /// Runs the program `gnuplot` found on PATH, without a shell and without the user's settings, and
-/// returns what it draws. Throws InputError naming the Debian package where there is none,
-/// std::runtime_error with gnuplot's own words where it fails. Takes 50 to 200 ms.
+/// returns what it draws. A character that no font of the machine has is drawn as a box. Throws
+/// InputError naming the Debian package where there is no gnuplot, std::runtime_error with
+/// gnuplot's own words where it fails. Takes 50 to 200 ms.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
 
 }  // namespace tethercalc

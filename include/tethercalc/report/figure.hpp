@@ -27,14 +27,14 @@ enum class Mark { speck, cross, dot, circle, diamond, square, triangle, plus };
 
 /// What an axis shows, `lo` < `hi`.
 struct Range {
-  double lo = 0;
-  double hi = 1;
+  double lo = 0;  ///< where it begins
+  double hi = 1;  ///< where it ends
 };
 
 /// A place on an axis with its words, which may be empty.
 struct Tick {
-  double at = 0;
-  std::string words{};
+  double at = 0;        ///< on the axis
+  std::string words{};  ///< beside it
 };
 
 /// An axis of a panel.
@@ -49,10 +49,10 @@ struct Axis {
 
 /// A line through points in their order.
 struct Curve {
-  std::vector<double> x{};
-  std::vector<double> y{};
-  Colour colour = Colour::ink;
-  Dash dash = Dash::solid;
+  std::vector<double> x{};           ///< horizontal places
+  std::vector<double> y{};           ///< as many vertical ones
+  Colour colour = Colour::ink;       ///< of the line
+  Dash dash = Dash::solid;           ///< of the line
   double width = 1;                  ///< times 0.75 pt
   std::string words{};               ///< in the legend; empty: not there
   std::vector<std::string> cells{};  ///< further columns of the legend, as `Panel::legend_heads`
@@ -61,10 +61,10 @@ struct Curve {
 
 /// Points, each on its own.
 struct Points {
-  std::vector<double> x{};
-  std::vector<double> y{};
-  Mark mark = Mark::dot;
-  Colour colour = Colour::ink;
+  std::vector<double> x{};       ///< horizontal places
+  std::vector<double> y{};       ///< as many vertical ones
+  Mark mark = Mark::dot;         ///< at each of them
+  Colour colour = Colour::ink;   ///< of all marks
   std::string words{};           ///< in the legend; empty: not there
   std::vector<double> sizes{};   ///< times the usual size, one a point; empty: 1
   std::vector<double> values{};  ///< by `Panel::scale` the colours, one a point; empty: `colour`
@@ -72,46 +72,46 @@ struct Points {
 
 /// The area between two lines.
 struct Band {
-  std::vector<double> x{};
-  std::vector<double> lower{};
-  std::vector<double> upper{};
-  Colour colour = Colour::grey;
-  std::string words{};  ///< in the legend; empty: not there
+  std::vector<double> x{};       ///< horizontal places
+  std::vector<double> lower{};   ///< as many vertical ones below
+  std::vector<double> upper{};   ///< and above
+  Colour colour = Colour::grey;  ///< shown pale
+  std::string words{};           ///< in the legend; empty: not there
 };
 
 /// A stretch of the horizontal axis, over the panel's whole height.
 struct Span {
-  Range range{};
-  Colour colour = Colour::green;
-  std::string words{};  ///< in the legend; empty: not there
+  Range range{};                  ///< on the axis
+  Colour colour = Colour::green;  ///< shown pale
+  std::string words{};            ///< in the legend; empty: not there
 };
 
 /// A line across the panel at one number of an axis.
 struct Reference {
-  double at = 0;
-  bool vertical = false;  ///< at a number of the horizontal axis
-  Colour colour = Colour::grey;
-  Dash dash = Dash::solid;
-  std::string words{};  ///< beside a vertical line, near its lower end; empty: nothing
+  double at = 0;                 ///< on the axis
+  bool vertical = false;         ///< at a number of the horizontal axis
+  Colour colour = Colour::grey;  ///< of the line
+  Dash dash = Dash::solid;       ///< of the line
+  std::string words{};           ///< beside a vertical line, near its lower end; empty: nothing
 };
 
 /// Words around a point.
 struct Note {
-  double x = 0;
-  double y = 0;
-  std::string words{};
+  double x = 0;         ///< horizontal place
+  double y = 0;         ///< vertical place
+  std::string words{};  ///< with their middle there
 };
 
 /// A rectangle of a heat map.
 struct Cell {
-  Range x{};
-  Range y{};
+  Range x{};                                                ///< from its left to its right side
+  Range y{};                                                ///< from its lower to its upper side
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: grey
 };
 
 /// A heat map, coloured by `Panel::scale`.
 struct Cells {
-  std::vector<Cell> cells{};
+  std::vector<Cell> cells{};    ///< which do not overlap
   std::string words_of_grey{};  ///< what grey means, in the legend; empty: not there
 };
 
@@ -122,19 +122,19 @@ using Layer = std::variant<Curve, Points, Band, Span, Reference, Note, Cells>;
 /// domain) over the range, its lightness rising evenly.
 struct ColourScale {
   std::string label{};  ///< quantity and unit
-  Range range{};
+  Range range{};        ///< darkest to lightest
 };
 
 /// A frame with axes.
 struct Panel {
-  std::string title{};  ///< above it; may be empty
-  Axis x{};
-  Axis y{};
+  std::string title{};        ///< above it; may be empty
+  Axis x{};                   ///< horizontal axis, along the lower edge
+  Axis y{};                   ///< vertical axis, along the left edge
   std::optional<Axis> top{};  ///< ticks along the upper edge, at numbers of `x`
   std::string remark{};       ///< above the right end, where there is no `top`
   double lines = 14;          ///< height of its frame in lines of text, in one column
-  bool beside = false;        ///< right of the panel before it, whose `y` it shares
-  std::vector<Layer> layers{};
+  bool beside = false;        ///< right of the panel before it, whose `y` it shares; not the first
+  std::vector<Layer> layers{};              ///< what stands on the axes
   std::vector<std::string> legend_heads{};  ///< above further columns of the legend
   std::vector<std::string> key{};           ///< further lines of the legend, without a sample
   std::optional<ColourScale> scale{};       ///< of `Cells` and of `Points::values`
@@ -142,22 +142,22 @@ struct Panel {
 
 /// One of several shares.
 struct Bar {
-  std::string words{};
-  double share = 0;      ///< 0 to 1; what is beyond is cut off
-  std::string number{};  ///< the share in digits
-  Colour colour = Colour::ink;
+  std::string words{};          ///< what it is a share of
+  double share = 0;             ///< 0 to 1; what is beyond is cut off
+  std::string number{};         ///< the share in digits
+  Colour colour = Colour::ink;  ///< of the bar
 };
 
 /// Horizontal bars, each below its words.
 struct Bars {
-  std::string title{};
-  std::vector<Bar> bars{};
+  std::string title{};      ///< above them
+  std::vector<Bar> bars{};  ///< from top to bottom
 };
 
 /// Lines of text.
 struct Lines {
-  std::string title{};
-  std::vector<std::string> texts{};
+  std::string title{};               ///< above them
+  std::vector<std::string> texts{};  ///< one a line
 };
 
 }  // namespace plot
