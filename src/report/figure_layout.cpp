@@ -227,7 +227,7 @@ class Typesetter {
       text(fitted(panel.y.label, row_room), {from, y_ + 10});
       y_ += line_height;
       if (apart && !right.empty()) y_ += line_height;
-      const double base = panel.beside ? layout_.panels.back().frame.top - 5 : y_ - 2;
+      const double base = panel.beside ? layout_.panels.back().frame.top - 7 : y_ - 2;
       text(fitted(right, across.hi - from), {across.hi, base}, Anchor::right);
     }
     y_ += tick_words ? line_height + tick_length + 1 : 5;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
+#include <tuple>
 
 #include "support/figures.hpp"
 #include "support/simulated_flight.hpp"
@@ -182,5 +184,24 @@ TEST_CASE("figures of flights name their axes with units and keep their texts ap
     for (const std::string& words : texts) CHECK(shows(svg, words));
     CHECK(layout_problems(svg) == no_problems);
     CHECK(svg.size() < 100000);
+  }
+}
+
+TEST_CASE("what stands in one legend differs without its colour") {
+  const auto& flight = fitted().identified.flights.front();
+  for (const Figure& figure : {log_figure("simulated.csv", flight), drag_figure(fitted()),
+                               drag_surface_figure(fitted())}) {
+    for (const plot::Panel& panel : panels_of(figure)) {
+      std::set<std::tuple<plot::Dash, double>> lines;
+      std::set<plot::Mark> marks;
+      for (const plot::Curve& curve : layers_of<plot::Curve>(panel)) {
+        INFO(figure.id << ": " << curve.words);
+        if (!curve.words.empty()) CHECK(lines.insert({curve.dash, curve.width}).second);
+      }
+      for (const plot::Points& points : layers_of<plot::Points>(panel)) {
+        INFO(figure.id << ": " << points.words);
+        if (!points.words.empty()) CHECK(marks.insert(points.mark).second);
+      }
+    }
   }
 }
