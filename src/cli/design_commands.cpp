@@ -399,10 +399,12 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
     try {
       const DesignFile file = read_design(name, overrides);
       text += printable(file.file) + ": valid\n";
-      for (const std::string& warning : file.warnings) {
+      std::vector<std::string> warnings = file.warnings;
+      if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
+      for (const std::string& warning : warnings) {
         text += "  Note: " + printable(warning) + "\n";
       }
-      json.push_back({{"file", file.file}, {"valid", true}, {"warnings", file.warnings}});
+      json.push_back({{"file", file.file}, {"valid", true}, {"warnings", warnings}});
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -22,6 +22,7 @@
 #include "tethercalc/io/mission.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/spec_writer.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 #include "tethercalc/report/log_report.hpp"
@@ -469,6 +470,9 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   DiagnosisStudy study = studied(options, question);
   if (study.flight) {
     study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
+  }
+  if (auto drag = drag_estimate_sentence(file.design)) {
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
   }
   std::optional<NextFlight> next;
   if (!options.next_flight_file.empty()) {
