@@ -354,8 +354,10 @@ class CommandLine {
     add("compare", "One optimum a motor, the most economical first",
         [this] { return run_compare(spec_, motors_, output_); })
         .spec(spec_)
-        .comma_list("--motors MOTOR,...", motors_,
-                    "all, or names of the library and files, separated by commas (default: all)")
+        .comma_list(
+            "--motors MOTOR,...", motors_,
+            "all, alike (the spec's own and the eight nearest in greatest thrust), or names of the "
+            "library and files, separated by commas (default: all)")
         .output(output_)
         .examples({"tethercalc compare my.json",
                    "tethercalc compare my.json --motors holybro-air2216-920kv-10in,my-motor.json"});
@@ -565,8 +567,10 @@ class CommandLine {
                 "Words above the figure (default: the design's or the file's name)")
         .option("--width-mm MM", plot_.width_mm,
                 "Width of the figure, 85 to 400 (default: 85, one column of a journal)")
-        .comma_list("--motors MOTOR,...", plot_.motors,
-                    "motors: all, or names of the library and files, separated by commas")
+        .comma_list(
+            "--motors MOTOR,...", plot_.motors,
+            "motors: all, alike, or names of the library and files, separated by commas (default: "
+            "alike, the spec's own and the eight nearest to it in greatest thrust)")
         .option("--view speed|surface", plot_.view,
                 "drag: over speed, or as a surface over airspeed and tilt (default: speed)")
         .option("--x PATH", plot_.x, "sweep: the varied field along the horizontal axis")

@@ -96,7 +96,7 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
                  const Output& output);
 
 /// The motors that `--motors` names: "all" (of the library, and the spec's own where that is none
-/// of them), names of the library, or files. Throws InputError with every name that there is none
+/// of them), "alike" (`alike_motors`), names of the library, or files. Throws InputError with every name that there is none
 /// of.
 [[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
                                                     const DesignFile& file);
@@ -285,7 +285,7 @@ struct PlotOptions {
   DiagnoseOptions made_of;         ///< changes of the spec, logs and what is known of them
   std::string title;               ///< above the figure; empty: the design's or the file's name
   double width_mm = 85;
-  std::vector<std::string> motors{"all"};
+  std::vector<std::string> motors{"alike"};
   std::string view;
   std::string x;
   std::string y;

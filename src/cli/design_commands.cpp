@@ -18,6 +18,7 @@
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/reference_check.hpp"
+#include "tethercalc/study/motor.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -165,6 +166,11 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
       if (std::ranges::find(library, file.motor.id, &MotorEntry::id) == library.end()) {
         motors.push_back(file.motor);
       }
+      continue;
+    }
+    if (name == "alike") {
+      const std::vector<MotorEntry> alike = alike_motors(library_motors(), file.motor);
+      motors.insert(motors.end(), alike.begin(), alike.end());
       continue;
     }
     try {
