@@ -38,7 +38,7 @@ DesignFile start() {
 void tell(const DesignFile& file, const Diagnosis& diagnosis, const Design& extended) {
   require(!diagnosis_text(diagnosis, {}).empty());
   const nlohmann::ordered_json answer = diagnosis_json(diagnosis, spec_with(file, extended));
-  require(nlohmann::json::parse(answer.dump()) == answer);
+  require(nlohmann::ordered_json::parse(answer.dump()) == answer);
   (void)diagnosis_csv(diagnosis.findings);
   if (diagnosis.compared.empty()) return;
   const Figure figure = diagnosis_figure("log", diagnosis);

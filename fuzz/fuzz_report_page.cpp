@@ -46,7 +46,7 @@ void make_page(const std::string& text) {
   content.gnuplot = [](const std::string&) {
     return std::string(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10 10\" width=\"10\" "
-        "height=\"10\"></svg>\n");
+        "height=\"10\"><title>t</title><desc>d</desc></svg>\n");
   };
   const std::vector<MotorEntry> all = library_motors();
   content.motors = compare_motors(design, {all.begin(), all.begin() + 2});
