@@ -96,8 +96,8 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
                  const Output& output);
 
 /// The motors that `--motors` names: "all" (of the library, and the spec's own where that is none
-/// of them), "alike" (`alike_motors`), names of the library, or files. Throws InputError with every name that there is none
-/// of.
+/// of them), "alike" (`alike_motors`), names of the library, or files. Throws InputError with every
+/// name that there is none of.
 [[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
                                                     const DesignFile& file);
 
