@@ -2,6 +2,15 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS tethercalc tethercalc_core EXPORT tethercalcTargets)
 install(TARGETS tethercalc_command RUNTIME)
+if(TETHERCALC_WORDS)
+  install(FILES "${TETHERCALC_WORDS}/tethercalc.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES "${TETHERCALC_WORDS}/tethercalc"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${TETHERCALC_WORDS}/_tethercalc"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(FILES "${TETHERCALC_WORDS}/tethercalc.fish"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+endif()
 install(DIRECTORY include/tethercalc TYPE INCLUDE)
 install(FILES LICENSE README.md TYPE DOC)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -60,7 +60,7 @@ std::vector<std::string> words_for(const OptionHelp& option,
       words.push_back(dot_path(field.pointer) + (value == "PATH" ? "" : "="));
     }
   } else if (value.starts_with("MOTOR")) {
-    words.emplace_back("all");
+    words.insert(words.end(), {"all", "alike"});
     for (const MotorEntry& motor : library_motors()) words.push_back(motor.id);
   } else if (value == "[COMMAND]") {
     for (const CommandHelp& command : commands) words.push_back(command.name);

@@ -324,7 +324,9 @@ class CommandLine {
     check_outputs(*command);
     if (problems_.count() > 0) add_problems_of_spec();
     problems_.throw_if_any();
-    if (output_.file == "-") output_.file.clear();
+    for (std::string* file : {&output_.file, &drag_.into_file, &diagnose_.into_file}) {
+      if (*file == "-") file->clear();
+    }
     return actions_.at(command->get_name())();
   }
 
@@ -352,8 +354,10 @@ class CommandLine {
     add("compare", "One optimum a motor, the most economical first",
         [this] { return run_compare(spec_, motors_, output_); })
         .spec(spec_)
-        .comma_list("--motors MOTOR,...", motors_,
-                    "all, or names of the library and files, separated by commas (default: all)")
+        .comma_list(
+            "--motors MOTOR,...", motors_,
+            "all, alike (the spec's own and the eight nearest in greatest thrust), or names of the "
+            "library and files, separated by commas (default: all)")
         .output(output_)
         .examples({"tethercalc compare my.json",
                    "tethercalc compare my.json --motors holybro-air2216-920kv-10in,my-motor.json"});
@@ -490,18 +494,23 @@ class CommandLine {
 
   void add_log_commands() {
     add("drag", "The drone's drag, learned from its own flight logs",
-        [this] { return run_drag(files_, flight_, what_, autopilot_, output_); })
-        .argument("LOG", files_, "Flight logs: ArduPilot (.bin, .log), PX4 (.ulg) or CSV")
-        .flight(flight_)
-        .flag("--published-kinematics", flight_.published_kinematics,
+        [this] {
+          drag_.into = app_.get_subcommand("drag")->count("--into") > 0;
+          return run_drag(drag_, output_);
+        })
+        .argument("LOG", drag_.logs, "Flight logs: ArduPilot (.bin, .log), PX4 (.ulg) or CSV")
+        .flight(drag_.flight)
+        .flag("--published-kinematics", drag_.flight.published_kinematics,
               "The forward axis alone, by the paper's formulas: reproduces its digits")
-        .option("--into SPEC", what_, "Print this spec with its drag replaced, instead of the fit")
-        .option("--parameters ardupilot|px4", autopilot_,
+        .option("--spec SPEC", drag_.spec.file, "The spec whose drag --into replaces")
+        .option_or_flag("--into FILE", drag_.into_file,
+                        "Write the spec with its drag replaced to this file; without a name print "
+                        "it instead of the fit")
+        .option("--parameters ardupilot|px4", drag_.autopilot,
                 "Print the drag as parameters of this autopilot's wind estimate instead")
         .output(output_)
-        .examples(
-            {"tethercalc drag flight.bin --mass-g 1550 --pitch-offset-deg 0.8",
-             "tethercalc drag flight.bin --mass-g 1550 --into my.json --output learned.json"});
+        .examples({"tethercalc drag flight.bin --mass-g 1550 --pitch-offset-deg 0.8",
+                   "tethercalc drag flight.bin --mass-g 1550 --spec my.json --into learned.json"});
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
           diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;
@@ -559,8 +568,10 @@ class CommandLine {
                 "Words above the figure (default: the design's or the file's name)")
         .option("--width-mm MM", plot_.width_mm,
                 "Width of the figure, 85 to 400 (default: 85, one column of a journal)")
-        .comma_list("--motors MOTOR,...", plot_.motors,
-                    "motors: all, or names of the library and files, separated by commas")
+        .comma_list(
+            "--motors MOTOR,...", plot_.motors,
+            "motors: all, alike, or names of the library and files, separated by commas (default: "
+            "alike, the spec's own and the eight nearest to it in greatest thrust)")
         .option("--view speed|surface", plot_.view,
                 "drag: over speed, or as a surface over airspeed and tilt (default: speed)")
         .option("--x PATH", plot_.x, "sweep: the varied field along the horizontal axis")
@@ -632,8 +643,8 @@ class CommandLine {
 
   /// What else is wrong, while at it.
   void add_problems_of_spec() {
-    for (const SpecOptions* spec :
-         {&spec_, &sweep_.spec, &shape_.spec, &motor_.spec, &diagnose_.spec, &plot_.made_of.spec}) {
+    for (const SpecOptions* spec : {&spec_, &sweep_.spec, &shape_.spec, &drag_.spec, &motor_.spec,
+                                    &diagnose_.spec, &plot_.made_of.spec}) {
       if (spec->file.empty()) continue;
       problems_.succeeds([spec] { [[maybe_unused]] const DesignFile read = read_spec(*spec); });
     }
@@ -647,8 +658,7 @@ class CommandLine {
     for (const CLI::Option* option : command.get_options()) {
       const std::string& name = option->get_name();
       const bool written = name == "--output" || name == "--summary" || name == "--junit" ||
-                           name == "--next-flight" ||
-                           (name == "--into" && command.get_name() == "diagnose");
+                           name == "--next-flight" || name == "--into";
       for (const std::string& value : option->results()) {
         if (written && !value.empty()) {
           outputs.emplace_back(name, value);
@@ -663,6 +673,10 @@ class CommandLine {
       if (std::ranges::any_of(inputs,
                               [&file = file](const auto& read) { return same_file(file, read); })) {
         problems_.add(option, "\"" + file + "\" is read; give another file to write");
+      }
+      // A log behind --into, meant to be read, would be lost.
+      if (option == "--into" && same_file(file, file) && !file.ends_with(".json")) {
+        problems_.add(option, "\"" + file + "\" is there and no .json file; a spec goes there");
       }
     }
     for (std::size_t i = 1; i < outputs.size(); ++i) {
@@ -728,8 +742,7 @@ class CommandLine {
   ShapeOptions shape_;
   std::vector<std::string> files_;
   std::string what_;
-  std::string autopilot_;
-  FlightOptions flight_;
+  DragOptions drag_;
   DiagnoseOptions diagnose_;
   std::span<const char* const> arguments_;  ///< what was typed, the program's name first
   std::string message_;

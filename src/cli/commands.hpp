@@ -61,6 +61,13 @@ void be_quiet();
 /// Writes the answer, to the file whole or not at all. Throws InputError where it cannot.
 void emit(const Output& output, const std::string& text);
 
+/// Takes one line of an answer, with its newline.
+using LineTaker = std::function<void(std::string_view line)>;
+
+/// Writes an answer of any length as `lines` gives it, to the file whole or not at all. Throws
+/// InputError where it cannot.
+void emit_lines(const Output& output, const std::function<void(const LineTaker&)>& lines);
+
 /// The text of a JSON answer.
 [[nodiscard]] std::string json_text(const nlohmann::ordered_json& json);
 
@@ -89,8 +96,8 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
                  const Output& output);
 
 /// The motors that `--motors` names: "all" (of the library, and the spec's own where that is none
-/// of them), names of the library, or files. Throws InputError with every name that there is none
-/// of.
+/// of them), "alike" (`alike_motors`), names of the library, or files. Throws InputError with every
+/// name that there is none of.
 [[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
                                                     const DesignFile& file);
 
@@ -232,10 +239,16 @@ int run_log(const std::string& file, const std::string& message, const Output& o
 [[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
                                      const FlightOptions& flight);
 
-/// Reports the drag or, where `into` names a spec, prints that with its drag block replaced or,
-/// where `autopilot` is "ardupilot" or "px4", prints its parameter file.
-int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
-             const std::string& into, const std::string& autopilot, const Output& output);
+struct DragOptions {
+  std::vector<std::string> logs;  ///< flights of one drone
+  FlightOptions flight;
+  SpecOptions spec;       ///< whose drag is replaced; without a name none
+  bool into = false;      ///< print that spec instead of the fit
+  std::string into_file;  ///< write it there instead, beside the fit
+  std::string autopilot;  ///< "ardupilot" or "px4": print its parameter file instead
+};
+
+int run_drag(const DragOptions& options, const Output& output);
 
 struct DiagnoseOptions {
   SpecOptions spec;
@@ -272,7 +285,7 @@ struct PlotOptions {
   DiagnoseOptions made_of;         ///< changes of the spec, logs and what is known of them
   std::string title;               ///< above the figure; empty: the design's or the file's name
   double width_mm = 85;
-  std::vector<std::string> motors{"all"};
+  std::vector<std::string> motors{"alike"};
   std::string view;
   std::string x;
   std::string y;

@@ -18,6 +18,7 @@
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/reference_check.hpp"
+#include "tethercalc/study/motor.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -165,6 +166,11 @@ std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
       if (std::ranges::find(library, file.motor.id, &MotorEntry::id) == library.end()) {
         motors.push_back(file.motor);
       }
+      continue;
+    }
+    if (name == "alike") {
+      const std::vector<MotorEntry> alike = alike_motors(library_motors(), file.motor);
+      motors.insert(motors.end(), alike.begin(), alike.end());
       continue;
     }
     try {
@@ -399,10 +405,12 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
     try {
       const DesignFile file = read_design(name, overrides);
       text += printable(file.file) + ": valid\n";
-      for (const std::string& warning : file.warnings) {
+      std::vector<std::string> warnings = file.warnings;
+      if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
+      for (const std::string& warning : warnings) {
         text += "  Note: " + printable(warning) + "\n";
       }
-      json.push_back({{"file", file.file}, {"valid", true}, {"warnings", file.warnings}});
+      json.push_back({{"file", file.file}, {"valid", true}, {"warnings", warnings}});
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

@@ -244,7 +244,7 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
       content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
   }
-  content.motors = compare_motors(file.design, chosen_motors({"all"}, file));
+  content.motors = compare_motors(file.design, chosen_motors({"alike"}, file));
   content.optimum = study_optimum(file.design, wire_sizes());
   content.curve = area_curve(content.optimum);
   if (content.optimum.result.feasible) {

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -23,6 +22,7 @@
 #include "tethercalc/io/mission.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/spec_writer.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 #include "tethercalc/report/log_report.hpp"
@@ -40,8 +40,7 @@ std::string spec_text(nlohmann::ordered_json spec, const std::string& read_at,
 }
 
 /// The spec with its drag replaced, checked as if a person had edited it.
-nlohmann::ordered_json spec_with_drag(const std::string& spec, const DragFit& fit) {
-  const DesignFile file = read_design(spec);
+nlohmann::ordered_json spec_with_drag(const DesignFile& file, const DragFit& fit) {
   Design design = file.design;
   const double asymmetry = design.drone.drag.fore_aft_asymmetry;
   design.drone.drag = fit.drag();
@@ -365,9 +364,7 @@ int run_log(const std::string& file, const std::string& message, const Output& o
   const LogFile content(file);
   const AutopilotLog log(content.bytes(), file);
   if (!message.empty()) {
-    std::ostringstream csv;
-    write_messages_csv(log, message, csv);
-    emit(output, csv.str());
+    emit_lines(output, [&](const LineTaker& put) { messages_csv(log, message, put); });
     return done;
   }
   const LogSummary summary = summarize_log(log);
@@ -417,21 +414,34 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
   }
 }
 
-int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
-             const std::string& into, const std::string& autopilot, const Output& output) {
-  const std::optional<Autopilot> parameters = parameters_of(autopilot);
-  if (parameters && (!into.empty() || output.format != Format::table)) {
+int run_drag(const DragOptions& options, const Output& output) {
+  const std::optional<Autopilot> parameters = parameters_of(options.autopilot);
+  if (parameters && (options.into || output.format != Format::table)) {
     throw InputError("--parameters", fmt::format("and {} each ask for another answer; give one",
-                                                 into.empty() ? "--format" : "--into"));
+                                                 options.into ? "--into" : "--format"));
   }
-  const DragIdentification result = studied_drag("", logs, flight).identified;
-  tell_assumptions(flight, result.options);
-  if (!into.empty()) {
+  std::optional<DesignFile> file;
+  if (!options.spec.file.empty()) file = read_spec(options.spec);
+  if (options.into && !file) {
+    throw InputError("--into",
+                     "says where the spec with the learned drag goes; the one that it is learned "
+                     "for is given by --spec SPEC");
+  }
+  if (file && !options.into) {
+    throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
+  }
+  const DragIdentification result = studied_drag("", options.logs, options.flight).identified;
+  tell_assumptions(options.flight, result.options);
+  if (options.into && options.into_file.empty()) {
     for (const std::string& warning : drag_warnings(result.fit)) {
       remark("drag: " + warning + "\n");
     }
-    emit(output, spec_text(spec_with_drag(into, result.fit), into, output.file));
+    emit(output, spec_text(spec_with_drag(*file, result.fit), options.spec.file, output.file));
     return done;
+  }
+  if (options.into) {
+    write_whole_file(options.into_file, spec_text(spec_with_drag(*file, result.fit),
+                                                  options.spec.file, options.into_file));
   }
   if (parameters) {
     emit(output, autopilot_parameter_file(result, *parameters));
@@ -460,6 +470,9 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   DiagnosisStudy study = studied(options, question);
   if (study.flight) {
     study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
+  }
+  if (auto drag = drag_estimate_sentence(file.design)) {
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
   }
   std::optional<NextFlight> next;
   if (!options.next_flight_file.empty()) {

@@ -7,12 +7,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
 
 #include "cli/commands.hpp"
+#include "files/input_files.hpp"
 #include "files/output_files.hpp"
 #include "report/characters.hpp"
 
@@ -75,6 +79,27 @@ void emit(const Output& output, const std::string& text) {
   }
 }
 
+void emit_lines(const Output& output, const std::function<void(const LineTaker&)>& lines) {
+  constexpr std::size_t part = std::size_t{1} << 20;
+  std::optional<WholeFile> file;
+  if (!output.file.empty()) file.emplace(output.file);
+  std::string kept;
+  const auto pass_on = [&] {
+    if (file) {
+      file->append(kept);
+    } else {
+      emit(output, kept);
+    }
+    kept.clear();
+  };
+  lines([&](std::string_view line) {
+    kept += line;
+    if (kept.size() >= part) pass_on();
+  });
+  pass_on();
+  if (file) file->commit();
+}
+
 std::string json_text(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
 
 void emit(const Output& output, const std::function<std::string()>& text,
@@ -100,13 +125,41 @@ void occupy_closed_descriptors() {
   }
 }
 
+void say(const char* words) {
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, words, std::strlen(words));
+}
+
 /// Reading a mapped file beyond where its end has come to be meanwhile ends here. Nothing but the
 /// simplest system calls may be made.
-void end_of_shortened_file(int) {
-  constexpr std::string_view words =
-      "tethercalc: a file was shortened while it was read; nothing was made of it\n";
-  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, words.data(), words.size());
+void end_of_shortened_file(int, siginfo_t* fault, void*) {
+  tethercalc::remove_unfinished_file();
+  const char* const name = tethercalc::mapped_file_at(fault->si_addr);
+  say(name != nullptr ? name : "tethercalc");
+  say(name != nullptr ? ": was shortened while it was read; nothing was made of it\n"
+                      : ": a file was shortened while it was read; nothing was made of it\n");
   ::_exit(tethercalc::cli::bad_input);
+}
+
+/// Who interrupts the program shall find no part of a file.
+void end_of_interrupted(int signal) {
+  tethercalc::remove_unfinished_file();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void tidy_up_on_signals() {
+  // Files in the midst of being written are to be tidied up where a reader closes the pipe or a
+  // file grows beyond what is allowed (ulimit -f); the calls that write tell of both.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  struct sigaction shortened {};
+  shortened.sa_sigaction = end_of_shortened_file;
+  shortened.sa_flags = SA_SIGINFO;
+  ::sigaction(SIGBUS, &shortened, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    // Who started this program deaf to a signal, as shells do in the background, meant it.
+    if (std::signal(signal, end_of_interrupted) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
 }
 
 }  // namespace
@@ -114,11 +167,7 @@ void end_of_shortened_file(int) {
 int main(int argc, char** argv) {
   using namespace tethercalc;
   occupy_closed_descriptors();
-  // Files in the midst of being written are to be tidied up where a reader closes the pipe or a
-  // file grows beyond what is allowed (ulimit -f); the calls that write tell of both.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGBUS, end_of_shortened_file);
+  tidy_up_on_signals();
   try {
     return cli::run(argc, argv);
   } catch (const InputError& error) {

@@ -21,6 +21,7 @@
 #include "tethercalc/files/threads.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/sweep_report.hpp"
 
 namespace tethercalc::cli {
@@ -280,6 +281,7 @@ int run_sweep(const SweepOptions& options) {
   problems.succeeds([&] { base = read_spec(options.spec); });
   problems.throw_if_any();
   const SweepSpace space = make_space(options, base);
+  if (const auto drag = drag_estimate_sentence(base.design)) remark("sweep: " + *drag + "\n");
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 
   const Sweep sweep{space, base.design, SweepRows(space.axes(), format),

@@ -43,6 +43,11 @@ class MappedFile {
  private:
   std::span<const std::byte> bytes_;
   std::string copy_;  // holds the bytes where the file could not be mapped
+  std::string name_;
 };
+
+/// The name of the file that is mapped where `address` lies, or nullptr where none is known to be:
+/// for the handler of SIGBUS, in which little else may be called.
+[[nodiscard]] const char* mapped_file_at(const void* address) noexcept;
 
 }  // namespace tethercalc

@@ -4,8 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <climits>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -35,14 +39,6 @@ int write_all(int file, std::string_view& content) {
     if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
   }
   return 0;
-}
-
-void write_directly(const std::filesystem::path& path, std::string_view content) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) refuse(path, errno);
-  const int error = write_all(file, content);
-  ::close(file);
-  if (error != 0) refuse(path, error);
 }
 
 bool is_regular_file(int file) {
@@ -99,40 +95,88 @@ std::optional<int> own_descriptor(std::filesystem::path path) {
   return std::nullopt;
 }
 
-}  // namespace
+/// The temporary file of the one WholeFile that is open, for handlers of signals.
+std::array<char, PATH_MAX> unfinished{};
+volatile std::sig_atomic_t is_unfinished = 0;
 
-void write_whole_file(const std::filesystem::path& path, std::string_view content) {
-  if (const auto descriptor = own_descriptor(path)) {
-    if (const int error = write_all(*descriptor, content); error != 0) refuse(path, error);
-    return;
-  }
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  if (std::filesystem::is_directory(status)) refuse(path, EISDIR);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    return write_directly(path, content);  // devices, pipes, sockets
-  }
-  // Through a symbolic link, the file it points to is replaced or made, not the link.
-  const std::filesystem::path target = end_of_links(path);
-  std::string temporary = target.string() + ".XXXXXX";
-  const int file = ::mkstemp(temporary.data());
-  if (file < 0) refuse(path, errno);
-  int error = write_all(file, content);
-  // mkstemp makes files private; give this one the permissions of the file it replaces, or those
-  // of any new file.
+void note_unfinished(const std::string& file) {
+  if (file.size() >= unfinished.size()) return;
+  std::copy(file.c_str(), file.c_str() + file.size() + 1, unfinished.begin());
+  is_unfinished = 1;
+}
+
+/// mkstemp makes files private; this gives one the permissions of the file that it replaces, or
+/// those of any new file.
+int give_permissions(int file, const std::filesystem::path& replaced) {
   const mode_t mask = ::umask(0);
   ::umask(mask);
+  std::error_code ignored;
+  const auto status = std::filesystem::status(replaced, ignored);
   const mode_t permissions = std::filesystem::exists(status)
                                  ? static_cast<mode_t>(status.permissions()) & 0777
                                  : 0666 & ~mask;
-  if (error == 0 && ::fchmod(file, permissions) != 0) error = errno;
-  if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
-  if (::close(file) != 0 && error == 0) error = errno;
-  if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    refuse(path, error);
+  return ::fchmod(file, permissions) != 0 ? errno : 0;
+}
+
+}  // namespace
+
+void remove_unfinished_file() noexcept {
+  if (is_unfinished == 0) return;
+  is_unfinished = 0;
+  ::unlink(unfinished.data());
+}
+
+WholeFile::WholeFile(std::filesystem::path path) : path_(std::move(path)) {
+  if (const auto descriptor = own_descriptor(path_)) {
+    file_ = *descriptor;
+    owned_ = false;
+    return;
   }
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path_, ignored);
+  if (std::filesystem::is_directory(status)) refuse(path_, EISDIR);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    file_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);  // devices, pipes, sockets
+  } else {
+    // Through a symbolic link, the file it points to is replaced or made, not the link.
+    target_ = end_of_links(path_);
+    temporary_ = target_.string() + ".XXXXXX";
+    file_ = ::mkstemp(temporary_.data());
+    if (file_ >= 0) note_unfinished(temporary_);
+  }
+  if (file_ < 0) refuse(path_, errno);
+}
+
+WholeFile::~WholeFile() {
+  if (file_ < 0) return;
+  if (owned_) ::close(file_);
+  if (!temporary_.empty()) remove_unfinished_file();
+}
+
+void WholeFile::append(std::string_view part) {
+  if (const int error = write_all(file_, part); error != 0) refuse(path_, error);
+}
+
+void WholeFile::commit() {
+  const int file = std::exchange(file_, -1);
+  int error = 0;
+  if (!temporary_.empty()) {
+    error = give_permissions(file, path_);
+    if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
+  }
+  if (owned_ && ::close(file) != 0 && error == 0 && errno != EINTR) error = errno;
+  if (!temporary_.empty()) {
+    if (error == 0 && ::rename(temporary_.c_str(), target_.c_str()) != 0) error = errno;
+    if (error == 0) is_unfinished = 0;
+    remove_unfinished_file();
+  }
+  if (error != 0) refuse(path_, error);
+}
+
+void write_whole_file(const std::filesystem::path& path, std::string_view content) {
+  WholeFile file(path);
+  file.append(content);
+  file.commit();
 }
 
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {

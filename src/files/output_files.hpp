@@ -13,6 +13,34 @@ namespace tethercalc {
 /// directly. Throws InputError, naming the file and the system's reason, where that fails.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
+/// The same for content that comes part by part, of which no more than a part is kept in memory.
+/// One such file is open at a time.
+class WholeFile {
+ public:
+  /// Throws InputError, naming the file and the system's reason, where it cannot be written.
+  explicit WholeFile(std::filesystem::path path);
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+  /// Without `commit` nothing is left of what was appended.
+  ~WholeFile();
+
+  /// Throws InputError as the constructor does.
+  void append(std::string_view part);
+  /// Gives the file its name. Nothing may be appended after it. Throws likewise.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::string temporary_;  ///< empty where `path_` is written directly
+  std::filesystem::path target_;
+  int file_ = -1;
+  bool owned_ = true;  ///< whether the file is this one's to close
+};
+
+/// Removes what a WholeFile has written so far, if one is open: for a signal's handler that ends
+/// the process.
+void remove_unfinished_file() noexcept;
+
 /// Whether both name one regular file that is there.
 [[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 

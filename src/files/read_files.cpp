@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -93,7 +95,44 @@ LoadedText read_text_file(const std::string& path) {
   return checked_text(file.number, path);
 }
 
-MappedFile::MappedFile(const std::filesystem::path& path) {
+namespace {
+
+/// A mapping that is there while `name` is.
+struct Mapping {
+  std::atomic<const char*> name;
+  std::atomic<std::uintptr_t> begin;
+  std::atomic<std::uintptr_t> end;
+};
+// More logs at once than a command line names; of those beyond, a message lacks the name.
+std::array<Mapping, 64> mappings;
+
+void note_mapping(std::span<const std::byte> bytes, const char* name) {
+  for (Mapping& mapping : mappings) {
+    if (mapping.name != nullptr) continue;
+    mapping.begin = reinterpret_cast<std::uintptr_t>(bytes.data());
+    mapping.end = mapping.begin + bytes.size();
+    mapping.name = name;
+    return;
+  }
+}
+
+void forget_mapping(const char* name) {
+  for (Mapping& mapping : mappings) {
+    if (mapping.name == name) mapping.name = nullptr;
+  }
+}
+
+}  // namespace
+
+const char* mapped_file_at(const void* address) noexcept {
+  const auto at = reinterpret_cast<std::uintptr_t>(address);
+  for (const Mapping& mapping : mappings) {
+    if (mapping.name != nullptr && mapping.begin <= at && at < mapping.end) return mapping.name;
+  }
+  return nullptr;
+}
+
+MappedFile::MappedFile(const std::filesystem::path& path) : name_(path.string()) {
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) {
@@ -105,6 +144,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     void* const start = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);
     if (start != MAP_FAILED) {
       bytes_ = {static_cast<const std::byte*>(start), size};
+      note_mapping(bytes_, name_.c_str());
       return;
     }
   }
@@ -121,6 +161,7 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
 
 MappedFile::~MappedFile() {
   if (copy_.empty() && !bytes_.empty()) {
+    forget_mapping(name_.c_str());
     ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
   }
 }

@@ -96,10 +96,18 @@ class FieldFinder {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       const SpecField& field = fields_[i];
       if (places_[i].given() || !field.required() || in_unusable_group(field.pointer)) continue;
+      if (may_be_left_out(field) && !is_any_given(may_be_left_out)) continue;
       problems_.add(places_[i].where(),
                     fmt::format("\"{}\" is missing{}{}: {}", last_key(field.pointer),
                                 field.unit.empty() ? "" : ", in ", field.unit, field.help));
     }
+  }
+
+  [[nodiscard]] bool is_any_given(bool (*of)(const SpecField&)) const {
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (of(fields_[i]) && places_[i].given()) return true;
+    }
+    return false;
   }
 
   [[nodiscard]] bool in_unusable_group(std::string_view pointer) const {

@@ -219,6 +219,7 @@ class SpecReader {
         read_field({&document_, &default_value, places[i].pointer}, fields[i]);
       }
     }
+    if (problems_.count() == before) estimate_drag(fields, places);
     // Conflicts between fields mean something only where each of them was read.
     if (problems_.count() > before) return;
     for (const FieldConflict& conflict : find_conflicts(result_.design)) {
@@ -268,6 +269,13 @@ class SpecReader {
       case FieldKind::motor_points:
         return;  // no spec has them but in a motor
     }
+  }
+
+  void estimate_drag(std::span<const SpecField> fields, const std::vector<JsonPlace>& places) {
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      if (may_be_left_out(fields[i]) && places[i].given()) return;
+    }
+    result_.design.drone.drag = drag_of_mass(result_.design.drone.mass);
   }
 
   template <typename Entry>

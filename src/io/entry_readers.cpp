@@ -120,6 +120,7 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
   if (!set_curve(entry, *points, points_place.where(), problems)) return std::nullopt;
   entry.curve.set_measured_in(density);
   if (uncertainty) {
+    entry.curve.set_uncertainty(*uncertainty / 100);
     entry.warnings.push_back(fmt::format(
         "{}: the motor is an estimate, not measured: its power may be off by about {:g} % "
         "either way (power_uncertainty_percent)",

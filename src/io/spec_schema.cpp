@@ -103,7 +103,7 @@ Json schema_of_object(std::span<const SpecField> fields) {
     const std::string_view key = groups.back();
     groups.pop_back();
     for (const std::string_view group : groups) {
-      if (field.required()) require(*object, group);
+      if (field.required() && !may_be_left_out(field)) require(*object, group);
       Json& properties = (*object)["properties"];
       if (!properties.contains(group)) properties[std::string(group)] = empty_object();
       object = &properties[std::string(group)];

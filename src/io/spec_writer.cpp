@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -70,6 +71,9 @@ Json entry_numbers(const Design& design, FieldKind kind) {
     if (const auto density = design.drone.motor.measured_in()) {
       numbers["measured_air_density_kg_m3"] = *density;
     }
+    if (const auto uncertainty = design.drone.motor.uncertainty()) {
+      numbers["power_uncertainty_percent"] = practical_number(*uncertainty, 0.01);
+    }
     numbers["points"] = std::move(points);
     return numbers;
   }
@@ -118,6 +122,13 @@ Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
 Json spec_with(const DesignFile& file, const Design& design,
                const std::map<std::string, std::string>& references) {
   Json document = file.document;
+  // An estimated drag is in no spec; what takes its place is written whole.
+  const bool estimate_replaced =
+      file.design.drone.drag.is_estimate &&
+      std::ranges::any_of(spec_fields(), [&](const SpecField& field) {
+        return may_be_left_out(field) &&
+               plain_json(design, field) != plain_json(file.design, field);
+      });
   for (const SpecField& field : spec_fields()) {
     const auto write = [&](Json value) {
       document[Json::json_pointer(std::string(field.pointer))] = std::move(value);
@@ -139,7 +150,8 @@ Json spec_with(const DesignFile& file, const Design& design,
                   : entry_json(file, file.insulation, design, field, reference));
         break;
       default:
-        if (Json value = plain_json(design, field); value != plain_json(file.design, field)) {
+        if (Json value = plain_json(design, field); (estimate_replaced && may_be_left_out(field)) ||
+                                                    value != plain_json(file.design, field)) {
           write(std::move(value));
         }
     }

@@ -4,6 +4,14 @@
 
 namespace tethercalc {
 
+AirframeDrag drag_of_mass(double mass) {
+  constexpr double published_mass = 1.549;
+  const double size = std::cbrt(mass / published_mass);
+  AirframeDrag drag{0.01451 * size * size, 0.01361 * size * size, 19.27 * size, 0};
+  drag.is_estimate = true;
+  return drag;
+}
+
 double airframe_drag_force(const AirframeDrag& drag, double air_density, double airspeed,
                            double tan_pitch) {
   return std::copysign(area_force_factor(drag, air_density, airspeed), airspeed) *

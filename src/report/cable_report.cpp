@@ -152,6 +152,7 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   add_hover(hovers, "straight", study.straight);
   out += TitledTable{"The drone holding its place", hovers}.text(style);
   out += wrapped(difference_sentence(study));
+  if (const auto drag = drag_estimate_sentence(file.design)) out += wrapped("Note: " + *drag);
   TextTable stations({"along\nm", "x\nm", "y\nm", "height\nm", "tension\nN"});
   for (const CablePoint& p : stations_of(study.shape)) {
     stations.add({fixed(p.s, 2), fixed(p.position.x, 2), fixed(p.position.y, 2),
@@ -198,6 +199,7 @@ ordered_json cable_shape_json(const DesignFile& file, double area, const ShapeSt
                      {"EA_N", number_or_null(study.cable.axial_stiffness)}}},
                    {"drone_m", vector_json(study.drone)},
                    {"wind_m_s", vector_json(study.air.wind)}};
+  add_estimates(out, file.design);
   if (study.outcome != CableOutcome::hangs) return out;
   out["length_m"] = study.loads.length;
   out["hangs_free"] = study.hangs_free;

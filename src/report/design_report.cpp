@@ -140,6 +140,19 @@ std::string confidence_text(const DesignStudy& study) {
                             minimum.agreeing >= 2 ? "" : ": there may be a better one elsewhere");
 }
 
+/// What of the design is an estimate, and by how much it may be off.
+std::vector<std::string> estimate_sentences(const Design& design) {
+  std::vector<std::string> out;
+  if (const auto percent = power_uncertainty_percent(design)) {
+    out.push_back(
+        fmt::format("Note: the motor is an estimate, not measured: its power may be off by about "
+                    "{} % either way (power_uncertainty_percent)",
+                    significant(*percent, 3)));
+  }
+  if (const auto drag = drag_estimate_sentence(design)) out.push_back("Note: " + *drag);
+  return out;
+}
+
 }  // namespace
 
 std::string design_text(const DesignFile& file, const DesignRequest& request,
@@ -176,6 +189,10 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
       out += wrapped(sentence);
     }
   }
+  for (const std::string& sentence : estimate_sentences(answer.best.design)) {
+    out += wrapped(sentence);
+  }
+  if (study.problem.frees("drone.motor")) out += wrapped("Note: " + motor_mass_sentence());
   if (!study.prices.empty()) {
     out += "\n" + style.bold("What binds, and what more of it would change") + "\n";
     for (const ShadowPrice& price : study.prices) {
@@ -241,6 +258,7 @@ ordered_json design_json(const DesignFile& file, const DesignRequest& request,
         {"sentence", confidence_text(study)}}},
       {"pareto", front},
       {"spec", answer.feasible ? ready_spec(file, study) : ordered_json(nullptr)}};
+  add_estimates(out, answer.best.design);
   if (!answer.feasible) {
     out["missed"] = json_list(answer.missed, [](const DemandState& demand) {
       return ordered_json{{"demand", demand.name},

@@ -473,6 +473,23 @@ std::optional<std::string> density_warning(const Design& design) {
 
 }  // namespace
 
+std::optional<std::string> drag_estimate_sentence(const Design& design) {
+  const AirframeDrag& drag = design.drone.drag;
+  if (!drag.is_estimate) return std::nullopt;
+  return fmt::format(
+      "the drag is an estimate, not measured: the spec has no drone.drag, and a drone of {} g is "
+      "taken to have front_area_m2 {}, top_area_m2 {}, linear_m_s {}; the force may be off by a "
+      "factor of {} either way (drag_uncertainty_factor), power in forward flight with it; "
+      "tethercalc drag learns it from a flight",
+      significant(design.drone.mass / unit::gram, 4), significant(drag.front_area, 3),
+      significant(drag.top_area, 3), significant(drag.linear_speed, 3), drag_estimate_factor);
+}
+
+std::string motor_mass_sentence() {
+  return "the drone weighs what the spec says (drone.mass_g) with every motor: what a motor, its "
+         "propeller or a larger frame weighs more is not counted, nor whether the propeller fits";
+}
+
 std::vector<std::string> cable_warnings(const Design& design) {
   std::vector<std::string> warnings;
   const Tether& tether = design.tether;
@@ -494,6 +511,7 @@ std::vector<std::string> cable_warnings(const Design& design) {
 
 std::vector<std::string> spec_warnings(const DesignFile& file) {
   std::vector<std::string> warnings = file.warnings;
+  if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
   if (auto density = density_warning(file.design)) warnings.push_back(std::move(*density));
   return warnings;
 }

@@ -102,11 +102,14 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
     });
     return ordered_json{{"of", of.key}, {"against", against.key}, {"points", points}};
   });
-  return {{"name", file.name},
-          {"cross_section_mm2", *file.design.tether.cross_section / unit::square_millimetre},
-          {"greatest", greatest},
-          {"curves", curves},
-          {"warnings", all_warnings(file)}};
+  ordered_json out{
+      {"name", file.name},
+      {"cross_section_mm2", *file.design.tether.cross_section / unit::square_millimetre},
+      {"greatest", greatest},
+      {"curves", curves}};
+  add_estimates(out, file.design);
+  out["warnings"] = all_warnings(file);
+  return out;
 }
 
 std::string envelope_csv(const EnvelopeStudy& study) {

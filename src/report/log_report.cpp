@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <ostream>
 #include <vector>
 
 #include "io/closest_name.hpp"
@@ -292,7 +291,8 @@ ordered_json log_json(const LogSummary& summary, std::string_view name) {
   return report;
 }
 
-void write_messages_csv(const AutopilotLog& log, std::string_view message, std::ostream& out) {
+void messages_csv(const AutopilotLog& log, std::string_view message,
+                  const std::function<void(std::string_view line)>& put) {
   const LogContents& contents = log.contents();
   if (contents.count(message) == 0) fail_without(message, log);
   // Copied: the types that for_each() hands out are others, of the same names.
@@ -302,7 +302,7 @@ void write_messages_csv(const AutopilotLog& log, std::string_view message, std::
   for (const LogField& field : header.fields) {
     line += (line.empty() ? "" : ",") + csv_text(field.name);
   }
-  out << line << '\n';
+  put(line += '\n');
   log.for_each([&](const LogMessageType& type, const std::byte* bytes) {
     if (type.name != message) return;
     line = several ? std::to_string(type.instance.value_or(0)) : "";
@@ -314,7 +314,7 @@ void write_messages_csv(const AutopilotLog& log, std::string_view message, std::
       const bool none = field->is_number() && !std::isfinite(field_value(bytes, *field));
       if (!none) line += csv_text(field_text(bytes, *field));
     }
-    out << line << '\n';
+    put(line += '\n');
   });
 }
 

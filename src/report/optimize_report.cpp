@@ -118,12 +118,19 @@ ordered_json optimum_json(const Optimization& result) {
 
 /// Lines of CSV: the names of an optimum's results, and the results.
 std::string header_csv() {
-  return csv_line(json_list(optimum_results({}), [](const auto& result) { return result.name; }));
+  ordered_json names =
+      json_list(optimum_results({}), [](const auto& result) { return result.name; });
+  names.push_back("power_uncertainty_percent");
+  names.push_back("drag_uncertainty_factor");
+  return csv_line(names);
 }
 
-std::string results_csv(const Optimization& optimum) {
-  return csv_line(json_list(optimum_results(optimum),
-                            [](const auto& result) { return result_json(result.value); }));
+std::string results_csv(const Design& design, const Optimization& optimum) {
+  ordered_json values = json_list(optimum_results(optimum),
+                                  [](const auto& result) { return result_json(result.value); });
+  values.push_back(number_or_null(power_uncertainty_percent(design)));
+  values.push_back(number_or_null(drag_uncertainty_factor(design)));
+  return csv_line(values);
 }
 
 std::string notes_text(std::span<const std::string> warnings, const TextStyle& style) {
@@ -261,12 +268,13 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
     out["reason"] = refusal_sentence(design, *study.refusal);
     out["remedies"] = remedies_json(study);
   }
+  add_estimates(out, design);
   out["warnings"] = all_warnings(file);
   return out;
 }
 
 std::string optimize_csv(const OptimumStudy& study) {
-  return header_csv() + results_csv(study.result);
+  return header_csv() + results_csv(study.design, study.result);
 }
 
 std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
@@ -297,11 +305,14 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
   const ordered_json thermal =
       json_list(table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
-  return {{"name", file.name},
-          {"table", table_json(table)},
-          {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
-          {"voltage_class", voltage_class_json(file.design.supply.voltage)},
-          {"warnings", all_warnings(file)}};
+  ordered_json out{
+      {"name", file.name},
+      {"table", table_json(table)},
+      {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
+      {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
+  add_estimates(out, file.design);
+  out["warnings"] = all_warnings(file);
+  return out;
 }
 
 std::string evaluate_csv(std::span<const AreaPoints> table) {
@@ -353,33 +364,37 @@ std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> r
   const std::vector<std::string> refused = refused_motors(ranking);
   if (!refused.empty()) out += "\n" + style.bold("Not feasible") + "\n";
   for (const std::string& motor : refused) out += "  " + motor + "\n";
-  std::string notes;
+  std::string notes = wrapped(motor_mass_sentence(), 96, "  ");
   for (const MotorOptimum& entry : ranking) {
     for (const std::string& warning : entry.motor.warnings) notes += wrapped(warning, 96, "  ");
   }
-  if (!notes.empty()) out += "\n" + style.bold("Notes") + "\n" + notes;
-  return out;
+  if (const auto drag = drag_estimate_sentence(file.design)) notes += wrapped(*drag, 96, "  ");
+  return out + "\n" + style.bold("Notes") + "\n" + notes;
 }
 
 ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> ranking) {
   const ordered_json rows = json_list(ranking, [](const MotorOptimum& entry) {
-    return ordered_json{
+    ordered_json row{
         {"motor", entry.motor.id},
         {"name", entry.motor.name},
         {"status", status_name(entry.result.feasible)},
         {"optimum", optimum_json(entry.result)},
         {"best_headroom", number_or_null(entry.best_headroom.value)},
         {"reason", entry.refusal ? ordered_json(refusal_sentence(entry.design, *entry.refusal))
-                                 : ordered_json(nullptr)},
-        {"warnings", entry.motor.warnings}};
+                                 : ordered_json(nullptr)}};
+    add_estimates(row, entry.design);
+    row["warnings"] = entry.motor.warnings;
+    return row;
   });
-  return {{"name", file.name}, {"motors", rows}};
+  std::vector<std::string> warnings{motor_mass_sentence()};
+  if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
+  return {{"name", file.name}, {"motors", rows}, {"warnings", warnings}};
 }
 
 std::string compare_csv(std::span<const MotorOptimum> ranking) {
   std::string out = "motor," + header_csv();
   for (const MotorOptimum& entry : ranking) {
-    out += csv_text(entry.motor.id) + "," + results_csv(entry.result);
+    out += csv_text(entry.motor.id) + "," + results_csv(entry.design, entry.result);
   }
   return out;
 }

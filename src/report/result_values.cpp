@@ -10,6 +10,20 @@ ordered_json number_or_null(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
+std::optional<double> power_uncertainty_percent(const Design& design) {
+  const std::optional<double> share = design.drone.motor.uncertainty();
+  return share ? std::optional(100 * *share) : std::nullopt;
+}
+
+std::optional<double> drag_uncertainty_factor(const Design& design) {
+  return design.drone.drag.is_estimate ? std::optional(drag_estimate_factor) : std::nullopt;
+}
+
+void add_estimates(ordered_json& answer, const Design& design) {
+  answer["power_uncertainty_percent"] = number_or_null(power_uncertainty_percent(design));
+  answer["drag_uncertainty_factor"] = number_or_null(drag_uncertainty_factor(design));
+}
+
 ordered_json number_or_null(const std::optional<double>& value) {
   return value ? number_or_null(*value) : ordered_json(nullptr);
 }

@@ -30,6 +30,15 @@ template <typename Values, typename Of>
 /// An operating point under the keys of `operating_point_fields`.
 [[nodiscard]] ordered_json operating_point_json(const OperatingPoint& point);
 
+/// Percent by which the motors' power may be off either way where their curve is an estimate, and
+/// the factor by which the drag may be where that is one; nothing where they are not.
+[[nodiscard]] std::optional<double> power_uncertainty_percent(const Design& design);
+[[nodiscard]] std::optional<double> drag_uncertainty_factor(const Design& design);
+
+/// Puts both into an answer, as `power_uncertainty_percent` and `drag_uncertainty_factor`, null
+/// where nothing is estimated.
+void add_estimates(ordered_json& answer, const Design& design);
+
 /// A sentence that ends in a full stop, whether it did or not.
 [[nodiscard]] std::string with_stop(std::string sentence);
 

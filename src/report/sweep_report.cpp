@@ -141,6 +141,8 @@ SweepRows::SweepRows(std::span<const SweepAxis> axes, RowFormat format)
   std::vector<std::string> columns;
   for (const SweepAxis& axis : axes_) columns.push_back(axis.name);
   for (NamedResult& result : optimum_results({})) columns.push_back(std::move(result.name));
+  columns.emplace_back("power_uncertainty_percent");
+  columns.emplace_back("drag_uncertainty_factor");
   columns.emplace_back("reason");
   for (const std::string& column : columns) {
     const bool first = openings_.empty();
@@ -170,6 +172,8 @@ void SweepRows::append(std::string& text, const SweepRow& swept) const {
   row.words(limited ? condition_name(outcome.limiting_condition) : "");
   row.number(outcome.area() / unit::square_millimetre);
   row.points(outcome);
+  row.number(power_uncertainty_percent(swept.design).value_or(nan));
+  row.number(drag_uncertainty_factor(swept.design).value_or(nan));
   row.words(reason_words(swept));
   row.end();
 }

@@ -40,6 +40,7 @@ AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& chan
       if (change.field == field) *member = change.value;
     }
   }
+  drag.is_estimate = drag.is_estimate && changes.empty();
   return drag;
 }
 

@@ -65,4 +65,26 @@ MotorCurve generic_motor_curve(const GenericMotorRequest& request) {
   return curve;
 }
 
+std::vector<MotorEntry> alike_motors(std::span<const MotorEntry> motors, const MotorEntry& own) {
+  constexpr std::size_t others = 8;
+  std::vector<std::pair<double, std::size_t>> nearest;  // how far, and which
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    if (motors[i].id == own.id) continue;
+    const double ratio = motors[i].curve.max_thrust() / own.curve.max_thrust();
+    nearest.emplace_back(std::abs(std::log(ratio)), i);
+  }
+  std::ranges::sort(nearest);
+  nearest.resize(std::min(nearest.size(), others));
+  std::vector<MotorEntry> out;
+  bool own_is_among = false;
+  for (std::size_t i = 0; i < motors.size(); ++i) {
+    const bool is_own = motors[i].id == own.id;
+    const auto is_this = [i](const auto& near) { return near.second == i; };
+    if (is_own || std::ranges::any_of(nearest, is_this)) out.push_back(motors[i]);
+    own_is_among = own_is_among || is_own;
+  }
+  if (!own_is_among) out.push_back(own);
+  return out;
+}
+
 }  // namespace tethercalc

@@ -130,8 +130,8 @@ TEST_CASE("no command writes over a file that it reads, nor two answers into one
            {"optimize", spec, "--output", spec},
            {"optimize", spec, "-o", link},
            {"sweep", spec, "--vary", "supply.voltage_V=60:80:10", "--output", spec},
-           {"drag", project_file("examples/simulated-flight.csv"), "--mass-g", "1500", "--into",
-            spec, "--output", spec}}) {
+           {"drag", project_file("examples/simulated-flight.csv"), "--mass-g", "1500", "--spec",
+            spec, "--into", spec}}) {
     const Ran ran = run_tethercalc(arguments);
     CHECK(ran.exit_code == 2);
     CHECK_THAT(ran.err, Contains("is read; give another file"));

@@ -118,7 +118,7 @@ TEST_CASE("evaluate takes the cable of the spec where no area is given") {
 TEST_CASE("compare ranks feasible motors by power and tells why the others are not") {
   const json answer = json::parse(
       run_tethercalc({"compare", published, "--motors", "all", "--format", "json"}).out);
-  REQUIRE(answer["motors"].size() == 9);
+  REQUIRE(answer["motors"].size() == 30);
   double power = 0;
   bool seen_infeasible = false;
   for (const json& motor : answer["motors"]) {
@@ -331,4 +331,55 @@ TEST_CASE("air that the motors' curve was not measured in is told, or the curve 
   CHECK(hover(scaled, "drone_power_W") > 1.07 * hover(high, "drone_power_W"));
   CHECK(hover(scaled, "available_thrust_g") < 0.93 * hover(high, "available_thrust_g"));
   CHECK(hover(scaled, "necessary_thrust_g") == hover(high, "necessary_thrust_g"));
+}
+
+TEST_CASE("no answer about a drone of unknown drag hides that it was estimated") {
+  const TemporaryFolder folder;
+  json spec = json::parse(file_text(published));
+  spec["drone"].erase("drag");
+  const std::string file = (folder.path() / "no-drag.json").string();
+  write_file(file, spec.dump());
+  for (std::vector<std::string> line : std::vector<std::vector<std::string>>{
+           {"optimize", file},
+           {"evaluate", file, "--area-mm2", "1.5"},
+           {"compare", file, "--motors", "all"},
+           {"design", file, "--free", "supply.voltage_V=60..80"},
+           {"envelope", file, "--set", "tether.cross_section_mm2=1.5"},
+           {"shape", file, "--area-mm2", "1.5", "--slack", "2"}}) {
+    CAPTURE(line.front());
+    CHECK_THAT(run_tethercalc(line).out, Contains("the drag is an estimate, not measured"));
+    line.insert(line.end(), {"--format", "json"});
+    const json answer = json::parse(run_tethercalc(line).out);
+    const bool ranks = line.front() == "compare";
+    CHECK((ranks ? answer.at("motors")[0] : answer).at("drag_uncertainty_factor") == 2);
+    line[1] = published;
+    const json known = json::parse(run_tethercalc(line).out);
+    CHECK((ranks ? known.at("motors")[0] : known).at("drag_uncertainty_factor").is_null());
+  }
+  const Ran sweep = run_tethercalc({"sweep", file, "--vary", "supply.voltage_V=75"});
+  CHECK_THAT(sweep.err, Contains("the drag is an estimate, not measured"));
+  CHECK_THAT(sweep.out, Contains(",2,\n"));
+}
+
+TEST_CASE("rows of sweep and compare tell estimated motors from measured ones") {
+  const TemporaryFolder folder;
+  const std::string motor = (folder.path() / "guess.json").string();
+  REQUIRE(run_tethercalc({"motor", "--propeller-in", "12", "--figure-of-merit", "0.5",
+                          "--max-thrust-g", "1500", "--output", motor})
+              .exit_code == 0);
+  const double percent = json::parse(file_text(motor)).at("power_uncertainty_percent");
+  CHECK(percent > 0);
+  const Ran sweep = run_tethercalc({"sweep", published, "--format", "jsonl", "--vary",
+                                    "drone.motor=holybro-air2216-920kv-10in," + motor});
+  const std::size_t end = sweep.out.find('\n');
+  CHECK(json::parse(sweep.out.substr(0, end)).at("power_uncertainty_percent").is_null());
+  CHECK(json::parse(sweep.out.substr(end)).at("power_uncertainty_percent") == Approx(percent));
+  const json compared =
+      json::parse(run_tethercalc({"compare", published, "--format", "json", "--motors",
+                                  "holybro-air2216-920kv-10in," + motor})
+                      .out);
+  for (const json& row : compared.at("motors")) {
+    const bool measured = row.at("motor") == "holybro-air2216-920kv-10in";
+    CHECK(row.at("power_uncertainty_percent").is_null() == measured);
+  }
 }

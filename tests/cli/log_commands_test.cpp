@@ -143,7 +143,8 @@ TEST_CASE("an autopilot that drag does not know, and two answers at once, are re
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.out.empty());
   CHECK_THAT(unknown.err, Contains("ardupilot and px4") && Contains("did you mean \"px4\""));
-  const Ran both = drag({example}, and_also(known, {"--parameters", "px4", "--into", published}));
+  const Ran both =
+      drag({example}, and_also(known, {"--parameters", "px4", "--spec", published, "--into"}));
   CHECK(both.exit_code == 2);
   CHECK_THAT(both.err, Contains("--into"));
 }
@@ -211,8 +212,10 @@ TEST_CASE("learned drag goes into a spec, to a file or down a pipe to optimize")
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "learned.json").string();
   const json learned = drag_of({example}, known).at("drone").at("drag");
-  const auto into = and_also(known, {"--into", published});
-  CHECK(drag({example}, and_also(into, {"--output", file})).exit_code == 0);
+  const auto into = and_also(known, {"--spec", published, "--into"});
+  const Ran beside = drag({example}, and_also(into, {file}));
+  CHECK(beside.exit_code == 0);
+  CHECK(beside.out == drag({example}, known).out);  // the fit is told all the same
   json spec = json::parse(file_text(file));
   const json before = json::parse(file_text(published));
   CHECK(spec.at("drone").at("drag") == learned);
@@ -228,17 +231,38 @@ TEST_CASE("learned drag goes into a spec, to a file or down a pipe to optimize")
   CHECK(json::parse(piped.out).at("optimum") == json::parse(filed.out).at("optimum"));
 }
 
+TEST_CASE("--into writes a spec: neither without one to learn for, nor over a log") {
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "flight.csv").string();
+  write_file(log, file_text(example));
+  const std::string mine = (folder.path() / "mine.json").string();
+  write_file(mine, file_text(published));
+  const auto refused = [&](const std::vector<std::string>& options, const std::string& because) {
+    const Ran run = drag({example}, and_also(known, options));
+    CAPTURE(options);
+    CHECK(run.exit_code == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(because));
+  };
+  refused({"--into", mine}, "--into: says where the spec with the learned drag goes");
+  refused({"--into"}, "is given by --spec SPEC");
+  refused({"--spec", mine}, "give --into as well");
+  refused({"--spec", mine, "--into", mine}, "is read; give another file");
+  refused({"--spec", mine, "--into", log}, "is there and no .json file");
+  CHECK(file_text(mine) == file_text(published));
+  CHECK(file_text(log) == file_text(example));
+}
+
 TEST_CASE(
     "a spec that is not there, or has no place for drag, is refused before anything is written") {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "learned.json").string();
-  const Ran missing =
-      drag({example}, and_also(known, {"--into", "no-such.json", "--output", file}));
+  const Ran missing = drag({example}, and_also(known, {"--spec", "no-such.json", "--into", file}));
   CHECK(missing.exit_code == 2);
   CHECK_THAT(missing.err, Contains("no-such.json: no such file"));
   const std::string broken = (folder.path() / "broken.json").string();
   write_file(broken, "{\"drone\": 7}");
-  const Ran refused = drag({example}, and_also(known, {"--into", broken, "--output", file}));
+  const Ran refused = drag({example}, and_also(known, {"--spec", broken, "--into", file}));
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.err, Contains("/drone"));
   CHECK_FALSE(std::filesystem::exists(file));
@@ -390,7 +414,7 @@ TEST_CASE("a parameter that the flight lacks the means for is held at its bound,
   CHECK(answer.at("linear_m_s").at("at_bound") == "upper");
   CHECK(answer.at("linear_m_s").at("ci95").is_null());
   REQUIRE(answer.at("warnings").size() == 1);
-  const Ran into = drag({file}, and_also(known, {"--into", published}));
+  const Ran into = drag({file}, and_also(known, {"--spec", published, "--into"}));
   CHECK_THAT(into.err, Contains("drag: linear_m_s wants to leave its upper bound"));
 }
 

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
@@ -71,6 +72,23 @@ ULogWriter example_as_ulog(bool attitudes_beside) {
                        flight.down_velocity[i]);
   }
   return log;
+}
+
+/// The first four minutes of the example flight in PX4's format: what examples/px4-flight.ulg is.
+std::string shipped_ulog() {
+  const tethercalc::FlightLog flight = read_flight_csv(example);
+  ULogWriter log;
+  log.information("sys_name", "simulated flight, not PX4");
+  define_flight_topics(log);
+  constexpr std::size_t four_minutes = 2400;
+  for (std::size_t i = 0; i < four_minutes; ++i) {
+    const std::uint64_t time = microseconds(flight.time[i]);
+    add_attitude_of(log, time, flight.roll[i], flight.pitch[i], flight.yaw[i]);
+    add_local_position(log, time, flight.north_velocity[i], flight.east_velocity[i],
+                       flight.down_velocity[i]);
+  }
+  const auto& bytes = log.bytes();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// The example flight as a ground station writes a DataFlash log out.
@@ -141,6 +159,13 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("the ULog among the examples is the simulated flight of the CSV") {
+  const std::filesystem::path path = project_file("examples/px4-flight.ulg");
+  if (std::getenv("TETHERCALC_UPDATE") != nullptr) write_file(path, shipped_ulog());
+  INFO("it differs; run this test with TETHERCALC_UPDATE=1 and commit the file");
+  CHECK(file_text(path) == shipped_ulog());
+}
 
 TEST_CASE("a flight logged by PX4 gives the drag that its CSV gives") {
   const TemporaryFolder folder;

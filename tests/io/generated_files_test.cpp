@@ -51,6 +51,9 @@ std::string allowed(const SpecField& field) {
 }
 
 std::string default_of(const SpecField& field) {
+  if (field.required() && may_be_left_out(field)) {
+    return "**required** in `drone.drag`; without that, [estimated](drag.md#without-a-flight)";
+  }
   if (field.required()) return "**required**";
   if (field.default_json == "null" || field.default_json == "\"\"") return "none";
   return fmt::format("`{}`", field.default_json);

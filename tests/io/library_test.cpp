@@ -7,6 +7,7 @@
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/model/units.hpp"
+#include "tethercalc/study/motor.hpp"
 
 using namespace tethercalc;
 
@@ -19,7 +20,12 @@ TEST_CASE("every library entry reads cleanly, has its own id and names its sourc
     CHECK(motor.warnings.empty());
     CHECK_FALSE(motor.source.empty());
     CHECK(motor.voltage_V.has_value());
-    CHECK(motor.propeller_in.has_value());
+    REQUIRE(motor.propeller_in.has_value());
+    CHECK(motor.curve.max_thrust() < 20000 * unit::gram_force);
+    for (const double merit : figures_of_merit(motor)) {
+      CHECK(merit > 0.3);
+      CHECK(merit < 0.75);
+    }
   }
   for (const ConductorEntry& conductor : library_conductors()) {
     INFO(conductor.id);
@@ -33,7 +39,7 @@ TEST_CASE("every library entry reads cleanly, has its own id and names its sourc
     CHECK(ids.insert("insulation " + insulation.id).second);
     CHECK_FALSE(insulation.source.empty());
   }
-  CHECK(library_motors().size() == 9);
+  CHECK(library_motors().size() == 30);
   CHECK(ids.count("conductor aluminium") == 1);
   CHECK(ids.count("conductor copper") == 1);
   for (const char* material : {"pvc", "fep", "ptfe", "etfe", "pe", "pur", "silicone"}) {

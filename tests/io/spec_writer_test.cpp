@@ -182,3 +182,26 @@ TEST_CASE("numbers are written with the digits that people would write") {
   CHECK_THAT(written,
              Catch::Contains("\"cross_section_mm2\":1.5") && Catch::Contains("\"mass_g\":300.0"));
 }
+
+TEST_CASE("an estimated drag is in no spec, and what takes its place is written whole") {
+  Json spec = Json::parse(starting_spec());
+  spec["drone"].erase("drag");
+  const DesignFile file = parse_design(spec.dump(), "no-drag.json");
+  CHECK(file.design.drone.drag.is_estimate);
+  CHECK(file.design.drone.drag.front_area > 0);
+  Design design = file.design;
+  design.tether.length = 12;
+  CHECK_FALSE(spec_with(file, design)["drone"].contains("drag"));
+  // Were only the area written, the linear part of the drag would be lost.
+  design.drone.drag.front_area *= 1.5;
+  const DesignFile written = parse_design(spec_with(file, design).dump(), "written.json");
+  CHECK_FALSE(written.design.drone.drag.is_estimate);
+  CHECK(numbers_of(written.design) == numbers_of(design));
+}
+
+TEST_CASE("half a drag is no reason to estimate the rest") {
+  Json spec = Json::parse(starting_spec());
+  spec["drone"]["drag"] = Json{{"front_area_m2", 0.01}};
+  CHECK_THROWS_WITH(parse_design(spec.dump(), "half.json"),
+                    Catch::Contains("\"top_area_m2\" is missing"));
+}

@@ -34,6 +34,21 @@ file(RENAME "${installed}" "${prefix}")
 run(COMMAND "${prefix}/bin/tethercalc" list motors WORKING_DIRECTORY "${WORK}/elsewhere"
     PRINTS "holybro-air2216-920kv-10in")
 
+# Where man and the shells look.
+foreach(words IN ITEMS
+    "man/man1/tethercalc.1=man"
+    "bash-completion/completions/tethercalc=completion;bash"
+    "zsh/site-functions/_tethercalc=completion;zsh"
+    "fish/vendor_completions.d/tethercalc.fish=completion;fish")
+  string(REGEX MATCH "^([^=]*)=(.*)$" ignored "${words}")
+  file(READ "${prefix}/share/${CMAKE_MATCH_1}" there)
+  set(where "${CMAKE_MATCH_1}")
+  run(COMMAND "${prefix}/bin/tethercalc" ${CMAKE_MATCH_2})
+  if(NOT there STREQUAL printed)
+    message(FATAL_ERROR "share/${where} is not what the program prints")
+  endif()
+endforeach()
+
 # The published optimum (Beffert and Zell, 2025), to every digit printed there.
 set(expected "1.09 mm2, 405 W hover, 445 W forward")
 run(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE}/tests/consumer" -B "${WORK}/build" -G Ninja

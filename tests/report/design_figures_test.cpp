@@ -1,5 +1,6 @@
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/report/result_figures.hpp"
+#include "tethercalc/study/motor.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -116,7 +117,7 @@ TEST_CASE("the mark of the optimum stands where the axes have the published numb
 
 TEST_CASE("the curves of motors are their efficiencies") {
   const DesignFile file = read_design(project_file("examples/holybro-x500.json"), {});
-  const auto ranking = compare_motors(file.design, library_motors());
+  const auto ranking = compare_motors(file.design, alike_motors(library_motors(), file.motor));
   const Figure figure = motors_figure(file, ranking);
   const auto curves = layers_of<plot::Curve>(panels_of(figure).front());
   REQUIRE(curves.size() >= ranking.size());
@@ -176,7 +177,8 @@ TEST_CASE("no label covers another in the figures of any reference design") {
     INFO(spec);
     const DesignFile file = read_design(spec, {});
     check_layout(figure_of(file));
-    check_layout(motors_figure(file, compare_motors(file.design, motors)));
+    check_layout(
+        motors_figure(file, compare_motors(file.design, alike_motors(motors, file.motor))));
   }
 }
 
@@ -220,6 +222,7 @@ TEST_CASE("the pictures of the documents are those that the program draws") {
     CHECK(std::filesystem::file_size(project_file(document)) < 100000);
   };
   check(figure_of(file), "docs/figures/optimum.svg");
-  check(motors_figure(file, compare_motors(file.design, library_motors())),
-        "docs/figures/motors.svg");
+  check(
+      motors_figure(file, compare_motors(file.design, alike_motors(library_motors(), file.motor))),
+      "docs/figures/motors.svg");
 }

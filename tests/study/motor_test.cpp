@@ -70,7 +70,28 @@ TEST_CASE("the band holds the power of 95 % of the library's measured points") {
   CHECK(points == spread.points);
   CHECK(double(within) >= 0.95 * double(points));
   CHECK(double(within) <= 0.97 * double(points));
-  // Of these nine motors: 0.364 (a 10 inch propeller at 30 % throttle) to 0.665 (14 inch).
+  // Of these thirty motors: 0.364 (a 10 inch propeller at 30 % throttle) to 0.691 (15 inch, 430 g
+  // for 23.68 W: 8.659 N/23.68 W·√(4.217 N/(2·1.225 kg/m³·0.11401 m²))).
   CHECK(spread.least == Approx(0.364).margin(0.001));
-  CHECK(spread.greatest == Approx(0.665).margin(0.001));
+  CHECK(spread.greatest == Approx(0.692).margin(0.002));
+}
+
+TEST_CASE("the motors alike are the own one and the eight nearest in greatest thrust") {
+  const auto entry = [](const std::string& id, double newton) {
+    MotorEntry motor;
+    motor.id = id;
+    motor.curve = MotorCurve({{newton / 2, newton}, {newton, 3 * newton}});
+    return motor;
+  };
+  std::vector<MotorEntry> library;
+  for (int i = 1; i <= 12; ++i) library.push_back(entry("m" + std::to_string(i), i));
+  const auto ids = [](const std::vector<MotorEntry>& motors) {
+    std::string out;
+    for (const MotorEntry& motor : motors) out += motor.id + " ";
+    return out;
+  };
+  // By ratio 11 is nearer to 5 than 2 is.
+  CHECK(ids(alike_motors(library, library[4])) == "m3 m4 m5 m6 m7 m8 m9 m10 m11 ");
+  CHECK(ids(alike_motors(library, entry("mine", 5))) == "m3 m4 m5 m6 m7 m8 m9 m10 mine ");
+  CHECK(ids(alike_motors({}, library[0])) == "m1 ");
 }

@@ -68,6 +68,12 @@ struct SpecField {
   [[nodiscard]] bool required() const { return default_json.empty(); }
 };
 
+/// Whether the field is of the group `drone.drag`, which a spec may leave out as a whole: its drag
+/// is then estimated (`drag_of_mass`). Where the group is there, its required fields have to be.
+[[nodiscard]] inline bool may_be_left_out(const SpecField& field) {
+  return field.pointer.starts_with("/drone/drag/");
+}
+
 /// The fields of a design spec, in the order in which people should read them.
 [[nodiscard]] std::span<const SpecField> spec_fields();
 

@@ -13,7 +13,22 @@ struct AirframeDrag {
   double linear_speed = 0;  ///< j, m/s: the speed at which linear and quadratic drag are equal
   double fore_aft_asymmetry = 0;  ///< a in (−1, 1): drag is (1 + a) times larger flying forward
                                   ///< and (1 − a) times flying backward
+  bool is_estimate = false;       ///< from `drag_of_mass`, not measured: answers say so
 };
+
+/// The drag that a multirotor of `mass` (kg, > 0, ready to fly, without a tether) may be expected
+/// to have where nobody measured it: that of the one drone whose drag was published in these terms,
+/// a Holybro X500 V2 of 1.549 kg with A_f 0.01451 m², A_t 0.01361 m², j 19.27 m/s (Beffert and Zell
+/// 2025), for drones of its shape and density. Then areas go with m^(2/3); and the drag in
+/// proportion to the speed, which rotors make by turning the air's momentum, goes with the thrust
+/// and so with m, which makes j go with m^(1/3).
+///
+/// The force may be off by `drag_estimate_factor` either way: docs/drag.md compares it with what
+/// others published for drones from 0.8 to 32.5 kg, 0.6 to 1.6 times as much.
+[[nodiscard]] AirframeDrag drag_of_mass(double mass);
+
+/// See `drag_of_mass`.
+inline constexpr double drag_estimate_factor = 2;
 
 /// Effective area in m² for a tilt given by its tangent (of either sign):
 /// A_f·cos|θ| + A_t·sin|θ|, without trigonometry.

@@ -98,6 +98,12 @@ class MotorCurve {
   /// States it: > 0.
   void set_measured_in(std::optional<double> air_density) { measured_in_ = air_density; }
 
+  /// Share by which the power may be off either way where the curve is an estimate; nothing where
+  /// it was measured.
+  [[nodiscard]] std::optional<double> uncertainty() const { return uncertainty_; }
+  /// States it: > 0.
+  void set_uncertainty(std::optional<double> share) { uncertainty_ = share; }
+
  private:
   /// A rising piecewise-linear curve: vertices from (0, 0) on and the slope of each piece.
   struct Polyline {
@@ -123,6 +129,7 @@ class MotorCurve {
   explicit MotorCurve(std::shared_ptr<const Polyline> line);
   std::shared_ptr<const Polyline> line_;  ///< never null
   std::optional<double> measured_in_{};   ///< kg/m³
+  std::optional<double> uncertainty_{};
 };
 
 /// A motor with its propeller. Texts are empty and numbers absent where the file gives none.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,8 +62,14 @@ namespace tethercalc {
 /// What the heat balance of this design does not know and the user should, a sentence each.
 [[nodiscard]] std::vector<std::string> cable_warnings(const Design& design);
 
-/// What the reader of the spec noted, and whether the motors' curve should have been scaled to the
-/// density of the air.
+/// That the drag is an estimate, which one, and by how much it may be off; nothing where it is not.
+[[nodiscard]] std::optional<std::string> drag_estimate_sentence(const Design& design);
+
+/// What no comparison of motors counts.
+[[nodiscard]] std::string motor_mass_sentence();
+
+/// What the reader of the spec noted, whether the drag is an estimate, and whether the motors'
+/// curve should have been scaled to the density of the air.
 [[nodiscard]] std::vector<std::string> spec_warnings(const DesignFile& file);
 
 /// `spec_warnings`, then `cable_warnings`.

@@ -1,7 +1,7 @@
 // What an autopilot's log holds, for people and for programs.
 #pragma once
 
-#include <iosfwd>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -31,13 +31,15 @@ namespace tethercalc {
 /// instances, fields, units`}…]. Times are null where there are none.
 [[nodiscard]] nlohmann::ordered_json log_json(const LogSummary& summary, std::string_view name);
 
-/// Writes all messages called `message` as CSV, one row a message in the log's order, one column a
+/// Gives all messages called `message` to `put` as lines of CSV, one at a time, so that an export
+/// may be larger than the memory: a header, then one row a message in the log's order, one column a
 /// field, named as in the log; before them `instance` where the log has several in one name.
 /// Numbers as field_text() gives them, with an empty cell for what is not finite; text is quoted
-/// where it has to be (RFC 4180).
+/// where it has to be (RFC 4180). Each line ends with a newline.
 ///
 /// Throws InputError naming the log where there is no such message in it, with the
-/// closest one that there is; nothing has been written then.
-void write_messages_csv(const AutopilotLog& log, std::string_view message, std::ostream& out);
+/// closest one that there is; `put` has not been called then.
+void messages_csv(const AutopilotLog& log, std::string_view message,
+                  const std::function<void(std::string_view line)>& put);
 
 }  // namespace tethercalc

@@ -21,8 +21,9 @@ enum class RowFormat {
 /// Turns outcomes into rows: the varied values by their dot paths, then `status` ("optimal",
 /// "infeasible"; "feasible" for a given cable), `limited_by`, `limiting_condition`,
 /// `cross_section_mm2`, the operating points as "hover." and "forward." followed by the keys of
-/// `operating_point_fields`, and `reason`. Numbers are the shortest texts that read back as the
-/// same double.
+/// `operating_point_fields`, `power_uncertainty_percent` and `drag_uncertainty_factor`, by which
+/// the motors' power and the drag may be off either way where they are estimates, and `reason`.
+/// Numbers are the shortest texts that read back as the same double.
 class SweepRows {
  public:
   /// For rows that begin with a value of each of `axes`.

@@ -56,4 +56,10 @@ struct GenericMotorRequest {
 /// ranges.
 [[nodiscard]] MotorCurve generic_motor_curve(const GenericMotorRequest& request);
 
+/// `own` and the eight motors whose greatest thrust is nearest to its own, by ratio, in the order
+/// of `motors`; `own` last where it is none of them. As many as a figure can tell apart, and of a
+/// size that may fit the same frame.
+[[nodiscard]] std::vector<MotorEntry> alike_motors(std::span<const MotorEntry> motors,
+                                                   const MotorEntry& own);
+
 }  // namespace tethercalc
