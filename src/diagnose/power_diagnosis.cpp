@@ -257,6 +257,26 @@ std::vector<int> blocks_of(const PowerResiduals& residuals) {
   return block;
 }
 
+/// Takes away the stages of which too few stretches are left once their outliers are, with what
+/// each would need. True where there was one.
+bool drop_scattered_stages(const PowerResiduals& residuals, ScreenedPowerLog& screened,
+                           std::map<Stage, std::string>& dropped) {
+  const std::vector<int> blocks = blocks_of(residuals);
+  bool any = false;
+  for (const PowerStage& stage : residuals.stages()) {
+    const auto begin = blocks.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+    std::set<int> used(begin, begin + static_cast<std::ptrdiff_t>(stage.rows));
+    used.erase(-1);
+    if (used.size() >= fewest_blocks) continue;
+    dropped[stage.stage] = fmt::format(
+        "a longer flight: without its outliers only {} of {} stretches of this one are left",
+        used.size(), std::set<int>(blocks.begin(), blocks.end()).size());
+    screened.usable.erase(stage.stage);
+    any = true;
+  }
+  return any;
+}
+
 /// The search with the residuals' present noise.
 Selection search(const PowerResiduals& residuals, LogModel& view,
                  const SelectionProgress& progress) {
@@ -429,10 +449,13 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   if (progress) progress("screening the instruments");
   const PowerModel base{design};
   ScreenedPowerLog screened = screen_power_log(base, log);
-  const std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
+  std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
-  PowerResiduals residuals(base, std::move(screened));
+  PowerResiduals residuals(base, screened);
+  if (drop_scattered_stages(residuals, screened, unusable)) {
+    residuals = PowerResiduals(base, std::move(screened));
+  }
   const std::vector<const Effect*> effects =
       testable_effects(residuals.log(), unusable, candidates, diagnosis);
   if (residuals.stages().empty()) return result;

@@ -292,7 +292,7 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
                           const std::optional<FlightLogReading>& flight,
                           const std::string& obstacle) {
   LogSummary::Use use{"diagnose --power", false, obstacle};
-  if (!flight) return use;
+  if (!flight || !flight->log.other_vehicle.empty()) return use;
   try {
     const PowerLogReading power =
         logged_power(log, *flight, summary.flying, {.free_flight = flight->height.empty()});

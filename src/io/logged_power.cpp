@@ -238,7 +238,7 @@ PowerLogReading logged_power(const AutopilotLog& log, const FlightLogReading& fl
                              const std::optional<LogSummary::Flying>& flying,
                              const PowerLogOptions& options) {
   if (!flight.log.other_vehicle.empty()) {
-    fail_in(log.name(), fmt::format("was flown by {}, no multirotor", flight.log.other_vehicle));
+    fail_in(log.name(), fmt::format("it is {}, no multirotor", flight.log.other_vehicle));
   }
   const std::vector<LoggedBattery> batteries = chosen_batteries(log, options.batteries);
   const std::vector<LogSummary::Flight> flights = flown_times(log, flying);
