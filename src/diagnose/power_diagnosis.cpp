@@ -450,6 +450,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   const PowerModel base{design};
   ScreenedPowerLog screened = screen_power_log(base, log);
   std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
+  average_fast_samples(screened);
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
   PowerResiduals residuals(base, screened);
@@ -468,7 +469,6 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   }
 
   tell(view, selection, diagnosis);
-  diagnosis.samples = residuals.samples();
   // Rows are whitened: each counts.
   diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
                                            static_cast<double>(residuals.stages().size()));

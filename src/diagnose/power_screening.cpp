@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -297,6 +298,46 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
   }
   align(model, healthy, clean, screened.notes);
   return screened;
+}
+
+void average_fast_samples(ScreenedPowerLog& screened) {
+  constexpr double mean_over = 1;  // s
+  PowerLog& log = screened.log;
+  const double interval =
+      (log.time.back() - log.time.front()) / static_cast<double>(log.time.size() - 1);
+  if (screened.usable.size() != 1 || screened.usable.begin()->first != Stage::motors ||
+      interval > mean_over / 2) {
+    return;
+  }
+  std::vector<char>& usable = screened.usable.begin()->second;
+  std::vector<std::size_t> begins;  // of each mean
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    if (begins.empty() || log.time[i] >= log.time[begins.back()] + mean_over) begins.push_back(i);
+  }
+  begins.push_back(log.time.size());
+
+  std::vector<char> mean_usable;
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+    const auto part = std::span(usable).subspan(begins[k], begins[k + 1] - begins[k]);
+    mean_usable.push_back(2 * std::count(part.begin(), part.end(), char{1}) >= std::ssize(part));
+  }
+  const auto average = [&](std::vector<double>& values) {
+    if (values.empty()) return;
+    for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+      double sum = 0;
+      double count = 0;
+      for (std::size_t i = begins[k]; i < begins[k + 1]; ++i) {
+        if (mean_usable[k] && !usable[i]) continue;
+        sum += values[i];
+        ++count;
+      }
+      values[k] = sum / count;
+    }
+    values.resize(begins.size() - 1);
+  };
+  average(log.time);
+  for (const PowerChannel& channel : power_channels) average(log.*channel.values);
+  usable = std::move(mean_usable);
 }
 
 namespace {

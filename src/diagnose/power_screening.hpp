@@ -49,6 +49,11 @@ struct ScreenedPowerLog {
 /// `model` is the base model. `log` needs at least 8 samples and a stage that is measured.
 [[nodiscard]] ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log);
 
+/// The same in means over a second, where only the motors are compared and the log is faster. They
+/// are judged in means over seconds anyway; the search takes as many times longer as there are
+/// samples. A mean is of the usable samples, and usable where half of its samples are.
+void average_fast_samples(ScreenedPowerLog& screened);
+
 /// Throws std::invalid_argument with all that is wrong of the channels there are: currents, powers
 /// or voltages that are not positive,
 /// a drone voltage above the supply voltage, powers at the two ends of the tether that differ more
