@@ -52,7 +52,7 @@ std::string lacking(const Effect& effect, const PowerLog& log) {
   for (const PowerChannel& channel : power_channels) {
     const bool of_bus =
         channel.values == &PowerLog::bus_voltage || channel.values == &PowerLog::bus_current;
-    const bool missing = of_bus ? !has_bus : (log.*channel.values).empty();
+    const bool missing = (log.*channel.values).empty() && !(of_bus && has_bus);
     if (missing && contains(effect.needs, channel.name)) names.push_back(channel.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
