@@ -430,7 +430,8 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   check_stages(log);
   if (!design.tether.cross_section && !log.free_flight) {
     throw std::invalid_argument(
-        "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
+        "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2), "
+        "unless the drone flew free (--free-flight)");
   }
   const std::vector<const Effect*> candidates = effects_for(LogKind::power, hypotheses);
   check_base_effects(LogKind::power, candidates, base_effects);
