@@ -298,7 +298,8 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
         logged_power(log, *flight, summary.flying, {.free_flight = flight->height.empty()});
     const double flown = power.log.time.back() - power.log.time.front();
     use.possible = flown >= shortest_power_log;
-    use.because = use.possible ? power.source
+    const char* const how = flight->height.empty() ? ", which tells no height (--free-flight)" : "";
+    use.because = use.possible ? power.source + how
                                : fmt::format("{:.0f} s flown, {:.0f} s are needed to judge it",
                                              flown, shortest_power_log);
   } catch (const InputError& error) {
