@@ -26,8 +26,7 @@ constexpr double max_thrust = 12;  // N
 
 /// Hover at `hover_power` W in all, then as long at 10 m/s with `forward_power`; each row's noise
 /// is 0.9 of the one before it and a new part.
-PowerLog flight_of(double hover_power, double forward_power, double noise,
-                     std::mt19937_64& dice) {
+PowerLog flight_of(double hover_power, double forward_power, double noise, std::mt19937_64& dice) {
   PowerLog out;
   std::normal_distribution<double> fresh;
   double error = 0;

@@ -26,7 +26,7 @@ struct PowerLog {
   std::vector<double> drone_voltage;          ///< V, optional
   std::vector<double> bus_voltage;            ///< V, optional
   std::vector<double> bus_current;            ///< A, optional
-  std::vector<double> bus_power{};            ///< W, optional: where only their product was measured
+  std::vector<double> bus_power{};  ///< W, optional: where only their product was measured
   /// Flown from a battery without tether and converter, which is the bus. Its cable neither weighs
   /// nor drags; what the drone draws besides its motors comes out of the same battery.
   bool free_flight = false;
