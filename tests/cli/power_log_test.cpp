@@ -81,7 +81,7 @@ TEST_CASE("one log of both halves is the two given apart") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "both.csv").string();
   write_file(log, example_flight_with_power());
-  const std::vector<std::string> flown = {"--mass-g", "1550", "--free-flight", "--core", "0"};
+  const std::vector<std::string> flown = {"--free-flight", "--core", "0"};
   const auto asked = [&](std::vector<std::string> logs) {
     logs.insert(logs.end(), flown.begin(), flown.end());
     return answer_to(logs);
