@@ -46,13 +46,6 @@ AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& chan
 
 }  // namespace
 
-Design as_flown(const Design& design, const LoggedFlight& flight) {
-  Design flown = design;
-  flown.drone.mass = flight.mass.value_or(design.drone.mass);
-  flown.flight.air_density = flight.air_density.value_or(design.flight.air_density);
-  return flown;
-}
-
 FlightDiagnosisOptions flight_options(const DiagnosisQuestion& question) {
   FlightDiagnosisOptions options = question.flight->options;
   options.hypotheses.insert(options.hypotheses.end(), question.hypotheses.begin(),
@@ -78,11 +71,15 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     });
   }
   if (const auto& power = question.power) {
+    const Design flown = as_flown(design, *power);
     PowerDiagnosis found = of_suitable(LogKind::power, [&] {
-      return diagnose_power(design, power->log, power->base, progress, question.hypotheses);
+      return diagnose_power(flown, power->log, power->base, progress, question.hypotheses);
     });
     study.power = std::move(found.diagnosis);
     study.extended = std::move(found.extended);
+    // What was found comes to what the design has, not to what that flight had.
+    study.extended.drone.mass += design.drone.mass - flown.drone.mass;
+    study.extended.flight.air_density *= design.flight.air_density / flown.flight.air_density;
   }
   if (study.flight && !study.flight->spec_changes.empty()) {
     study.extended.drone.drag = with_changes(design.drone.drag, study.flight->spec_changes);
