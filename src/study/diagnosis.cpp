@@ -28,6 +28,18 @@ auto of_suitable(LogKind kind, const Diagnose& diagnose) {
   }
 }
 
+constexpr const char* no_tilt =
+    "the flight is too short to say how the drone leans, so mass and motors are told apart by the "
+    "power alone";
+
+/// What was found of the design as it flew, in the design itself: only the day's own mass and air
+/// are not its.
+Design as_designed(Design found, const Design& flown, const Design& design) {
+  found.drone.mass += design.drone.mass - flown.drone.mass;
+  found.flight.air_density *= design.flight.air_density / flown.flight.air_density;
+  return found;
+}
+
 /// `drag` with what a flight says of it.
 AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& changes) {
   const std::pair<std::string_view, double*> members[] = {
@@ -76,14 +88,21 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
                               progress);
     });
   }
+  bool one_drone = false;
   if (const auto& power = question.power) {
+    const bool one_flight = question.one_flight && study.flight;
+    const Design flown = one_flight ? as_flown(design, *question.flight) : design;
+    const std::optional<DragByTilt> tilt =
+        one_flight ? study.flight->drag_by_tilt : std::optional<DragByTilt>{};
     PowerDiagnosis found = of_suitable(LogKind::power, [&] {
-      return diagnose_power(design, power->log, power->base, progress, question.hypotheses);
+      return diagnose_power(flown, power->log, power->base, progress, question.hypotheses, tilt);
     });
     study.power = std::move(found.diagnosis);
-    study.extended = std::move(found.extended);
+    study.extended = as_designed(std::move(found.extended), flown, design);
+    one_drone = found.with_tilt;
+    if (one_flight && !tilt) study.power->notes.emplace_back(no_tilt);
   }
-  if (study.flight && !study.flight->spec_changes.empty()) {
+  if (study.flight && !study.flight->spec_changes.empty() && !one_drone) {
     study.extended.drone.drag = with_changes(design.drone.drag, study.flight->spec_changes);
   }
   if (study.flight && study.power) {

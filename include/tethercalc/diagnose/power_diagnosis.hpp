@@ -1,6 +1,7 @@
 // What the calculation of a tethered flight's power gets wrong, and why.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,6 +16,9 @@ namespace tethercalc {
 struct PowerDiagnosis {
   Diagnosis diagnosis;  ///< what was found
   Design extended;      ///< the design with every finding that outlives the flight in its field
+  /// The tilt was compared, too; the extended design's drag is then what it shows of a drone of the
+  /// extended design's mass.
+  bool with_tilt = false;
 };
 
 /// A power log shorter than this, s, is not judged: it holds too few independent stretches.
@@ -29,6 +33,10 @@ inline constexpr double shortest_power_log = 180;
 ///
 /// `hypotheses` are tried beside the effects of the catalogue, see `effect_of`.
 ///
+/// `tilt` is what the attitude of the same flight, judged by the same design, says of drag over
+/// mass. It is then one more comparison, of the stage "airframe": a heavier drone leans less, one
+/// with hungrier motors as before.
+///
 /// A log that is too short, or lacks channels, has the effects that it cannot show under
 /// `not_testable`; that is an answer, not an error. Throws std::invalid_argument where the design
 /// has no cable cross-section, a base effect is unknown or belongs to flights, the channels differ
@@ -36,6 +44,7 @@ inline constexpr double shortest_power_log = 180;
 [[nodiscard]] PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                                             std::span<const std::string> base_effects = {},
                                             const SelectionProgress& progress = {},
-                                            std::span<const Effect> hypotheses = {});
+                                            std::span<const Effect> hypotheses = {},
+                                            const std::optional<DragByTilt>& tilt = {});
 
 }  // namespace tethercalc
