@@ -18,6 +18,7 @@
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/hypothesis.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
@@ -429,6 +430,29 @@ void compare_tilt(const PowerLogModel& view, const Selection& selection, Diagnos
                                 shown.over_mass, before, after});
 }
 
+/// What the tilt says in words, and what a verdict by it rests on.
+void tell_tilt(const TiltComparison& tilt, const PowerModel& base, const PowerModel& found,
+               const Drone& extended, Diagnosis& diagnosis) {
+  diagnosis.notes.push_back(fmt::format(
+      "the tilt shows a drag over mass of {:.3f} ± {:.3f} {}; the spec comes to {:.3f}, with the "
+      "findings to {:.3f}. A heavier drone leans less and draws more, hungrier motors lean as "
+      "before. That rests on the spec's drag: where it was guessed, weigh the drone",
+      tilt.mean(), tilt.half_width(), TiltComparison::unit, tilt.predicted(base),
+      tilt.predicted(found)));
+  diagnosis.notes.push_back(fmt::format(
+      "of a drone of {:.0f} g this tilt makes a front area of {:.5f} m², a top area of {:.5f} m² "
+      "and {:.2f} m/s of linear drag: the drag of the extended spec",
+      extended.mass / unit::gram, extended.drag.front_area, extended.drag.top_area,
+      extended.drag.linear_speed));
+  for (Suspected& suspected : diagnosis.suspected) {
+    const Effect* effect = find_effect(suspected.effect);
+    if (effect == nullptr || !acts_on(*effect, Stage::airframe)) continue;
+    suspected.missing +=
+        "; and a drag of the spec that was measured, since the tilt is held "
+        "against it";
+  }
+}
+
 }  // namespace
 
 PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
@@ -492,8 +516,9 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   const PowerModel found = view.model(selection.extended.values);
   result.extended = found.design;
   if (tilt) {
-    result.with_tilt = true;
+    diagnosis.drag_by_tilt = tilt->shown();
     result.extended.drone.drag = tilt->drag_of(found);
+    tell_tilt(*tilt, base, found, result.extended.drone, diagnosis);
   }
   // What the payload draws less than nothing is another's error; a spec cannot hold it.
   result.extended.drone.auxiliary_power = std::max(0.0, result.extended.drone.auxiliary_power);

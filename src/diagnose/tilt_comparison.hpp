@@ -31,6 +31,10 @@ class TiltComparison {
 
   [[nodiscard]] std::size_t rows() const { return shown_.over_mass.size(); }
   [[nodiscard]] const DragByTilt& shown() const { return shown_; }
+  /// m/s², the mean of the rows.
+  [[nodiscard]] double mean() const { return mean_; }
+  /// m/s², of the 95 % confidence interval of the mean.
+  [[nodiscard]] double half_width() const { return half_width_; }
   /// m/s², what the model makes of the flight.
   [[nodiscard]] double predicted(const PowerModel& model) const;
   /// Shown less predicted over the noise, one element a row.
@@ -42,13 +46,12 @@ class TiltComparison {
 
  private:
   TiltComparison(DragByTilt shown, double height) : shown_(std::move(shown)), height_(height) {}
-  void tell(const PowerModel& base, std::vector<std::string>& notes) const;
 
   DragByTilt shown_;
-  double height_;          ///< m, as read where the drag showed
-  double mean_ = 0;        ///< m/s²
-  double half_width_ = 0;  ///< of the 95 % confidence interval of the mean
-  double noise_ = 1;       ///< m/s², of one row
+  double height_;    ///< m, as read where the drag showed
+  double mean_ = 0;  ///< m/s²
+  double half_width_ = 0;
+  double noise_ = 1;  ///< m/s², of one row
 };
 
 }  // namespace tethercalc

@@ -99,7 +99,7 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     });
     study.power = std::move(found.diagnosis);
     study.extended = as_designed(std::move(found.extended), flown, design);
-    one_drone = found.with_tilt;
+    one_drone = study.power->drag_by_tilt.has_value();
     if (one_flight && !tilt) study.power->notes.emplace_back(no_tilt);
   }
   if (study.flight && !study.flight->spec_changes.empty() && !one_drone) {

@@ -16,9 +16,6 @@ namespace tethercalc {
 struct PowerDiagnosis {
   Diagnosis diagnosis;  ///< what was found
   Design extended;      ///< the design with every finding that outlives the flight in its field
-  /// The tilt was compared, too; the extended design's drag is then what it shows of a drone of the
-  /// extended design's mass.
-  bool with_tilt = false;
 };
 
 /// A power log shorter than this, s, is not judged: it holds too few independent stretches.
@@ -35,7 +32,9 @@ inline constexpr double shortest_power_log = 180;
 ///
 /// `tilt` is what the attitude of the same flight, judged by the same design, says of drag over
 /// mass. It is then one more comparison, of the stage "airframe": a heavier drone leans less, one
-/// with hungrier motors as before.
+/// with hungrier motors as before. `Diagnosis::drag_by_tilt` is what was compared, and the drag of
+/// the extended design what it comes to for a drone of that design's mass. A flight that tells its
+/// drag from none no better than that stays out, with a note.
 ///
 /// A log that is too short, or lacks channels, has the effects that it cannot show under
 /// `not_testable`; that is an answer, not an error. Throws std::invalid_argument where the design
