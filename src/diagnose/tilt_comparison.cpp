@@ -19,7 +19,7 @@ constexpr double steepest_tan = 6;
 
 /// Error of the drag over mass that is the same in all blocks, so that their spread does not show
 /// it: a standard deviation, relative. An autopilot that leans against gusts makes the drag of
-/// simulated flights come out 1.6 % too large in the mean (docs/diagnosis-power.md).
+/// simulated flights come out 2.2 % too large in the mean (docs/diagnosis-power.md).
 constexpr double common_error = 0.02;
 
 /// Height where the drag shows, which grows with the square of the airspeed.
