@@ -1,4 +1,5 @@
 // Any bytes as a DataFlash log: read every way there is, every byte accounted for.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -41,6 +42,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   } catch (const InputError& error) {
     if (error.problems().empty()) std::abort();
+  }
+  for (const std::vector<int>& batteries : {std::vector<int>{}, {0}, {0, 1}}) {
+    try {
+      const PowerLog power = parse_power_log(log, "log", {.batteries = batteries}).log;
+      for (std::size_t i = 0; i < power.time.size(); ++i) {
+        if (i > 0 && !(power.time[i] > power.time[i - 1])) std::abort();
+        if (!std::isfinite(power.bus_voltage[i] * power.bus_current[i] + power.airspeed[i] +
+                           power.height[i])) {
+          std::abort();
+        }
+      }
+    } catch (const InputError& error) {
+      if (error.problems().empty()) std::abort();
+    }
   }
   for (const int core : {0, 1}) {
     try {

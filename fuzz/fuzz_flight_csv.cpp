@@ -1,4 +1,5 @@
-// Any bytes as a flight log and as a power log in CSV: accepted with whole columns, or refused.
+// Any bytes as a flight log and as a power log, in CSV or whatever they are: accepted with whole
+// columns, or refused.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -41,16 +42,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require_finite(*column, log.time.size(), false);
     }
   });
-  read_or_be_refused([&] {
-    const PowerLog log = parse_power_log({reinterpret_cast<const char*>(data), size}, "power.csv");
-    for (const auto* column :
-         {&log.height, &log.airspeed, &log.supply_voltage, &log.supply_current}) {
-      require_finite(*column, log.time.size(), false);
-    }
-    for (const auto* column :
-         {&log.ambient_temperature_C, &log.drone_voltage, &log.bus_voltage, &log.bus_current}) {
-      require_finite(*column, log.time.size(), true);
-    }
-  });
+  for (const bool free_flight : {false, true}) {
+    read_or_be_refused([&] {
+      const PowerLog log = parse_power_log(content, "power.csv", {.free_flight = free_flight}).log;
+      require_finite(log.airspeed, log.time.size(), false);
+      for (const PowerChannel& channel : power_channels) {
+        require_finite(log.*channel.values, log.time.size(), channel.optional);
+      }
+    });
+  }
   return 0;
 }

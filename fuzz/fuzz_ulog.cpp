@@ -1,11 +1,13 @@
 // Any bytes as a ULog: read every way there is, every byte accounted for.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <sstream>
+#include <vector>
 
 #include "io/ulog.hpp"
 #include "tethercalc/io/input_error.hpp"
@@ -43,6 +45,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   } catch (const InputError& error) {
     if (error.problems().empty()) std::abort();
+  }
+  for (const std::vector<int>& batteries : {std::vector<int>{}, {0}, {0, 1}}) {
+    try {
+      const PowerLogOptions options{.free_flight = true, .batteries = batteries};
+      const PowerLog power = parse_power_log(bytes, "log", options).log;
+      for (std::size_t i = 0; i < power.time.size(); ++i) {
+        if (i > 0 && !(power.time[i] > power.time[i - 1])) std::abort();
+        if (!std::isfinite(power.bus_voltage[i] * power.bus_current[i] + power.airspeed[i])) {
+          std::abort();
+        }
+      }
+    } catch (const InputError& error) {
+      if (error.problems().empty()) std::abort();
+    }
   }
   return 0;
 }

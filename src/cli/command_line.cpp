@@ -185,6 +185,12 @@ class Command {
     return group("Logs")
         .repeatable("--flight LOG", logs.flight_logs, flight_help)
         .option("--power LOG", logs.power_log, power_help)
+        .option("--log LOG", logs.whole_log, "Both from one log of one flight")
+        .comma_list("--battery N,...", logs.batteries,
+                    "Battery monitors that feed the motors, where the log has several: N[,N...], "
+                    "whose currents add up")
+        .flag("--free-flight", logs.free_flight,
+              "The power was logged in flight without the tether, from a battery")
         .comma_list("--base EFFECT,...", logs.base, base_help)
         .repeatable("--effects FILE", logs.effect_files,
                     "Your own effects to try as well (JSON); repeatable")
@@ -377,6 +383,8 @@ class CommandLine {
         .option("--power-log LOG", motor_.power_log,
                 "Instead of a file: a free flight (CSV: time_s, airspeed_m_s, bus_voltage_V, "
                 "bus_current_A)")
+        .comma_list("--battery N,...", motor_.batteries,
+                    "Its battery monitors that feed the motors, where it has several: N[,N...]")
         .option("--spec SPEC", motor_.spec.file, "The drone that flew it: mass, motors, drag, air")
         .repeatable("--set PATH=VALUE", motor_.spec.overrides,
                     "Change a field of that spec: path=value")
@@ -505,13 +513,13 @@ class CommandLine {
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
           diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;
-          return run_diagnose(diagnose_, output_);
+          return run_diagnose(with_halves(diagnose_), output_);
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,
               "Flight log: ArduPilot (.bin, .log), PX4 (.ulg) or CSV; repeatable, for flights of "
               "one drone",
-              "Power log (CSV)")
+              "Power log: the same, with voltage and current")
         .option_or_flag("--into FILE", diagnose_.into_file,
                         "Write the extended spec to this file; without a name print it instead of "
                         "the diagnosis")
@@ -526,6 +534,7 @@ class CommandLine {
                 "How far from home it may go, m (default: as far as the log did)")
         .output(output_)
         .examples({"tethercalc diagnose my.json --flight flight.bin",
+                   "tethercalc diagnose my.json --log flight.ulg --free-flight --mass-g 2300",
                    "tethercalc diagnose my.json --power power.csv --into extended.json"});
     add("log", "What an autopilot's log holds",
         [this] { return run_log(what_, message_, output_); })
@@ -572,11 +581,11 @@ class CommandLine {
         .examples({"tethercalc plot optimum my.json --output optimum.svg",
                    "tethercalc plot sweep rows.csv --x supply.voltage_V"});
     add("report", "One page with everything about a design, to be mailed or printed",
-        [this] { return run_report(diagnose_, shell_command(arguments_), output_); })
+        [this] { return run_report(with_halves(diagnose_), shell_command(arguments_), output_); })
         .spec(diagnose_.spec)
         .logs(diagnose_,
               "With what this flight log says: ArduPilot (.bin, .log), PX4 (.ulg) or CSV",
-              "With what this power log says (CSV)")
+              "With what this power log says: the same, with voltage and current")
         .output_file(output_)
         .examples({"tethercalc report my.json --flight flight.bin --output report.html"});
   }

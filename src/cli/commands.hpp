@@ -177,8 +177,9 @@ struct MotorOptions {
   std::optional<double> air_density_kg_m3;
   std::optional<double> figure_of_merit;  ///< of a motor without files, with
   std::optional<double> max_thrust_g;
-  std::string power_log;  ///< or: of a free flight, with the greatest thrust and
-  SpecOptions spec;       ///< the drone that flew
+  std::string power_log;               ///< or: of a free flight, with the greatest thrust and
+  SpecOptions spec;                    ///< the drone that flew
+  std::vector<std::string> batteries;  ///< see battery_numbers
 };
 
 /// Shows a motor, or writes it as a motor file: as JSON, which an output file ending in .json is.
@@ -218,6 +219,9 @@ struct FlightOptions {
 /// impossible values, half a pair, or both.
 [[nodiscard]] std::optional<double> air_density(const FlightOptions& options);
 
+/// The numbers of battery monitors as typed for --battery. Throws InputError for what is none.
+[[nodiscard]] std::vector<int> battery_numbers(const std::vector<std::string>& typed);
+
 /// What an autopilot's log holds, or all messages of one name as CSV.
 int run_log(const std::string& file, const std::string& message, const Output& output);
 
@@ -241,6 +245,9 @@ struct DiagnoseOptions {
   SpecOptions spec;
   std::vector<std::string> flight_logs;  ///< flights of one drone
   std::string power_log;
+  std::string whole_log;                  ///< or: both halves in one log, see with_halves
+  std::vector<std::string> batteries;     ///< see battery_numbers
+  bool free_flight = false;               ///< the power was logged without the tether
   std::vector<std::string> base;          ///< ids of effects that are part of the base model
   std::vector<std::string> effect_files;  ///< effects to try beside those of the catalogue
   FlightOptions flight;
@@ -251,6 +258,10 @@ struct DiagnoseOptions {
   std::optional<double> height_m;
   std::optional<double> reach_m;
 };
+
+/// The options with a log of both halves as the log of each. Throws InputError where another log
+/// stands beside it.
+[[nodiscard]] DiagnoseOptions with_halves(DiagnoseOptions options);
 
 /// What the logs say; either may be absent.
 struct ToldDiagnosis : DiagnosisStudy {

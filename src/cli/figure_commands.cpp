@@ -84,7 +84,7 @@ Drawn drag(const PlotOptions& options) {
 }
 
 Drawn diagnosis(const PlotOptions& options) {
-  const DiagnoseOptions& how = options.made_of;
+  const DiagnoseOptions how = with_halves(options.made_of);
   if (how.flight_logs.empty() == how.power_log.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }

@@ -180,6 +180,17 @@ LoggedFlight read_flights(const DiagnoseOptions& options, std::span<const Effect
   return flight;
 }
 
+/// What is said of a power log needs one.
+void check_power_options(const DiagnoseOptions& options) {
+  if (!options.power_log.empty()) return;
+  if (options.free_flight) {
+    throw InputError("--free-flight", "is of the power; give --power LOG, or --log LOG");
+  }
+  if (!options.batteries.empty()) {
+    throw InputError("--battery", "is of the power; give --power LOG, or --log LOG");
+  }
+}
+
 DiagnosisStudy studied(const DiagnoseOptions& options, const DiagnosisQuestion& question) {
   try {
     DiagnosisStudy study = study_diagnosis(question, progress_line());
@@ -328,6 +339,32 @@ double pitch_offset(const FlightOptions& options) {
   }
 }
 
+std::vector<int> battery_numbers(const std::vector<std::string>& typed) {
+  std::vector<int> numbers;
+  for (const std::string& text : typed) {
+    const auto number = parsed_number(text);
+    constexpr double most = 255;
+    if (!number || !(*number >= 0 && *number <= most) || *number != std::floor(*number)) {
+      throw InputError("--battery",
+                       fmt::format("\"{}\" is no number of a battery monitor; allowed are whole "
+                                   "numbers from 0 to {:g}, separated by commas",
+                                   text, most));
+    }
+    numbers.push_back(static_cast<int>(*number));
+  }
+  return numbers;
+}
+
+DiagnoseOptions with_halves(DiagnoseOptions options) {
+  if (options.whole_log.empty()) return options;
+  if (!options.flight_logs.empty() || !options.power_log.empty()) {
+    throw InputError("--log", "is both, flight and power; give it, or --flight and --power");
+  }
+  options.flight_logs = {options.whole_log};
+  options.power_log = options.whole_log;
+  return options;
+}
+
 std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
   const SpecField& field = *find_field("drone.mass_g");
@@ -445,21 +482,34 @@ int run_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
 
 ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
   if (options.flight_logs.empty() && options.power_log.empty()) {
-    throw InputError("diagnose", "needs a measured log: --flight LOG, --power LOG or both");
+    throw InputError("diagnose",
+                     "needs a measured log: --flight LOG, --power LOG, or --log LOG for both");
   }
+  check_power_options(options);
   DiagnosisQuestion question{file.design};
   question.hypotheses = own_effects(options);
   check_effects(options, question.hypotheses);
   std::vector<std::string> notes;
+  std::vector<std::string> power_notes;
   if (!options.flight_logs.empty())
     question.flight = read_flights(options, question.hypotheses, notes);
   if (!options.power_log.empty()) {
-    question.power = {read_power_log(options.power_log),
-                      base_effects(options, LogKind::power, question.hypotheses)};
+    PowerLogReading reading = read_power_log(
+        options.power_log,
+        {options.free_flight, battery_numbers(options.batteries), options.flight.core});
+    question.power = {.log = std::move(reading.log),
+                      .base = base_effects(options, LogKind::power, question.hypotheses),
+                      .mass = flown_mass(options.flight),
+                      .air_density = air_density(options.flight)};
+    power_notes = std::move(reading.notes);
   }
+  question.one_flight = !options.whole_log.empty();
   DiagnosisStudy study = studied(options, question);
   if (study.flight) {
     study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
+  }
+  if (study.power) {
+    study.power->notes.insert(study.power->notes.begin(), power_notes.begin(), power_notes.end());
   }
   std::optional<NextFlight> next;
   if (!options.next_flight_file.empty()) {

@@ -68,6 +68,9 @@ void check(const MotorOptions& options) {
     need("--max-thrust-g", options.max_thrust_g);
   }
   if (options.files.empty()) {
+    if (!flown && !options.batteries.empty()) {
+      problems.add("--battery", "chooses battery monitors of a --power-log; give one");
+    }
     if (!options.columns.empty()) problems.add("--columns", "names columns of a file; give one");
     if (!options.where.empty()) problems.add("--where", "chooses rows of a file; give one");
   }
@@ -120,12 +123,12 @@ std::string forward_words(const FlownForward& forward) {
 /// The motor of a free flight.
 ShownMotor motor_of_flight(const MotorOptions& options) {
   const DesignFile file = read_spec(options.spec);
-  const MappedFile log(options.power_log);
-  const FlownPower flight = parse_flown_power(log.text(), options.power_log);
+  const PowerLogReading flight = read_power_log(
+      options.power_log, {.free_flight = true, .batteries = battery_numbers(options.batteries)});
   const double density = file.design.flight.air_density;
   FlownMotor flown;
   try {
-    flown = flown_motor(flight, file.design.drone, density,
+    flown = flown_motor(flight.log, file.design.drone, density,
                         *options.max_thrust_g * unit::gram_force, library_motors());
   } catch (const UnsuitablePowerFlight& error) {
     throw InputError(options.power_log, error.what());
@@ -147,8 +150,14 @@ ShownMotor motor_of_flight(const MotorOptions& options) {
                   "about {:g} % "
                   "either way",
                   100 * flown.hover_interval, *out.band));
-  motor.warnings.emplace_back(
-      "all of the bus's power is taken for the motors': what else it feeds counts as theirs");
+  const double beside = file.design.drone.auxiliary_power;
+  motor.warnings.push_back(
+      beside > 0 ? fmt::format("all of the bus's power but the {:g} W of drone.auxiliary_power_W "
+                               "is taken for the motors'",
+                               beside)
+                 : "all of the bus's power is taken for the motors': what else it feeds counts as "
+                   "theirs (drone.auxiliary_power_W)");
+  motor.warnings.insert(motor.warnings.end(), flight.notes.begin(), flight.notes.end());
   if (flown.forward) motor.warnings.push_back(forward_words(*flown.forward));
   return out;
 }

@@ -157,7 +157,7 @@ void draw(const Ordered& ordered, PowerModel& m, std::span<const double> values)
         const std::optional<double> ambient = model.design.tether.ambient_temperature_C;
         const std::array<double, power_formula_channels.size()> channels{
             log.time[i],
-            log.height[i],
+            log.height.empty() ? 0 : log.height[i],
             log.airspeed[i],
             power,
             log.ambient_temperature_C.empty() ? ambient.value_or(20) : log.ambient_temperature_C[i],

@@ -425,9 +425,11 @@ Channel power_channel(const std::string& id, const PowerLog& log) {
     return {"supply current times height", "A·m", product(log.supply_current, log.height)};
   }
   if (id == "bus_power") {
-    return {"power at the bus", "W", product(log.bus_voltage, log.bus_current)};
+    return {"power at the bus", "W", bus_power_of(log)};
   }
-  if (id == "height") return {"height", "m", log.height};
+  // Free flight needs no height: thrust then varies with the airspeed alone.
+  if (id == "height" && !log.height.empty()) return {"height", "m", log.height};
+  if (id == "height") return {"airspeed", "m/s", log.airspeed};
   if (id == "airspeed") return {"airspeed", "m/s", log.airspeed};
   if (id == "time") return {"time of the log", "s", log.time};
   unknown(id);

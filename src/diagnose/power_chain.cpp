@@ -14,7 +14,7 @@ FlightState state_at(const PowerModel& model, const PowerLog& log, std::size_t i
   std::optional<double> ambient;
   if (!log.ambient_temperature_C.empty()) ambient = log.ambient_temperature_C[i];
   // A drone on the ground may be read to be below it.
-  const double deployed = (1 + model.slack) * std::max(0.0, log.height[i]);
+  const double deployed = log.free_flight ? 0 : (1 + model.slack) * std::max(0.0, log.height[i]);
   return flight_state_at(model.design, deployed, log.airspeed[i], ambient);
 }
 
@@ -30,6 +30,16 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 }
 
 }  // namespace
+
+Design without_tether(Design design) {
+  design.tether.model = TetherModel::straight;
+  design.tether.winch_pull = 0;
+  design.tether.cross_section = design.tether.cross_section.value_or(0);
+  design.supply.converter.specific_mass = 0;
+  design.supply.converter.masses.clear();
+  design.drone.reserve_battery.specific_energy = 0;
+  return design;
+}
 
 PowerLog without_errors(PowerLog log, const PowerInstruments& instruments) {
   const auto correct = [](std::vector<double>& readings, double gain, double offset) {
@@ -106,8 +116,12 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
 }
 
 std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
-  const Drone& drone = model.design.drone;
-  const double radius = conductor_radius(*model.design.tether.cross_section);
+  std::optional<Design> freed;
+  if (log.free_flight) freed = without_tether(model.design);
+  const Design& design = freed ? *freed : model.design;
+  const Drone& drone = design.drone;
+  const double beside_motors = freed ? drone.auxiliary_power : 0;
+  const double radius = conductor_radius(*design.tether.cross_section);
   // What was flown was flown: the design's limit of the tilt is no physics. At 80° the thrust is
   // six times the weight, which no drone has that also lifts a tether.
   constexpr double tan_limit = 6;
@@ -115,7 +129,7 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   std::optional<Design> lighter;
   if (model.dropped_mass != 0) {
     constexpr double least_part = 0.1;  // of the drone that stays: less would fly no better
-    lighter = model.design;
+    lighter = design;
     lighter->drone.mass = std::max(least_part * drone.mass, drone.mass - model.dropped_mass);
   }
 
@@ -124,7 +138,7 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     const bool dropped = lighter && log.time[i] >= model.drop_time;
-    const SteadyFlight steady(dropped ? *lighter : model.design, state_at(model, log, i));
+    const SteadyFlight steady(dropped ? *lighter : design, state_at(model, log, i));
     const double weight = steady.weight(radius);
     tan_pitch = steady.tan_pitch(radius, weight, tan_limit, tan_pitch);
     if (!std::isfinite(tan_pitch)) {
@@ -134,7 +148,8 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
     }
     const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
     power[i] = grown * steady.output_power(motor_curve_power(
-                           steady.motor(), steady.necessary_thrust(weight, tan_pitch)));
+                           steady.motor(), steady.necessary_thrust(weight, tan_pitch))) +
+               beside_motors;
     const double rest = power[i];
     for (const auto& added : model.added_power) power[i] += added(model, log, i, rest);
   }

@@ -33,7 +33,7 @@ struct PowerInstruments {
 
 /// A design as it flew, and what its instruments made of it.
 struct PowerModel {
-  Design design;  ///< with a cable cross-section
+  Design design;  ///< with a cable cross-section, unless the log is of a free flight
   PowerInstruments instruments{};
   double slack = 0;               ///< length of the cable in the air over the height, less 1
   double motor_power_growth = 0;  ///< from the first to the last sample, steadily, over the first
@@ -77,8 +77,12 @@ class CableHeat {
 /// Power in W at the bus in steady flight at the height and airspeed of every sample of such a log.
 /// Above the motors' largest thrust their curve is continued straight, and the design's limit of
 /// the tilt does not count, so that the value stays finite: a log shows what was flown. NaN beyond
-/// a tilt of 80°.
+/// a tilt of 80°. In free flight without tether, winch, converter and reserve battery, and with the
+/// auxiliary power, which the battery feeds as well; the design then needs no cross-section.
 [[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
+
+/// The design as a drone that left its tether, and all that hangs on that, on the ground.
+[[nodiscard]] Design without_tether(Design design);
 
 /// The entries of the catalogue for power logs, from the ground to the air.
 [[nodiscard]] std::vector<Effect> power_effects();

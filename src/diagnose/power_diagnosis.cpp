@@ -45,14 +45,41 @@ void check_lengths(const PowerLog& log) {
   }
 }
 
-/// Channels that the effect needs and the log lacks, "" where none.
+/// What the effect needs and the log lacks, "" where nothing.
 std::string lacking(const Effect& effect, const PowerLog& log) {
+  const bool in_the_air = std::all_of(effect.shows_in.begin(), effect.shows_in.end(), [](Stage s) {
+    return s == Stage::motors || s == Stage::airframe;
+  });
+  if (log.free_flight && (effect.of_tether || !in_the_air)) return "a flight on the tether";
+  const bool has_bus = !bus_power_of(log).empty();
   std::vector<std::string_view> names;
   for (const PowerChannel& channel : power_channels) {
-    const bool missing = (log.*channel.values).empty();
+    const bool of_bus =
+        channel.values == &PowerLog::bus_voltage || channel.values == &PowerLog::bus_current;
+    const bool missing = (log.*channel.values).empty() && !(of_bus && has_bus);
     if (missing && contains(effect.needs, channel.name)) names.push_back(channel.name);
   }
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Throws where the log can show no part of the chain.
+void check_stages(const PowerLog& log) {
+  const bool has_stage = is_measured(Stage::tether, log) || is_measured(Stage::converter, log) ||
+                         is_measured(Stage::motors, log);
+  if (log.free_flight && !(log.supply_voltage.empty() && log.supply_current.empty())) {
+    throw std::invalid_argument(
+        "a drone that flies free has no supply, but the log has supply_voltage_V or "
+        "supply_current_A; was it flown on the tether?");
+  }
+  if (has_stage) return;
+  const std::string bus = "bus_voltage_V and bus_current_A (or bus_power_W)";
+  throw std::invalid_argument(
+      log.free_flight
+          ? fmt::format("nothing of the motors was measured: a free flight needs {}", bus)
+          : fmt::format("no part of the chain was measured whole; the motors need height_m, "
+                        "airspeed_m_s, {0}; the converter supply_current_A, drone_voltage_V, {0}; "
+                        "the tether supply_voltage_V, supply_current_A, drone_voltage_V, height_m",
+                        bus));
 }
 
 /// Blocks are equal stretches of time.
@@ -85,7 +112,12 @@ std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
 
 /// What was taken for granted where the log does not say.
 void note_assumptions(const Design& design, const PowerLog& log, std::vector<std::string>& notes) {
-  if (log.ambient_temperature_C.empty()) {
+  if (log.free_flight) {
+    notes.push_back(
+        fmt::format("flown free: without tether, converter and reserve battery; the auxiliary "
+                    "power of the spec ({:g} W) comes out of the same battery",
+                    design.drone.auxiliary_power));
+  } else if (log.ambient_temperature_C.empty() && is_measured(Stage::tether, log)) {
     notes.push_back(
         fmt::format("ambient_temperature_C is missing: the cable is taken to be at the spec's {:g} "
                     "°C before it heats, so its resistivity may stand for the weather",
@@ -93,8 +125,8 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
   }
   for (const auto& [name, values] :
        {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
-    if (std::all_of(values->begin(), values->end(),
-                    [first = values->front()](double x) { return x == first; })) {
+    if (!values->empty() && std::all_of(values->begin(), values->end(),
+                                        [values](double x) { return x == values->front(); })) {
       notes.push_back(fmt::format("{} never changes in this log: taken as it is", name));
     }
   }
@@ -105,7 +137,7 @@ bool acts_on(const Effect& effect, Stage compared) { return contains(effect.show
 /// What the stage compares, as its instruments show it.
 std::vector<double> measured_in(const PowerStage& stage, const PowerLog& log) {
   if (stage.stage == Stage::converter) return product(log.drone_voltage, log.supply_current);
-  if (stage.stage == Stage::motors) return product(log.bus_voltage, log.bus_current);
+  if (stage.stage == Stage::motors) return bus_power_of(log);
   std::vector<double> lost(log.supply_voltage);
   for (std::size_t i = 0; i < lost.size(); ++i) lost[i] -= log.drone_voltage[i];
   return lost;
@@ -236,10 +268,8 @@ class PowerLogModel : public LogModel {
   std::vector<Cached> cache_;  ///< one a stage, the tilt's last
 };
 
-/// Block of every row; −1 for rows that are not used. The tilt's rows are spread evenly: they are
-/// stretches of the same flight, in their order.
-std::vector<int> blocks_of(const PowerLogModel& view) {
-  const PowerResiduals& residuals = view.residuals();
+/// Block of every row; −1 for rows that are not used.
+std::vector<int> blocks_of(const PowerResiduals& residuals) {
   std::vector<int> block;
   block.reserve(residuals.rows());
   for (const PowerStage& stage : residuals.stages()) {
@@ -248,6 +278,13 @@ std::vector<int> blocks_of(const PowerLogModel& view) {
       block.push_back(used ? block_at(residuals.log(), row * stage.samples_per_row) : -1);
     }
   }
+  return block;
+}
+
+/// The same with the tilt's rows, which are spread evenly: they are stretches of the same flight,
+/// in their order.
+std::vector<int> blocks_of(const PowerLogModel& view) {
+  std::vector<int> block = blocks_of(view.residuals());
   if (!view.tilt()) return block;
   std::set<int> used(block.begin(), block.end());
   used.erase(-1);
@@ -255,6 +292,26 @@ std::vector<int> blocks_of(const PowerLogModel& view) {
   const std::size_t rows = view.tilt()->rows();
   for (std::size_t i = 0; i < rows; ++i) block.push_back(in_order[i * in_order.size() / rows]);
   return block;
+}
+
+/// Takes away the stages of which too few stretches are left once their outliers are, with what
+/// each would need. True where there was one.
+bool drop_scattered_stages(const PowerResiduals& residuals, ScreenedPowerLog& screened,
+                           std::map<Stage, std::string>& dropped) {
+  const std::vector<int> blocks = blocks_of(residuals);
+  bool any = false;
+  for (const PowerStage& stage : residuals.stages()) {
+    const auto begin = blocks.begin() + static_cast<std::ptrdiff_t>(stage.first_row);
+    std::set<int> used(begin, begin + static_cast<std::ptrdiff_t>(stage.rows));
+    used.erase(-1);
+    if (used.size() >= fewest_blocks) continue;
+    dropped[stage.stage] = fmt::format(
+        "a longer flight: without its outliers only {} of {} stretches of this one are left",
+        used.size(), std::set<int>(blocks.begin(), blocks.end()).size());
+    screened.usable.erase(stage.stage);
+    any = true;
+  }
+  return any;
 }
 
 /// The search with the residuals' present noise.
@@ -453,6 +510,17 @@ void tell_tilt(const TiltComparison& tilt, const PowerModel& base, const PowerMo
   }
 }
 
+/// In words, of the stages that are measured.
+std::string compared_quantities(const PowerLog& log) {
+  std::vector<std::string> words;
+  for (const auto& [stage, quantity] : {std::pair{Stage::tether, "voltage lost in the tether"},
+                                        {Stage::converter, "converter input"},
+                                        {Stage::motors, "motor power"}}) {
+    if (is_measured(stage, log)) words.emplace_back(quantity);
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
@@ -460,9 +528,11 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                               const SelectionProgress& progress, std::span<const Effect> hypotheses,
                               const std::optional<DragByTilt>& shown_by_tilt) {
   check_lengths(log);
-  if (!design.tether.cross_section) {
+  check_stages(log);
+  if (!design.tether.cross_section && !log.free_flight) {
     throw std::invalid_argument(
-        "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2)");
+        "a power log needs the cross-section of the cable that flew (tether.cross_section_mm2), "
+        "unless the drone flew free (--free-flight)");
   }
   const std::vector<const Effect*> candidates = effects_for(LogKind::power, hypotheses);
   check_base_effects(LogKind::power, candidates, base_effects);
@@ -471,7 +541,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   Diagnosis& diagnosis = result.diagnosis;
   diagnosis.kind = "power";
   diagnosis.unit = "standard deviations of the noise";
-  diagnosis.quantity = "voltage lost in the tether, converter input, motor power";
+  diagnosis.quantity = compared_quantities(log);
   diagnosis.samples = log.time.size();
   diagnosis.base.holdout_rmse = nan;
   diagnosis.extended.holdout_rmse = nan;
@@ -481,10 +551,14 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   if (progress) progress("screening the instruments");
   const PowerModel base{design};
   ScreenedPowerLog screened = screen_power_log(base, log);
-  const std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
+  std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
+  average_fast_samples(screened);
   diagnosis.notes = screened.notes;
   note_assumptions(design, log, diagnosis.notes);
-  PowerResiduals residuals(base, std::move(screened));
+  PowerResiduals residuals(base, screened);
+  if (drop_scattered_stages(residuals, screened, unusable)) {
+    residuals = PowerResiduals(base, std::move(screened));
+  }
   const std::vector<const Effect*> effects =
       testable_effects(residuals.log(), unusable, candidates, diagnosis);
   if (residuals.stages().empty()) return result;
@@ -503,7 +577,6 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   }
 
   tell(view, selection, diagnosis);
-  diagnosis.samples = residuals.samples();
   // Rows are whitened: each counts.
   diagnosis.effective_samples =
       std::round(static_cast<double>(selection.rows - (tilt ? tilt->rows() : 0)) /

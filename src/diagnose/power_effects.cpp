@@ -44,7 +44,10 @@ std::vector<std::string> channels_needed(const std::vector<Stage>& shows_in) {
            shows_in.end();
   };
   std::vector<std::string> channels;
-  if (any({Stage::tether, Stage::converter})) channels.emplace_back("drone_voltage_V");
+  if (any({Stage::tether})) channels.emplace_back("supply_voltage_V");
+  if (any({Stage::tether, Stage::converter})) {
+    channels.insert(channels.end(), {"supply_current_A", "drone_voltage_V"});
+  }
   if (any({Stage::converter, Stage::motors})) {
     channels.insert(channels.end(), {"bus_voltage_V", "bus_current_A"});
   }
@@ -165,7 +168,8 @@ std::vector<Effect> power_effects() {
              constexpr double taut = 1e-4;
              if (solved) tether.slack = std::max(tether.slack, taut);
            },
-       .shows_in = {Stage::tether, Stage::motors, Stage::airframe}},
+       .shows_in = {Stage::tether, Stage::motors, Stage::airframe},
+       .of_tether = true},
 
       {.id = "height_bias",
        .title = "The height is read wrong",
@@ -177,7 +181,8 @@ std::vector<Effect> power_effects() {
        .change = "h = h_read − b",
        .channel = "supply_current",
        .on_power = [](PowerModel& m, Values x) { m.instruments.height_offset += x[0]; },
-       .shows_in = {Stage::tether, Stage::motors, Stage::airframe}},
+       .shows_in = {Stage::tether, Stage::motors, Stage::airframe},
+       .of_tether = true},
 
       {.id = "drone_voltage_offset",
        .title = "The voltmeter at the drone is off",
@@ -336,6 +341,7 @@ std::vector<Effect> power_effects() {
        .change = "F_winch",
        .channel = "height",
        .on_power = [](PowerModel& m, Values x) { m.design.tether.winch_pull = x[0]; },
+       .of_tether = true,
        .twin_of = "extra_mass"},
 
       {.id = "airspeed_scale",
@@ -361,7 +367,8 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_airspeed,
        .change = "f·C",
        .channel = "airspeed",
-       .on_power = [](PowerModel& m, Values x) { m.design.tether.drag_coefficient *= x[0]; }},
+       .on_power = [](PowerModel& m, Values x) { m.design.tether.drag_coefficient *= x[0]; },
+       .of_tether = true},
 
       {.id = "airframe_drag",
        .title = "The drone drags more, or less, than assumed",

@@ -65,7 +65,8 @@ MatrixXd smooth_shapes(const PowerLog& log, Stage stage, const std::vector<doubl
   constexpr int waves = 6;
   const auto n = static_cast<Index>(log.time.size());
   std::vector<VectorXd> columns;
-  const Series height = as_series(log.height) / 10;
+  Series height = Series::Zero(n);  // of a free flight it may be unknown
+  if (!log.height.empty()) height = as_series(log.height) / 10;
   const Series speed = as_series(log.airspeed) / 5;
   const Series elapsed = as_series(log.time) - log.time.front();
   for (const Series& x : std::initializer_list<Series>{Series::Ones(n), height, height.square(),
@@ -214,10 +215,8 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
     : screened_(std::move(screened)) {
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
-  if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
-    bus_power_ = product(log.bus_voltage, log.bus_current);
-    for (const double power : bus_power_) log_bus_power_.push_back(std::log(std::max(power, 1e-3)));
-  }
+  bus_power_ = bus_power_of(log);
+  for (const double power : bus_power_) log_bus_power_.push_back(std::log(std::max(power, 1e-3)));
 
   screened_.log.height = steadied(log.height);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -172,39 +173,47 @@ double best_delay(const std::function<double(double)>& agreement, std::size_t sa
   return clear && std::abs(best) > negligible ? best : 0;
 }
 
-/// Puts all channels on the clock of the supply current.
+/// Puts all channels on the clock of the supply current or, without one, of the bus.
 void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& log,
            std::vector<std::string>& notes) {
   const std::size_t n = log.time.size();
   const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
   using Member = std::vector<double> PowerLog::*;
+  const bool has_supply = !log.supply_voltage.empty() && !log.supply_current.empty();
+  const bool has_bus = !bus_power_of(log).empty();
 
   // Shifts channels to where `compared`, made of a log with them shifted, changes as `with` does.
   const auto shift = [&](const char* names, std::initializer_list<Member> channels_shifted,
                          const std::vector<double>& with, const auto& compared) {
     const auto shifted = [&](double delay) {
       PowerLog result = log;
-      for (const Member x : channels_shifted) result.*x = advanced(log.time, log.*x, delay);
+      for (const Member x : channels_shifted) {
+        if (!(log.*x).empty()) result.*x = advanced(log.time, log.*x, delay);
+      }
       return result;
     };
     const double delay =
         best_delay([&](double d) { return change_correlation(with, compared(shifted(d)), usable); },
                    n, interval);
     if (delay == 0) return;
-    notes.push_back(
-        fmt::format("{} lagged {:.1f} s {} the supply current; the channels were "
-                    "shifted back",
-                    names, std::abs(delay), delay > 0 ? "behind" : "ahead of"));
+    notes.push_back(fmt::format("{} lagged {:.1f} s {} the {}; the channels were shifted back",
+                                names, std::abs(delay), delay > 0 ? "behind" : "ahead of",
+                                has_supply ? "supply current" : "power at the bus"));
     log = shifted(delay);
   };
-  const std::vector<double> supply_power = product(log.supply_voltage, log.supply_current);
-  if (!log.bus_voltage.empty() && !log.bus_current.empty()) {
-    shift("bus_voltage_V and bus_current_A", {&PowerLog::bus_voltage, &PowerLog::bus_current},
-          supply_power, [](const PowerLog& l) { return product(l.bus_voltage, l.bus_current); });
+  const std::vector<double> power =
+      has_supply ? product(log.supply_voltage, log.supply_current) : bus_power_of(log);
+  if (has_supply && has_bus) {
+    shift(log.bus_power.empty() ? "bus_voltage_V and bus_current_A" : "bus_power_W",
+          {&PowerLog::bus_voltage, &PowerLog::bus_current, &PowerLog::bus_power}, power,
+          bus_power_of);
   }
-  shift("height_m and airspeed_m_s", {&PowerLog::height, &PowerLog::airspeed}, supply_power,
-        [&model](const PowerLog& l) { return motor_power(model, l); });
-  if (!log.drone_voltage.empty()) {
+  if (!power.empty() && (log.free_flight || !log.height.empty())) {
+    shift(log.height.empty() ? "airspeed_m_s" : "height_m and airspeed_m_s",
+          {&PowerLog::height, &PowerLog::airspeed}, power,
+          [&model](const PowerLog& l) { return motor_power(model, l); });
+  }
+  if (has_supply && is_measured(Stage::tether, log)) {
     CableHeat heat;
     const std::vector<double> lost = product(log.supply_current, loop_resistance(model, log, heat));
     shift("drone_voltage_V", {&PowerLog::drone_voltage}, lost, [](PowerLog l) {
@@ -215,6 +224,29 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
 }
 
 }  // namespace
+
+std::vector<std::vector<double> PowerLog::*> compared_channels(Stage stage, const PowerLog& log) {
+  std::vector<std::vector<double> PowerLog::*> channels;
+  if (stage == Stage::tether) {
+    return {&PowerLog::supply_voltage, &PowerLog::supply_current, &PowerLog::drone_voltage,
+            &PowerLog::height};
+  }
+  if (stage == Stage::converter) channels = {&PowerLog::supply_current, &PowerLog::drone_voltage};
+  if (stage == Stage::motors) channels = {&PowerLog::airspeed};
+  if (stage == Stage::motors && !log.free_flight) channels.push_back(&PowerLog::height);
+  if (log.bus_power.empty()) {
+    channels.insert(channels.end(), {&PowerLog::bus_voltage, &PowerLog::bus_current});
+  } else {
+    channels.push_back(&PowerLog::bus_power);
+  }
+  return channels;
+}
+
+bool is_measured(Stage stage, const PowerLog& log) {
+  const auto channels = compared_channels(stage, log);
+  return std::none_of(channels.begin(), channels.end(),
+                      [&log](const auto channel) { return (log.*channel).empty(); });
+}
 
 ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) {
   ScreenedPowerLog screened;
@@ -249,22 +281,16 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
     fill_in(log.time, bad[c], x);
   }
 
-  const auto set_usable = [&](Stage stage,
-                              const std::vector<std::vector<double> PowerLog::*>& needed) {
+  for (const Stage stage : {Stage::tether, Stage::converter, Stage::motors}) {
+    if (!is_measured(stage, clean)) continue;
+    const auto needed = compared_channels(stage, clean);
     std::vector<char> all(n, 1);
     for (std::size_t c = 0; c < bad.size(); ++c) {
       if (!contains(needed, power_channels[c].values)) continue;
-      if (bad[c].empty()) return;
       for (std::size_t i = 0; i < n; ++i) all[i] = all[i] && !bad[c][i];
     }
     screened.usable[stage] = std::move(all);
-  };
-  set_usable(Stage::tether, {&PowerLog::supply_voltage, &PowerLog::supply_current,
-                             &PowerLog::drone_voltage, &PowerLog::height});
-  set_usable(Stage::converter, {&PowerLog::supply_current, &PowerLog::drone_voltage,
-                                &PowerLog::bus_voltage, &PowerLog::bus_current});
-  set_usable(Stage::motors, {&PowerLog::bus_voltage, &PowerLog::bus_current, &PowerLog::height,
-                             &PowerLog::airspeed});
+  }
 
   std::vector<char> healthy(n, 1);
   for (const auto& marks : bad) {
@@ -274,39 +300,51 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
   return screened;
 }
 
-void check_power_units(const Design& design, const PowerLog& log) {
-  std::string problems;
-  const auto report = [&problems](const std::string& problem) {
-    problems += (problems.empty() ? "" : "; ") + problem;
+void average_fast_samples(ScreenedPowerLog& screened) {
+  constexpr double mean_over = 1;  // s
+  PowerLog& log = screened.log;
+  const double interval =
+      (log.time.back() - log.time.front()) / static_cast<double>(log.time.size() - 1);
+  if (screened.usable.size() != 1 || screened.usable.begin()->first != Stage::motors ||
+      interval > mean_over / 2) {
+    return;
+  }
+  std::vector<char>& usable = screened.usable.begin()->second;
+  std::vector<std::size_t> begins;  // of each mean
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    if (begins.empty() || log.time[i] >= log.time[begins.back()] + mean_over) begins.push_back(i);
+  }
+  begins.push_back(log.time.size());
+
+  std::vector<char> mean_usable;
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+    const auto part = std::span(usable).subspan(begins[k], begins[k + 1] - begins[k]);
+    mean_usable.push_back(2 * std::count(part.begin(), part.end(), char{1}) >= std::ssize(part));
+  }
+  const auto average = [&](std::vector<double>& values) {
+    if (values.empty()) return;
+    for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+      double sum = 0;
+      double count = 0;
+      for (std::size_t i = begins[k]; i < begins[k + 1]; ++i) {
+        if (mean_usable[k] && !usable[i]) continue;
+        sum += values[i];
+        ++count;
+      }
+      values[k] = sum / count;
+    }
+    values.resize(begins.size() - 1);
   };
-  const double voltage = median(log.supply_voltage);
-  const double current = median(log.supply_current);
-  if (!(voltage > 0)) report(fmt::format("supply_voltage_V is {:.3g} V in the median", voltage));
-  if (!(current > 0)) report(fmt::format("supply_current_A is {:.3g} A in the median", current));
-  if (voltage > 0 && (voltage > 5 * design.supply.voltage || 5 * voltage < design.supply.voltage)) {
-    report(fmt::format("supply_voltage_V is {:.3g} V in the median, the spec has {:.3g} V", voltage,
-                       design.supply.voltage));
-  }
-  if (!log.drone_voltage.empty()) {
-    const double received = median(log.drone_voltage);
-    if (!(received > 0) || received > 1.02 * voltage) {
-      report(
-          fmt::format("drone_voltage_V is {:.3g} V in the median and supply_voltage_V {:.3g} V: "
-                      "the tether cannot raise it",
-                      received, voltage));
-    }
-  }
-  if (!log.bus_voltage.empty() && !log.bus_current.empty() && voltage > 0 && current > 0) {
-    const double bus = median(product(log.bus_voltage, log.bus_current));
-    const double supply = median(product(log.supply_voltage, log.supply_current));
-    if (!(bus > 0.1 * supply && bus < 3 * supply)) {
-      report(
-          fmt::format("the bus takes {:.3g} W in the median where the supply gives {:.3g} W; a "
-                      "current or voltage has another unit",
-                      bus, supply));
-    }
-  }
-  const double highest = quantile(log.height, 0.99);
+  average(log.time);
+  for (const PowerChannel& channel : power_channels) average(log.*channel.values);
+  usable = std::move(mean_usable);
+}
+
+namespace {
+
+void check_heights(const Design& design, const std::vector<double>& height,
+                   const std::function<void(const std::string&)>& report) {
+  const double highest = quantile(height, 0.99);
   if (highest > 1.5 * design.tether.length) {
     report(fmt::format(
         "height_m reaches {:.3g} m, the tether of the spec {:.3g} m; is the height in feet?",
@@ -314,13 +352,60 @@ void check_power_units(const Design& design, const PowerLog& log) {
   }
   // A barometer drifts by a few metres over a flight.
   constexpr double barometer_drift = 5;
-  const double lowest = quantile(log.height, 0.01);
-  if (median(log.height) < 0 || lowest < -barometer_drift) {
+  const double lowest = quantile(height, 0.01);
+  if (median(height) < 0 || lowest < -barometer_drift) {
     report(
         fmt::format("height_m falls to {:.3g} m, {:.3g} m in the median; is it positive upwards "
                     "and counted from the station?",
-                    lowest, median(log.height)));
+                    lowest, median(height)));
   }
+}
+
+}  // namespace
+
+void check_power_units(const Design& design, const PowerLog& log) {
+  std::string problems;
+  const auto report = [&problems](const std::string& problem) {
+    problems += (problems.empty() ? "" : "; ") + problem;
+  };
+  const auto require_positive = [&](const char* name, const std::vector<double>& values,
+                                    const char* unit) {
+    const double middle = values.empty() ? 1 : median(values);
+    if (!(middle > 0)) report(fmt::format("{} is {:.3g} {} in the median", name, middle, unit));
+    return !values.empty() && middle > 0;
+  };
+  const bool has_voltage = require_positive("supply_voltage_V", log.supply_voltage, "V");
+  const bool has_current = require_positive("supply_current_A", log.supply_current, "A");
+  if (has_voltage) {
+    const double voltage = median(log.supply_voltage);
+    if (voltage > 5 * design.supply.voltage || 5 * voltage < design.supply.voltage) {
+      report(fmt::format("supply_voltage_V is {:.3g} V in the median, the spec has {:.3g} V",
+                         voltage, design.supply.voltage));
+    }
+    const double received = log.drone_voltage.empty() ? voltage : median(log.drone_voltage);
+    if (!(received > 0) || received > 1.02 * voltage) {
+      report(
+          fmt::format("drone_voltage_V is {:.3g} V in the median and supply_voltage_V {:.3g} V: "
+                      "the tether cannot raise it",
+                      received, voltage));
+    }
+  }
+  const std::vector<double> bus_power = bus_power_of(log);
+  if (!bus_power.empty() && has_voltage && has_current) {
+    const double bus = median(bus_power);
+    const double supply = median(product(log.supply_voltage, log.supply_current));
+    if (!(bus > 0.1 * supply && bus < 3 * supply)) {
+      report(
+          fmt::format("the bus takes {:.3g} W in the median where the supply gives {:.3g} W; a "
+                      "current or voltage has another unit",
+                      bus, supply));
+    }
+  } else {
+    require_positive("bus_voltage_V", log.bus_voltage, "V");
+    require_positive("bus_current_A", log.bus_current, "A");
+    require_positive("bus_power_W", log.bus_power, "W");
+  }
+  if (!log.free_flight && !log.height.empty()) check_heights(design, log.height, report);
   if (!log.ambient_temperature_C.empty()) {
     const double ambient = median(log.ambient_temperature_C);
     if (!(ambient > -80 && ambient < 80)) {

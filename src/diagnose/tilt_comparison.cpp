@@ -24,6 +24,7 @@ constexpr double common_error = 0.02;
 
 /// Height where the drag shows, which grows with the square of the airspeed.
 double height_of_drag(const PowerLog& log) {
+  if (log.height.empty() || log.airspeed.empty()) return 0;
   double sum = 0;
   double weights = 0;
   double mean = 0;
@@ -64,7 +65,7 @@ std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const 
                                                  const PowerLog& log,
                                                  double false_alarm_probability,
                                                  std::vector<std::string>& notes) {
-  TiltComparison tilt(shown, height_of_drag(log));
+  TiltComparison tilt(shown, height_of_drag(log), log.free_flight);
   const auto blocks = static_cast<double>(shown.over_mass.size());
   tilt.mean_ = mean_of(shown.over_mass);
   const double error = deviation_of_mean(shown.over_mass, tilt.mean_);
@@ -86,14 +87,16 @@ std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const 
 }
 
 double TiltComparison::predicted(const PowerModel& model) const {
-  const double radius = conductor_radius(*model.design.tether.cross_section);
+  std::optional<Design> freed;
+  if (free_flight_) freed = without_tether(model.design);
+  const Design& design = freed ? *freed : model.design;
+  const double radius = conductor_radius(*design.tether.cross_section);
   const double height = std::max(0.0, height_ - model.instruments.height_offset);
+  const double deployed = free_flight_ ? 0 : (1 + model.slack) * height;
   double sum = 0;
   for (const double v : shown_.airspeed) {
-    const SteadyFlight flight(model.design,
-                              flight_state_at(model.design, (1 + model.slack) * height, v));
-    sum +=
-        model.design.flight.gravity * flight.tan_pitch(radius, flight.weight(radius), steepest_tan);
+    const SteadyFlight flight(design, flight_state_at(design, deployed, v));
+    sum += design.flight.gravity * flight.tan_pitch(radius, flight.weight(radius), steepest_tan);
   }
   return sum / static_cast<double>(shown_.airspeed.size());
 }

@@ -45,11 +45,13 @@ class TiltComparison {
   [[nodiscard]] AirframeDrag drag_of(const PowerModel& model) const;
 
  private:
-  TiltComparison(DragByTilt shown, double height) : shown_(std::move(shown)), height_(height) {}
+  TiltComparison(DragByTilt shown, double height, bool free_flight)
+      : shown_(std::move(shown)), height_(height), free_flight_(free_flight) {}
 
   DragByTilt shown_;
-  double height_;    ///< m, as read where the drag showed
-  double mean_ = 0;  ///< m/s²
+  double height_;     ///< m, as read where the drag showed
+  bool free_flight_;  ///< without a tether
+  double mean_ = 0;   ///< m/s²
   double half_width_ = 0;
   double noise_ = 1;  ///< m/s², of one row
 };

@@ -170,9 +170,9 @@ FlightLogReading read_flight_log(const std::filesystem::path& path,
   return parse_flight_log(file.bytes(), path.string(), options);
 }
 
-PowerLog read_power_log(const std::filesystem::path& path) {
+PowerLogReading read_power_log(const std::filesystem::path& path, const PowerLogOptions& options) {
   const LogFile file(path);
-  return parse_power_log(file.text(), path.string());
+  return parse_power_log(file.bytes(), path.string(), options);
 }
 
 }  // namespace tethercalc

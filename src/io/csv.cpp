@@ -164,7 +164,7 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
       continue;
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!meaning[i]) continue;
+      if (!meaning[i] || wanted[*meaning[i]].ignored) continue;
       take_cell(cells[i], wanted[*meaning[i]], line_number, columns[*meaning[i]], problems);
     }
   }

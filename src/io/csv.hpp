@@ -20,6 +20,7 @@ struct CsvColumn {
   double minimum = std::numeric_limits<double>::lowest();
   double maximum = std::numeric_limits<double>::max();
   bool increasing = false;  ///< each value must be greater than the one in the row above
+  bool ignored = false;     ///< known, but not read: its cells may hold any text
 };
 
 enum class OtherCsvColumns {
@@ -33,7 +34,7 @@ enum class OtherCsvColumns {
 /// quoted; blanks around a cell are ignored.
 ///
 /// Returns one vector per wanted column, in the order wanted, all as long as the file has rows;
-/// an optional column that the file lacks is an empty vector.
+/// an optional column that the file lacks, or one that is ignored, is an empty vector.
 ///
 /// Throws InputError with every problem of the file, each as "file:line": missing, unknown (with
 /// the closest wanted name) and repeated columns; rows of the wrong length; cells that are empty,

@@ -11,24 +11,16 @@
 #include <optional>
 #include <utility>
 
-#include "io/csv.hpp"
-#include "io/foreign_files.hpp"
+#include "io/csv_log_columns.hpp"
+#include "io/log_damage.hpp"
 #include "io/logged_vehicle.hpp"
 #include "io/longest_increasing.hpp"
 #include "io/px4_flight.hpp"
-#include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
-
-// What attitude angles and a drone's velocity can be; see FlightLogReading::samples_implausible.
-constexpr double steepest_pitch_deg = 90;
-constexpr double furthest_roll_deg = 360;  // upside down, logged rolls run past 180°
-constexpr double fastest_m_s = 500;
-// A thousand turns: some tools export yaw without wraps.
-constexpr double furthest_yaw_deg = 360'000;
 
 /// Samples as logged: time in s, angles in degrees, velocities in m/s.
 enum LogColumn : std::size_t {
@@ -42,6 +34,7 @@ enum LogColumn : std::size_t {
   wind_north,
   wind_east,
   airspeed_forward,
+  down_position,
   channel_count
 };
 using Samples = std::vector<std::vector<double>>;
@@ -204,10 +197,18 @@ std::string other_vehicle(const AutopilotLog& log) {
                                   : fmt::format("{}, {}", vehicle.firmware, vehicle.kind);
 }
 
+/// The last of the samples' columns as that channel.
+void move_last_to(LogColumn channel, Samples& samples) {
+  std::vector<double> values = std::move(samples.back());
+  samples.pop_back();
+  samples.resize(channel_count);
+  samples[channel] = std::move(values);
+}
+
 Samples read_samples(const AutopilotLog& log, const EstimatorMessage& from) {
   const LogMessageType& type = *log.contents().find(from.message);
   if (!time_of(type)) fail(log.name(), fmt::format("{} messages have no time", type.name));
-  const std::vector<std::string> fields = {"Roll", "Pitch", "Yaw", "VN", "VE", "VD"};
+  std::vector<std::string> fields = {"Roll", "Pitch", "Yaw", "VN", "VE", "VD"};
   for (const std::string& field : fields) {
     if (type.find_number(field) != nullptr) continue;
     std::vector<std::string> own;
@@ -215,22 +216,14 @@ Samples read_samples(const AutopilotLog& log, const EstimatorMessage& from) {
     fail(log.name(), fmt::format("{} messages have no number {}; their fields are {}", type.name,
                                  field, fmt::join(own, ",")));
   }
+  const bool has_position = type.find_number("PD") != nullptr;
+  if (has_position) fields.emplace_back("PD");
   LogSeries series = log.series(from.message, fields, from.core);
   Samples samples;
   samples.push_back(std::move(series.time));
   for (auto& column : series.columns) samples.push_back(std::move(column));
+  if (has_position) move_last_to(down_position, samples);
   return samples;
-}
-
-void note_damage(FlightLogReading& reading, const LogContents& contents) {
-  if (contents.skipped_bytes > 0) {
-    reading.notes.push_back(
-        fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",
-                    contents.skipped_bytes, contents.skipped_messages,
-                    contents.skipped_messages == 1 ? "" : "s"));
-  }
-  reading.notes.insert(reading.notes.end(), contents.rejected_definitions.begin(),
-                       contents.rejected_definitions.end());
 }
 
 void note_removed(FlightLogReading& reading) {
@@ -249,8 +242,11 @@ void take_samples(FlightLogReading& reading, Samples samples, const AutopilotLog
   reading.samples_implausible = remove_implausible(samples);
   reading.samples_out_of_order = remove_out_of_order(samples);
   reading.samples_implausible += remove_leaps(samples);
-  note_damage(reading, log.contents());
+  note_damage(log.contents(), reading.notes);
   note_removed(reading);
+  samples.resize(channel_count);
+  reading.height = std::move(samples[down_position]);
+  for (double& height : reading.height) height = -height;
   reading.log = to_flight_log(std::move(samples));
   reading.log.other_vehicle = other_vehicle(log);
 }
@@ -275,50 +271,46 @@ FlightLogReading read_ulog(const AutopilotLog& log, int core) {
   FlightLogReading reading;
   reading.source = std::move(motion.source);
   reading.notes = std::move(motion.notes);
-  take_samples(reading,
-               {std::move(motion.time), in_degrees(std::move(motion.roll)),
-                in_degrees(std::move(motion.pitch)), in_degrees(std::move(motion.yaw)),
-                std::move(motion.north), std::move(motion.east), std::move(motion.down)},
-               log);
+  Samples samples{std::move(motion.time),
+                  in_degrees(std::move(motion.roll)),
+                  in_degrees(std::move(motion.pitch)),
+                  in_degrees(std::move(motion.yaw)),
+                  std::move(motion.north),
+                  std::move(motion.east),
+                  std::move(motion.down),
+                  std::move(motion.down_position)};
+  move_last_to(down_position, samples);
+  take_samples(reading, std::move(samples), log);
   return reading;
 }
 
 FlightLogReading read_csv(std::string_view text, const std::string& name,
                           const FlightLogOptions& options) {
-  constexpr auto within = [](std::string_view column, double limit) {
-    return CsvColumn{.name = column, .minimum = -limit, .maximum = limit};
-  };
-  std::array<CsvColumn, channel_count> wanted = {CsvColumn{.name = "time_s", .increasing = true},
-                                                 within("roll_deg", furthest_roll_deg),
-                                                 within("pitch_deg", steepest_pitch_deg),
-                                                 within("yaw_deg", furthest_yaw_deg),
-                                                 within("vn_m_s", fastest_m_s),
-                                                 within("ve_m_s", fastest_m_s),
-                                                 within("vd_m_s", fastest_m_s),
-                                                 within("wind_north_m_s", fastest_m_s),
-                                                 within("wind_east_m_s", fastest_m_s),
-                                                 within("airspeed_forward_m_s", fastest_m_s)};
-  for (const LogColumn measured : {wind_north, wind_east, airspeed_forward}) {
-    wanted[measured].required = false;
-  }
+  constexpr std::array<std::string_view, 2> of_level_flight{"roll_deg", "vd_m_s"};
+  LogTable table(text, name, &LogCsvColumn::flight,
+                 options.level_where_missing ? std::span<const std::string_view>(of_level_flight)
+                                             : std::span<const std::string_view>());
+  check_wind_columns(table, name);
   FlightLogReading reading;
   reading.source = "CSV";
-  wanted[roll_deg].required = wanted[vd].required = !options.level_where_missing;
-  Samples samples = read_csv_columns(text, name, wanted, OtherCsvColumns::rejected);
-  for (const auto& [channel, taken_for] :
-       {std::pair{roll_deg, "level flight"}, std::pair{vd, "flight at one height"}}) {
-    if (!samples[channel].empty()) continue;
-    samples[channel].assign(samples[time_s].size(), 0.0);
-    reading.notes.push_back(
-        fmt::format("{} is missing: taken for {}", wanted[channel].name, taken_for));
+  for (const auto& [column, taken_for] :
+       {std::pair{"roll_deg", "level flight"}, std::pair{"vd_m_s", "flight at one height"}}) {
+    if (table.has(column)) continue;
+    table[column].assign(table["time_s"].size(), 0.0);
+    reading.notes.push_back(fmt::format("{} is missing: taken for {}", column, taken_for));
   }
-  if (samples[wind_north].empty() != samples[wind_east].empty()) {
-    fail(name, "wind_north_m_s and wind_east_m_s are one wind: give both or none");
-  }
-  if (!samples[wind_north].empty() && !samples[airspeed_forward].empty()) {
-    fail(name,
-         "airspeed_forward_m_s goes without wind_north_m_s and wind_east_m_s: each gives the "
-         "other, and only one can be what was measured");
+  Samples samples(channel_count);
+  for (const auto& [channel, column] : {std::pair{time_s, "time_s"},
+                                        {roll_deg, "roll_deg"},
+                                        {pitch_deg, "pitch_deg"},
+                                        {yaw_deg, "yaw_deg"},
+                                        {vn, "vn_m_s"},
+                                        {ve, "ve_m_s"},
+                                        {vd, "vd_m_s"},
+                                        {wind_north, "wind_north_m_s"},
+                                        {wind_east, "wind_east_m_s"},
+                                        {airspeed_forward, "airspeed_forward_m_s"}}) {
+    samples[channel] = std::move(table[column]);
   }
   reading.samples_implausible = remove_leaps(samples);
   note_removed(reading);
@@ -337,25 +329,8 @@ FlightLogReading parse_flight_log(const AutopilotLog& log, const FlightLogOption
 FlightLogReading parse_flight_log(std::span<const std::byte> content, const std::string& name,
                                   const FlightLogOptions& options) {
   check_core(options.core);
-  const bool is_table = looks_like_text(content) && !looks_like_dataflash_text(content) &&
-                        foreign_kind(content).empty();
-  if (!is_table) return parse_flight_log(AutopilotLog(content, name), options);
+  if (!looks_like_table(content)) return parse_flight_log(AutopilotLog(content, name), options);
   return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name, options);
-}
-
-PowerLog parse_power_log(std::string_view text, std::string_view name) {
-  std::vector<CsvColumn> wanted{{.name = "time_s", .increasing = true}};
-  for (const PowerChannel& channel : power_channels) {
-    wanted.push_back({.name = channel.name, .required = !channel.optional});
-    if (channel.values == &PowerLog::ambient_temperature_C) wanted.back().minimum = -zero_celsius_K;
-  }
-  auto columns = read_csv_columns(text, name, wanted, OtherCsvColumns::rejected);
-  PowerLog log;
-  log.time = std::move(columns[0]);
-  for (std::size_t c = 0; c < power_channels.size(); ++c) {
-    log.*power_channels[c].values = std::move(columns[c + 1]);
-  }
-  return log;
 }
 
 }  // namespace tethercalc

@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "io/logged_battery.hpp"
+#include "io/logged_power.hpp"
 #include "io/logged_vehicle.hpp"
+#include "io/logged_wind.hpp"
+#include "tethercalc/diagnose/power_diagnosis.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/model/units.hpp"
@@ -128,7 +132,9 @@ class Clock {
 LogSummary::Flying flying_of(std::vector<LogSummary::Flight> flights, std::string determined_by) {
   double total = 0;
   for (const LogSummary::Flight& flight : flights) total += flight.end - flight.start;
-  return {total, std::move(determined_by), std::move(flights)};
+  std::optional<LogSummary::Flight> whole;
+  if (total > 0) whole = {flights.front().start, flights.back().end};
+  return {total, std::move(determined_by), std::move(flights), whole};
 }
 
 /// Time in the air by the controller's events.
@@ -227,122 +233,82 @@ std::vector<LogSummary::Message> message_table(const AutopilotLog& log, const Cl
   return table;
 }
 
-/// Where a log tells voltage and current.
-struct BatteryFields {
-  const char* message;
-  const char* voltage;
-  const char* current;
-};
-constexpr std::array<BatteryFields, 4> battery_fields = {
-    {{"BAT", "Volt", "Curr"},
-     {"CURR", "Volt", "Curr"},
-     {"CURR2", "Volt", "Curr"},
-     {"battery_status", "voltage_v", "current_a"}}};
-
-/// Integers hold hundredths (ArduPilot until 2015).
-double unit_of(const LogMessageType& type, const char* field) {
-  const LogField* const found = type.find_number(field);
-  return found != nullptr && (found->kind == 'h' || found->kind == 'H') ? 0.01 : 1;
-}
-
-std::optional<LogSummary::Battery> battery_in(const AutopilotLog& log, const BatteryFields& from,
-                                              std::optional<int> instance) {
-  const LogMessageType& type = *log.contents().find(from.message);
-  const std::vector<std::string> fields = {from.voltage, from.current};
-  const LogSeries series = log.series(from.message, fields, instance);
+LogSummary::Battery summary_of(const LoggedBattery& monitor) {
   LogSummary::Battery battery;
-  battery.message = from.message;
-  battery.instance = instance;
+  battery.message = monitor.message;
+  battery.instance = monitor.instance;
+  battery.samples = monitor.time.size();
+  battery.least_voltage = std::ranges::min(monitor.voltage);
+  battery.greatest_voltage = std::ranges::max(monitor.voltage);
+  battery.mean_voltage = std::accumulate(monitor.voltage.begin(), monitor.voltage.end(), 0.0) /
+                         static_cast<double>(battery.samples);
+  if (!monitor.measures_current()) return battery;
   constexpr double longest_step = 5;  // s
-  double voltages = 0;
   double currents = 0;
   double energy = 0;
   double last_power = 0;
   double last_time = 0;
   std::size_t with_current = 0;
-  for (std::size_t i = 0; i < series.time.size(); ++i) {
-    const double voltage = series.columns[0][i] * unit_of(type, from.voltage);
-    const double current = series.columns[1][i] * unit_of(type, from.current);
-    constexpr double highest = 1000;  // V and A that a drone can have
-    if (!(voltage > 0 && voltage < highest)) continue;
-    battery.least_voltage =
-        battery.samples == 0 ? voltage : std::min(battery.least_voltage, voltage);
-    battery.greatest_voltage = std::max(battery.greatest_voltage, voltage);
-    voltages += voltage;
-    ++battery.samples;
-    if (!(current >= 0 && current < highest)) continue;  // PX4 writes -1 where it is not known
-    const double power = voltage * current;
-    const double step = series.time[i] - last_time;
-    if (with_current > 0 && step > 0 && step <= longest_step)
+  for (std::size_t i = 0; i < monitor.time.size(); ++i) {
+    const double current = monitor.current[i];
+    if (!std::isfinite(current)) continue;
+    const double power = monitor.voltage[i] * current;
+    const double step = monitor.time[i] - last_time;
+    if (with_current > 0 && step > 0 && step <= longest_step) {
       energy += (power + last_power) / 2 * step;
+    }
     last_power = power;
-    last_time = series.time[i];
+    last_time = monitor.time[i];
     currents += current;
     battery.greatest_current = std::max(battery.greatest_current.value_or(0), current);
     ++with_current;
   }
-  if (battery.samples == 0) return std::nullopt;
-  battery.mean_voltage = voltages / static_cast<double>(battery.samples);
-  // All zero: there is no sensor.
-  if (with_current > 0 && currents > 0) {
-    battery.mean_current = currents / static_cast<double>(with_current);
-    battery.energy = energy;
-  } else {
-    battery.greatest_current.reset();
-  }
+  battery.mean_current = currents / static_cast<double>(with_current);
+  battery.energy = energy;
   return battery;
 }
 
 std::vector<LogSummary::Battery> batteries_in(const AutopilotLog& log) {
   std::vector<LogSummary::Battery> batteries;
-  for (const BatteryFields& from : battery_fields) {
-    if (log.contents().count(from.message) == 0) continue;
-    const std::vector<int> instances = log.instances(from.message);
-    if (instances.empty()) {
-      if (auto found = battery_in(log, from, std::nullopt)) batteries.push_back(std::move(*found));
-    }
-    for (const int instance : instances) {
-      if (auto found = battery_in(log, from, instance)) batteries.push_back(std::move(*found));
-    }
+  for (const LoggedBattery& monitor : logged_batteries(log)) {
+    batteries.push_back(summary_of(monitor));
   }
   return batteries;
 }
 
 std::optional<LogSummary::Wind> wind_in(const AutopilotLog& log) {
-  struct WindFields {
-    const char* message;
-    std::vector<std::string> north_and_east;
-  };
-  const std::array<WindFields, 5> all = {
-      {{"XKF2", {"VWN", "VWE"}},
-       {"NKF2", {"VWN", "VWE"}},
-       {"EKF2", {"VWN", "VWE"}},
-       {"wind", {"windspeed_north", "windspeed_east"}},
-       {"wind_estimate", {"windspeed_north", "windspeed_east"}}}};
-  for (const WindFields& from : all) {
-    const auto columns = log.columns(from.message, from.north_and_east, 0);
-    double north = 0;
-    double east = 0;
-    bool is_guessed = false;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < columns[0].size(); ++i) {
-      constexpr double fastest = 100;  // m/s; more is damage
-      if (!(std::hypot(columns[0][i], columns[1][i]) < fastest)) continue;
-      north += columns[0][i];
-      east += columns[1][i];
-      is_guessed = is_guessed || columns[0][i] != 0 || columns[1][i] != 0;
-      ++count;
-    }
-    if (!is_guessed) continue;  // estimators that do not guess it write zeros
-    const double direction = std::atan2(-east, -north) / unit::degree;
-    return LogSummary::Wind{from.message, std::hypot(north, east) / static_cast<double>(count),
-                            direction < 0 ? direction + 360 : direction};
+  const std::optional<LoggedWind> wind = logged_wind(log);
+  if (!wind) return std::nullopt;
+  const double north = std::accumulate(wind->north.begin(), wind->north.end(), 0.0);
+  const double east = std::accumulate(wind->east.begin(), wind->east.end(), 0.0);
+  const double direction = std::atan2(-east, -north) / unit::degree;
+  return LogSummary::Wind{wind->message,
+                          std::hypot(north, east) / static_cast<double>(wind->time.size()),
+                          direction < 0 ? direction + 360 : direction};
+}
+
+/// What `diagnose --power` could do with it.
+LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
+                          const std::optional<FlightLogReading>& flight,
+                          const std::string& obstacle) {
+  LogSummary::Use use{"diagnose --power", false, obstacle};
+  if (!flight || !flight->log.other_vehicle.empty()) return use;
+  try {
+    const PowerLogReading power =
+        logged_power(log, *flight, summary.flying, {.free_flight = flight->height.empty()});
+    const double flown = power.log.time.back() - power.log.time.front();
+    use.possible = flown >= shortest_power_log;
+    use.because = use.possible ? power.source
+                               : fmt::format("{:.0f} s flown, {:.0f} s are needed to judge it",
+                                             flown, shortest_power_log);
+  } catch (const InputError& error) {
+    use.because = error.problems().front().message;
   }
-  return std::nullopt;
+  return use;
 }
 
 /// What the commands could do with the log; `flight` where it could be read, else `obstacle`.
-std::vector<LogSummary::Use> uses_of(const LogSummary& summary,
+std::vector<LogSummary::Use> uses_of(const AutopilotLog& log, const LogSummary& summary,
                                      const std::optional<FlightLogReading>& flight,
                                      const std::string& obstacle) {
   const bool is_flown = flight && flight->log.other_vehicle.empty() && flight->log.time.size() > 2;
@@ -350,16 +316,9 @@ std::vector<LogSummary::Use> uses_of(const LogSummary& summary,
                               : !flight->log.other_vehicle.empty() ? "it is " + summary.vehicle
                               : is_flown                           ? flight->source
                                          : "too few samples of " + flight->source;
-  const auto with_current = std::ranges::find_if(
-      summary.batteries, [](const auto& battery) { return battery.mean_current.has_value(); });
-  const std::string power = summary.batteries.empty() ? "no voltage and no current in the log"
-                            : with_current == summary.batteries.end()
-                                ? "no current in " + summary.batteries.front().message
-                                : fmt::format("needs CSV; voltage and current are in {} (--csv {})",
-                                              with_current->message, with_current->message);
   return {{"drag", is_flown, because},
           {"diagnose --flight", is_flown, because},
-          {"diagnose --power", false, power}};
+          power_use(log, summary, flight, because)};
 }
 
 }  // namespace
@@ -423,7 +382,7 @@ LogSummary summarize_log(const AutopilotLog& log) {
   if (!summary.flying && flight) summary.flying = flying_by_speed(*flight);
   summary.batteries = batteries_in(log);
   summary.wind = wind_in(log);
-  summary.uses = uses_of(summary, flight, obstacle);
+  summary.uses = uses_of(log, summary, flight, obstacle);
   return summary;
 }
 

@@ -604,19 +604,6 @@ MotorBench motor_from_bench(std::span<const LoadedText> tables, const MotorBench
   return out;
 }
 
-FlownPower parse_flown_power(std::string_view text, std::string_view name) {
-  const std::array wanted{CsvColumn{.name = "time_s", .increasing = true},
-                          CsvColumn{.name = "airspeed_m_s", .minimum = -200, .maximum = 200},
-                          CsvColumn{.name = "bus_voltage_V", .minimum = 0, .maximum = 1e4},
-                          CsvColumn{.name = "bus_current_A", .minimum = -1e4, .maximum = 1e4}};
-  auto columns = read_csv_columns(text, name, wanted, OtherCsvColumns::ignored);
-  FlownPower out{std::move(columns[0]), std::move(columns[1]), {}};
-  for (std::size_t i = 0; i < out.time.size(); ++i) {
-    out.power.push_back(columns[2][i] * columns[3][i]);
-  }
-  return out;
-}
-
 nlohmann::ordered_json motor_document(const MotorEntry& motor) {
   constexpr int digits = 6;  // of a measurement that has three
   nlohmann::ordered_json out;

@@ -157,6 +157,9 @@ Px4Motion px4_motion(const AutopilotLog& log, int core) {
   for (const char* const flag : {"v_xy_valid", "v_z_valid"}) {
     if (type->find_number(flag) != nullptr) fields.emplace_back(flag);
   }
+  const auto flags_end = static_cast<std::ptrdiff_t>(fields.size());
+  const bool has_position = type->find_number("z") != nullptr;
+  if (has_position) fields.emplace_back("z");
   const LogSeries velocity = log.series(topics.velocity, fields, topics.instance);
   const Attitudes attitudes = attitudes_of(log, topics);
   if (velocity.time.empty() || attitudes.time.empty()) fail_without_motion(log);
@@ -168,7 +171,7 @@ Px4Motion px4_motion(const AutopilotLog& log, int core) {
   std::size_t alone = 0;
   for (std::size_t i = 0; i < velocity.time.size(); ++i) {
     const bool is_valid =
-        std::all_of(velocity.columns.begin() + 3, velocity.columns.end(),
+        std::all_of(velocity.columns.begin() + 3, velocity.columns.begin() + flags_end,
                     [i](const std::vector<double>& flag) { return flag[i] != 0; });
     if (!is_valid) {
       ++invalid;
@@ -195,6 +198,7 @@ Px4Motion px4_motion(const AutopilotLog& log, int core) {
     motion.north.push_back(velocity.columns[0][i]);
     motion.east.push_back(velocity.columns[1][i]);
     motion.down.push_back(velocity.columns[2][i]);
+    if (has_position) motion.down_position.push_back(velocity.columns.back()[i]);
   }
   if (invalid > 0) {
     motion.notes.push_back(fmt::format(

@@ -57,13 +57,6 @@ AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& chan
 
 }  // namespace
 
-Design as_flown(const Design& design, const LoggedFlight& flight) {
-  Design flown = design;
-  flown.drone.mass = flight.mass.value_or(design.drone.mass);
-  flown.flight.air_density = flight.air_density.value_or(design.flight.air_density);
-  return flown;
-}
-
 FlightDiagnosisOptions flight_options(const DiagnosisQuestion& question) {
   FlightDiagnosisOptions options = question.flight->options;
   options.hypotheses.insert(options.hypotheses.end(), question.hypotheses.begin(),
@@ -91,9 +84,12 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
   bool one_drone = false;
   if (const auto& power = question.power) {
     const bool one_flight = question.one_flight && study.flight;
-    const Design flown = one_flight ? as_flown(design, *question.flight) : design;
-    const std::optional<DragByTilt> tilt =
-        one_flight ? study.flight->drag_by_tilt : std::optional<DragByTilt>{};
+    Design flown = as_flown(design, *power);
+    std::optional<DragByTilt> tilt;
+    if (one_flight) {
+      flown = as_flown(flown, *question.flight);
+      tilt = study.flight->drag_by_tilt;
+    }
     PowerDiagnosis found = of_suitable(LogKind::power, [&] {
       return diagnose_power(flown, power->log, power->base, progress, question.hypotheses, tilt);
     });

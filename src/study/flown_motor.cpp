@@ -68,19 +68,25 @@ double thrust_at(const Drone& drone, double air_density, double airspeed) {
 }
 
 /// Row i lasts until the next one.
-double seconds_of(const FlownPower& flight, std::size_t i) {
+double seconds_of(const PowerLog& flight, std::size_t i) {
   return i + 1 < flight.time.size() ? flight.time[i + 1] - flight.time[i] : 0;
 }
 
 }  // namespace
 
-FlownMotor flown_motor(const FlownPower& flight, const Drone& drone, double air_density,
+FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_density,
                        double max_thrust, std::span<const MotorEntry> measured) {
+  std::vector<double> motor_power = bus_power_of(flight);
+  if (motor_power.empty()) {
+    throw UnsuitablePowerFlight(
+        "has no power at the motors: it needs bus_voltage_V and bus_current_A, or bus_power_W");
+  }
+  for (double& power : motor_power) power -= drone.auxiliary_power;
   FlownMotor out;
   std::vector<double> hover;
   for (std::size_t i = 0; i < flight.time.size(); ++i) {
     if (std::abs(flight.airspeed[i]) >= fastest_hover) continue;
-    hover.push_back(flight.power[i]);
+    hover.push_back(motor_power[i]);
     out.hover_seconds += seconds_of(flight, i);
   }
   if (hover.size() < fewest_rows || out.hover_seconds < shortest_hover) {
@@ -94,8 +100,8 @@ FlownMotor flown_motor(const FlownPower& flight, const Drone& drone, double air_
   out.hover_power = sum / double(hover.size()) / drone.motor_count;
   if (!(out.hover_power > 0)) {
     throw UnsuitablePowerFlight(
-        "has a mean power of 0 or less in hover: is the current's sign "
-        "reversed?");
+        "leaves the motors a mean power of 0 or less in hover: is the current's sign "
+        "reversed, or the auxiliary power too large?");
   }
   out.hover_thrust = drone.mass * standard_gravity / drone.motor_count;
   if (max_thrust <= out.hover_thrust) {
@@ -116,7 +122,7 @@ FlownMotor flown_motor(const FlownPower& flight, const Drone& drone, double air_
     const double expected = factor * std::pow(thrust_at(drone, air_density, airspeed), 1.5);
     ++forward.rows;
     forward.airspeed += airspeed;
-    forward.ratio += flight.power[i] / drone.motor_count / expected;
+    forward.ratio += motor_power[i] / drone.motor_count / expected;
   }
   if (forward.rows >= fewest_rows) {
     forward.airspeed /= double(forward.rows);

@@ -150,7 +150,7 @@ void check_pairs(std::size_t remainder) {
 
 PowerLog practice_log(const char* name) {
   const auto path = test::reference_file(std::string("data/practice/") + name);
-  return path ? read_power_log(*path) : PowerLog{};
+  return path ? read_power_log(*path).log : PowerLog{};
 }
 
 }  // namespace
@@ -313,18 +313,43 @@ TEST_CASE("without the bus channels the tether is still judged") {
   }
 }
 
-TEST_CASE("a supply pair alone can show nothing, and says so") {
+TEST_CASE("bus, height and airspeed alone are judged by the motors") {
+  Scenario scenario;
+  scenario.hidden.contact_resistance = 0.3;
+  scenario.hidden.motor_power_factor = 1.12;
+  scenario.seed = seed(400'030);
+  PowerLog log = as_power_log(simulate(scenario));
+  log.supply_voltage.clear();
+  log.supply_current.clear();
+  log.drone_voltage.clear();
+  PowerLog power_only = log;
+  power_only.bus_power = bus_power_of(log);
+  power_only.bus_voltage.clear();
+  power_only.bus_current.clear();
+  for (const PowerLog& measured : {log, power_only}) {
+    const Diagnosis d = diagnosis_of(measured);
+    INFO(summary(d));
+    REQUIRE(d.findings.size() == 1);
+    CHECK(names(d.findings.front(), "motor_power_scale"));
+    CHECK(d.quantity == "motor power");
+    REQUIRE(lists(d.not_testable, "contact_resistance"));
+    for (const NotTestable& missing : d.not_testable) {
+      if (missing.effect != "contact_resistance") continue;
+      CHECK(missing.needs == "supply_voltage_V, supply_current_A, drone_voltage_V");
+    }
+  }
+}
+
+TEST_CASE("a supply pair alone is refused with the channels that make a stage") {
   PowerLog log = as_power_log(simulate({}));
   log.drone_voltage.clear();
   log.bus_voltage.clear();
   log.bus_current.clear();
-  log.ambient_temperature_C.clear();
-  const Diagnosis d = diagnosis_of(log);
-  CHECK(d.findings.empty());
-  const auto catalogue = effect_catalogue();
-  CHECK(d.not_testable.size() ==
-        static_cast<std::size_t>(std::count_if(catalogue.begin(), catalogue.end(),
-                                               [](auto& e) { return e.log == LogKind::power; })));
+  CHECK_THROWS_WITH(diagnosis_of(log),
+                    Catch::Contains("the motors need height_m, airspeed_m_s, bus_voltage_V and "
+                                    "bus_current_A (or bus_power_W)") &&
+                        Catch::Contains("the tether supply_voltage_V, supply_current_A, "
+                                        "drone_voltage_V, height_m"));
 }
 
 TEST_CASE("a power log that is too short is not judged") {

@@ -46,6 +46,10 @@ std::string flight_problems(const std::string& text) {
   return "accepted";
 }
 
+PowerLog power_of(const std::string& text, bool free_flight = false) {
+  return parse_power_log(bytes_of(text), "log.csv", {.free_flight = free_flight}).log;
+}
+
 const std::string flight_header = "time_s,roll_deg,pitch_deg,yaw_deg,vn_m_s,ve_m_s,vd_m_s\n";
 
 }  // namespace
@@ -176,10 +180,9 @@ TEST_CASE("a flight log in CSV is refused where a value cannot be, or time does 
 }
 
 TEST_CASE("a power log has its optional channels only where the file has them") {
-  const PowerLog full = parse_power_log(
+  const PowerLog full = power_of(
       "time_s,height_m,airspeed_m_s,ambient_temperature_C,supply_voltage_V,supply_current_A,"
-      "drone_voltage_V,bus_voltage_V,bus_current_A\n1,2,3,4,5,6,7,8,9\n",
-      "power.csv");
+      "drone_voltage_V,bus_voltage_V,bus_current_A\n1,2,3,4,5,6,7,8,9\n");
   CHECK(full.time == std::vector<double>{1});
   CHECK(full.height == std::vector<double>{2});
   CHECK(full.airspeed == std::vector<double>{3});
@@ -189,8 +192,8 @@ TEST_CASE("a power log has its optional channels only where the file has them") 
   CHECK(full.drone_voltage == std::vector<double>{7});
   CHECK(full.bus_voltage == std::vector<double>{8});
   CHECK(full.bus_current == std::vector<double>{9});
-  const PowerLog least = parse_power_log(
-      "time_s,height_m,airspeed_m_s,supply_voltage_V,supply_current_A\n1,2,3,5,6\n", "power.csv");
+  const PowerLog least =
+      power_of("time_s,height_m,airspeed_m_s,supply_voltage_V,supply_current_A\n1,2,3,5,6\n");
   CHECK(least.supply_current == std::vector<double>{6});
   CHECK(least.ambient_temperature_C.empty());
   CHECK(least.drone_voltage.empty());
@@ -198,10 +201,62 @@ TEST_CASE("a power log has its optional channels only where the file has them") 
   CHECK(least.bus_current.empty());
 }
 
-TEST_CASE("a power log without a supply channel is refused by its name") {
+TEST_CASE("a power log needs no supply, and no height where it flew free") {
+  const PowerLog bus =
+      power_of("time_s,height_m,airspeed_m_s,bus_voltage_V,bus_current_A\n1,2,3,16,20\n");
+  CHECK(bus.supply_voltage.empty());
+  CHECK(bus_power_of(bus) == std::vector<double>{320});
+  const PowerLog free = power_of("time_s,airspeed_m_s,bus_power_W\n1,3,450\n", true);
+  CHECK(free.free_flight);
+  CHECK(free.height.empty());
+  CHECK(bus_power_of(free) == std::vector<double>{450});
+  CHECK_THROWS_WITH(power_of("time_s,airspeed_m_s,bus_power_W\n1,3,450\n"),
+                    "log.csv:1: column \"height_m\" is missing from the header");
+}
+
+TEST_CASE("power at the bus is told in one way") {
+  CHECK_THROWS_WITH(power_of("time_s,airspeed_m_s,bus_power_W,bus_current_A\n1,3,450,20\n", true),
+                    Catch::Contains("bus_power_W goes without bus_voltage_V and bus_current_A"));
+}
+
+TEST_CASE("one CSV serves both halves, each passing over the other's cells") {
+  const std::string header =
+      "time_s,roll_deg,pitch_deg,yaw_deg,vn_m_s,ve_m_s,vd_m_s,height_m,airspeed_m_s,"
+      "bus_voltage_V,bus_current_A\n";
+  const std::string no_power = header + "1,2,3,4,5,6,7,,-,,n/a\n2,2,3,4,5,6,7,,,,\n";
+  const FlightLogReading flight = parse_flight_log(bytes_of(no_power), "log.csv", {});
+  CHECK(flight.log.down_velocity == std::vector<double>{7, 7});
+  const PowerLog power = power_of(header + "1,,,4,5,6,,8,9,16,20\n");
+  CHECK(power.height == std::vector<double>{8});
+  CHECK(power.airspeed == std::vector<double>{9});
+}
+
+TEST_CASE("a misspelt column of a log is refused with the closest of either half") {
   CHECK_THROWS_WITH(
-      parse_power_log("time_s,height_m,airspeed_m_s,supply_voltage_V\n1,2,3,5\n", "power.csv"),
-      "power.csv:1: column \"supply_current_A\" is missing from the header");
+      power_of("time_s,height_m,airspeed_m_s,bus_voltage,bus_current_A\n1,2,3,4,5\n"),
+      Catch::Contains("unknown column \"bus_voltage\"") && Catch::Contains("bus_voltage_V\"?"));
+  CHECK(flight_problems("time_s,roll_deg,pitch_deg,yaw_deg,vn_m_s,ve_m_s,vd_m_s,bus_powr_W\n")
+            .find("bus_power_W") != std::string::npos);
+}
+
+TEST_CASE(
+    "an airspeed that is missing is made of velocity and measured wind, or told to be ground "
+    "speed") {
+  const auto read = [](const std::string& text) {
+    return parse_power_log(bytes_of(text), "log.csv", {.free_flight = true});
+  };
+  // 3 m/s to the north in air that moves 1 m/s southward and 3 m/s westward: 4 and 3.
+  CHECK(read("time_s,vn_m_s,ve_m_s,wind_north_m_s,wind_east_m_s,bus_power_W\n1,3,0,-1,-3,450\n")
+            .log.airspeed == std::vector<double>{5});
+  // Heading east at 12 m/s of air ahead, drifting 5 m/s to the north: 13.
+  CHECK(read("time_s,yaw_deg,vn_m_s,ve_m_s,airspeed_forward_m_s,bus_power_W\n1,90,5,7,12,450\n")
+            .log.airspeed.front() == Approx(13));
+  const PowerLogReading ground = read("time_s,vn_m_s,ve_m_s,bus_power_W\n1,3,-4,450\n");
+  CHECK(ground.log.airspeed == std::vector<double>{5});
+  REQUIRE(ground.notes.size() == 1);
+  CHECK_THAT(ground.notes.front(), Catch::Contains("ground speed is taken as airspeed"));
+  CHECK_THROWS_WITH(read("time_s,bus_power_W\n1,450\n"),
+                    Catch::Contains("column \"airspeed_m_s\" is missing"));
 }
 
 TEST_CASE("a file that is not there is refused with the system's reason") {

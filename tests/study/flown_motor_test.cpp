@@ -26,9 +26,9 @@ constexpr double max_thrust = 12;  // N
 
 /// Hover at `hover_power` W in all, then as long at 10 m/s with `forward_power`; each row's noise
 /// is 0.9 of the one before it and a new part.
-FlownPower flight_of(double hover_power, double forward_power, double noise,
+PowerLog flight_of(double hover_power, double forward_power, double noise,
                      std::mt19937_64& dice) {
-  FlownPower out;
+  PowerLog out;
   std::normal_distribution<double> fresh;
   double error = 0;
   for (int i = 0; i < 1200; ++i) {
@@ -36,7 +36,7 @@ FlownPower flight_of(double hover_power, double forward_power, double noise,
     const bool hover = i < 600;
     out.time.push_back(0.2 * i);
     out.airspeed.push_back(hover ? 0.2 : 10);
-    out.power.push_back((hover ? hover_power : forward_power) * (1 + error));
+    out.bus_power.push_back((hover ? hover_power : forward_power) * (1 + error));
   }
   return out;
 }
@@ -107,17 +107,17 @@ TEST_CASE("the hover's interval holds the true power about as often as it says")
 
 TEST_CASE("flights that tell no motor are refused with what is missing") {
   std::mt19937_64 dice(1);
-  const FlownPower flight = flight_of(400, 400, 0.02, dice);
-  FlownPower brief = flight;
+  const PowerLog flight = flight_of(400, 400, 0.02, dice);
+  PowerLog brief = flight;
   brief.time.resize(40);
   brief.airspeed.resize(40);
-  brief.power.resize(40);
+  brief.bus_power.resize(40);
   CHECK_THROWS_WITH(flown_motor(brief, quadrotor(), air_density, max_thrust, {}),
                     Contains("at least 50 rows and 20 s"));
   CHECK_THROWS_WITH(flown_motor(flight, quadrotor(), air_density, 3.9, {}),
                     Contains("400 g a motor"));
-  FlownPower reversed = flight;
-  for (double& power : reversed.power) power = -power;
+  PowerLog reversed = flight;
+  for (double& power : reversed.bus_power) power = -power;
   CHECK_THROWS_WITH(flown_motor(reversed, quadrotor(), air_density, max_thrust, {}),
                     Contains("sign reversed"));
 }

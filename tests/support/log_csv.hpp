@@ -13,8 +13,8 @@
 namespace tethercalc::test {
 
 /// Columns that are empty are left out.
-inline std::string csv_text(
-    const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
+inline std::string csv_text(const std::vector<std::pair<std::string, std::vector<double>>>& columns,
+                            int decimals = 6) {
   std::string text;
   for (const auto& [name, values] : columns) {
     if (!values.empty()) text += (text.empty() ? "" : ",") + name;
@@ -24,7 +24,7 @@ inline std::string csv_text(
     bool first = true;
     for (const auto& [name, values] : columns) {
       if (values.empty()) continue;
-      text += fmt::format("{}{:.6f}", first ? "" : ",", values[i]);
+      text += fmt::format("{}{:.{}f}", first ? "" : ",", values[i], decimals);
       first = false;
     }
     text += "\n";
@@ -47,16 +47,12 @@ inline std::string flight_csv_text(const FlightLog& log) {
                    {"vd_m_s", log.down_velocity}});
 }
 
-inline std::string power_csv_text(const PowerLog& log) {
-  return csv_text({{"time_s", log.time},
-                   {"height_m", log.height},
-                   {"airspeed_m_s", log.airspeed},
-                   {"ambient_temperature_C", log.ambient_temperature_C},
-                   {"supply_voltage_V", log.supply_voltage},
-                   {"supply_current_A", log.supply_current},
-                   {"drone_voltage_V", log.drone_voltage},
-                   {"bus_voltage_V", log.bus_voltage},
-                   {"bus_current_A", log.bus_current}});
+inline std::string power_csv_text(const PowerLog& log, int decimals = 6) {
+  std::vector<std::pair<std::string, std::vector<double>>> columns{{"time_s", log.time}};
+  for (const PowerChannel& channel : power_channels) {
+    columns.emplace_back(channel.name, log.*channel.values);
+  }
+  return csv_text(columns, decimals);
 }
 
 }  // namespace tethercalc::test

@@ -72,11 +72,12 @@ struct Effect {
   Stage stage = Stage::airframe;              ///< where it acts
   std::vector<EffectParameter> parameters{};  ///< its size first
   std::size_t sizes = 1;  ///< so many; with them neutral the other parameters change nothing
-  std::vector<std::string> needs{};  ///< channels beyond those every log of its kind has, named as
-                                     ///< in the log
-  std::string to_separate{};         ///< what flight or channel tells it from its like
-  std::string change{};              ///< the change of the prediction as a formula
-  std::string channel{};             ///< where it shows, an id as in `diagnose/log_model.hpp`
+  /// Channels beyond those every log of its kind has, named as in the log; the bus by its voltage
+  /// and current, which its power may stand for.
+  std::vector<std::string> needs{};
+  std::string to_separate{};  ///< what flight or channel tells it from its like
+  std::string change{};       ///< the change of the prediction as a formula
+  std::string channel{};      ///< where it shows, an id as in `diagnose/log_model.hpp`
 
   /// Why a log may not show it beside the base model, where that has one reason; else empty.
   std::string aliased_because{};
@@ -101,6 +102,8 @@ struct Effect {
   /// The stages of a power log whose comparison it changes: tether, converter or motors; and
   /// airframe, where it changes how far the drone of the same flight leans.
   std::vector<Stage> shows_in{};
+  /// Says something of the tether in the air, which the motors carry: no free flight shows it.
+  bool of_tether = false;
   /// id of an effect before it in the catalogue that every log shows in the same way. It is told
   /// with that one, never in its place.
   std::string twin_of{};

@@ -1,4 +1,4 @@
-// What the calculation of a tethered flight's power gets wrong, and why.
+// What the calculation of a flight's power gets wrong, and why.
 #pragma once
 
 #include <optional>
@@ -36,10 +36,21 @@ inline constexpr double shortest_power_log = 180;
 /// the extended design what it comes to for a drone of that design's mass. A flight that tells its
 /// drag from none no better than that stays out, with a note.
 ///
-/// A log that is too short, or lacks channels, has the effects that it cannot show under
-/// `not_testable`; that is an answer, not an error. Throws std::invalid_argument where the design
-/// has no cable cross-section, a base effect is unknown or belongs to flights, the channels differ
-/// in length, or their values cannot be in the units their names say.
+/// Compared are the stages whose channels there are:
+///
+///     tether     supply_voltage_V, supply_current_A, drone_voltage_V, height_m
+///     converter  supply_current_A, drone_voltage_V, the bus
+///     motors     the bus, airspeed_m_s, height_m (not in free flight)
+///
+/// the bus being its voltage and current, or its power. A log that is too short, or lacks channels,
+/// has the effects that it cannot show under `not_testable`; that is an answer, not an error.
+///
+/// In a free flight (`PowerLog::free_flight`) the design flies without tether, winch, converter and
+/// reserve battery, and its auxiliary power comes out of the same battery as that of its motors.
+///
+/// Throws std::invalid_argument where no stage was measured, the design
+/// has no cable cross-section but flew on its tether, a base effect is unknown or belongs to
+/// flights, the channels differ in length, or their values cannot be in the units their names say.
 [[nodiscard]] PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                                             std::span<const std::string> base_effects = {},
                                             const SelectionProgress& progress = {},

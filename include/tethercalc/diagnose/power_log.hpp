@@ -1,7 +1,8 @@
-// Electrical measurements along the supply chain of a tethered flight, over time.
+// Electrical measurements along the supply chain of a flight, over time.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -12,16 +13,23 @@ namespace tethercalc {
 ///
 /// *Supply* is the ground end of the tether, *drone* the converter's input, *bus* the converter's
 /// output, which feeds the motors. The deployed length of the tether is the height.
+///
+/// What can be judged, the channels decide: each part of the chain (tether, converter, motors) is
+/// compared where all that it needs was measured, see `diagnose_power`.
 struct PowerLog {
   std::vector<double> time;                   ///< s
-  std::vector<double> height;                 ///< m above the ground station
+  std::vector<double> height;                 ///< m above the station or take-off, optional
   std::vector<double> airspeed;               ///< m/s
   std::vector<double> ambient_temperature_C;  ///< °C, optional
-  std::vector<double> supply_voltage;         ///< V
-  std::vector<double> supply_current;         ///< A
+  std::vector<double> supply_voltage;         ///< V, optional
+  std::vector<double> supply_current;         ///< A, optional
   std::vector<double> drone_voltage;          ///< V, optional
   std::vector<double> bus_voltage;            ///< V, optional
   std::vector<double> bus_current;            ///< A, optional
+  std::vector<double> bus_power{};  ///< W, optional: where only their product was measured
+  /// Flown from a battery without tether and converter, which is the bus. Its cable neither weighs
+  /// nor drags; what the drone draws besides its motors comes out of the same battery.
+  bool free_flight = false;
 };
 
 /// A channel as files and messages name it.
@@ -33,15 +41,27 @@ struct PowerChannel {
 };
 
 /// The channels of a power log, described once: all but the time.
-inline constexpr std::array<PowerChannel, 8> power_channels{{
-    {"height_m", &PowerLog::height},
+inline constexpr std::array<PowerChannel, 9> power_channels{{
+    {"height_m", &PowerLog::height, true},
     {"airspeed_m_s", &PowerLog::airspeed},
     {"ambient_temperature_C", &PowerLog::ambient_temperature_C, true},
-    {"supply_voltage_V", &PowerLog::supply_voltage},
-    {"supply_current_A", &PowerLog::supply_current, false, false},
+    {"supply_voltage_V", &PowerLog::supply_voltage, true},
+    {"supply_current_A", &PowerLog::supply_current, true, false},
     {"drone_voltage_V", &PowerLog::drone_voltage, true, false},
     {"bus_voltage_V", &PowerLog::bus_voltage, true},
     {"bus_current_A", &PowerLog::bus_current, true, false},
+    {"bus_power_W", &PowerLog::bus_power, true, false},
 }};
+
+/// Power at the bus in W, a value a sample: as measured, or voltage times current; empty where the
+/// log has neither.
+[[nodiscard]] inline std::vector<double> bus_power_of(const PowerLog& log) {
+  if (!log.bus_power.empty() || log.bus_voltage.empty() || log.bus_current.empty()) {
+    return log.bus_power;
+  }
+  std::vector<double> power(log.bus_voltage);
+  for (std::size_t i = 0; i < power.size(); ++i) power[i] *= log.bus_current[i];
+  return power;
+}
 
 }  // namespace tethercalc

@@ -34,6 +34,7 @@ namespace tethercalc {
 
 /// Reads the power log at `path`, as `parse_power_log` does, compressed or not. Throws InputError
 /// as well where it cannot be read or unpacked.
-[[nodiscard]] PowerLog read_power_log(const std::filesystem::path& path);
+[[nodiscard]] PowerLogReading read_power_log(const std::filesystem::path& path,
+                                             const PowerLogOptions& options = {});
 
 }  // namespace tethercalc

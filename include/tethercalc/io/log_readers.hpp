@@ -25,6 +25,9 @@ struct FlightLogOptions {
 /// A flight log, and how it came about.
 struct FlightLogReading {
   FlightLog log;  ///< what was read
+  /// m above where the estimator counts from, one a sample; empty where the log does not tell, as
+  /// in CSV.
+  std::vector<double> height{};
   /// "XKF1 of EKF core 0", "NKF6", "vehicle_local_position and vehicle_attitude", or "CSV"
   std::string source;
   /// Samples left out because their time does not increase; as few as make the rest increase.
@@ -70,13 +73,49 @@ struct FlightLogReading {
 [[nodiscard]] FlightLogReading parse_flight_log(const AutopilotLog& log,
                                                 const FlightLogOptions& options = {});
 
-/// Reads a CSV text, called `name` in messages, with the columns `time_s, height_m, airspeed_m_s,
-/// supply_voltage_V, supply_current_A` and, optionally, `ambient_temperature_C, drone_voltage_V,
-/// bus_voltage_V, bus_current_A`, in any order, named exactly so.
+/// How to read a power log.
+struct PowerLogOptions {
+  /// The drone flew without its tether; then CSV needs no height.
+  bool free_flight = false;
+  /// Which battery monitors of an autopilot feed the motors, by their numbers from 0; empty: the
+  /// only one that measures a current. Not used for CSV.
+  std::vector<int> batteries{};
+  /// Of the estimator, as in FlightLogOptions.
+  int core = 0;
+};
+
+/// A power log, and how it came about.
+struct PowerLogReading {
+  PowerLog log;        ///< what was read
+  std::string source;  ///< "CSV", "BAT 0 + BAT 1 and XKF1 of EKF core 0"
+  /// Sentences for the user: where the airspeed comes from, what was left out.
+  std::vector<std::string> notes{};
+};
+
+/// Reads power, height and airspeed over time; `name` stands for the file in messages.
 ///
-/// Throws InputError with every problem of the file and its line:
-/// missing, unknown or repeated columns; rows of the wrong length; cells that are empty or not a
-/// finite number; temperatures below absolute zero; time that does not increase.
-[[nodiscard]] PowerLog parse_power_log(std::string_view text, std::string_view name);
+/// From CSV: `time_s`, `height_m` and `airspeed_m_s` and whatever there is of
+/// `ambient_temperature_C, supply_voltage_V, supply_current_A, drone_voltage_V, bus_voltage_V,
+/// bus_current_A` or, instead of these two, `bus_power_W`, in any order, named exactly so; columns
+/// of a flight log may stand beside them. Without `airspeed_m_s` it is made of the velocity over
+/// ground, `vn_m_s` and `ve_m_s`, and a measured wind; without one of those it is the speed over
+/// ground, and a note says so.
+///
+/// From an autopilot's log: the bus is what its battery monitor measures (DataFlash BAT, BAT2,
+/// CURR, CURR2, ULog battery_status), at that monitor's times, from take-off to landing as
+/// `summarize_log` tells them. Of several monitors that `batteries` choose the currents add up, and
+/// the voltage is their mean weighted by current, so that the power is the sum. Height is the
+/// estimator's, above take-off. The airspeed is measured (ARSP, airspeed), else the velocity over
+/// ground less the wind that the estimator guesses, else the speed over ground; a note says which.
+///
+/// Throws InputError: what is neither; every problem of a CSV file, with its line; a log without
+/// flight, voltage or current, with several monitors and no choice, or of another vehicle.
+[[nodiscard]] PowerLogReading parse_power_log(std::span<const std::byte> content,
+                                              const std::string& name,
+                                              const PowerLogOptions& options = {});
+
+/// The same from a log that is already opened.
+[[nodiscard]] PowerLogReading parse_power_log(const AutopilotLog& log,
+                                              const PowerLogOptions& options = {});
 
 }  // namespace tethercalc

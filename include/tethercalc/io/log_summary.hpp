@@ -44,6 +44,9 @@ struct LogSummary : LogTotals {
     std::string determined_by;  ///< a phrase: from what it was told
     /// In order; empty where it was told from the speed, which a hover lacks as a landing does.
     std::vector<Flight> flights;
+    /// From the first take-off or movement to the last landing or movement; nothing where there is
+    /// none.
+    std::optional<Flight> whole;
   };
   /// A battery, or another source whose voltage the controller measures.
   struct Battery {

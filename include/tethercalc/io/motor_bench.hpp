@@ -47,11 +47,6 @@ struct MotorBench {
 [[nodiscard]] MotorBench motor_from_bench(std::span<const LoadedText> tables,
                                           const MotorBenchOptions& options = {});
 
-/// Reads the power of a free flight from a CSV text, called `name` in messages: the columns
-/// `time_s, airspeed_m_s, bus_voltage_V, bus_current_A` of a power log, other columns ignored.
-/// Throws InputError with every problem and its line.
-[[nodiscard]] FlownPower parse_flown_power(std::string_view text, std::string_view name);
-
 /// A motor as a motor file, which `find_motor` reads back: texts that are empty and numbers that
 /// are absent left out.
 [[nodiscard]] nlohmann::ordered_json motor_document(const MotorEntry& motor);

@@ -23,8 +23,10 @@ struct LoggedFlight {
 
 /// Power measured along the chain.
 struct LoggedPower {
-  PowerLog log;                     ///< currents and voltages
-  std::vector<std::string> base{};  ///< ids of effects that are refitted but not reported
+  PowerLog log;                         ///< currents and voltages
+  std::vector<std::string> base{};      ///< ids of effects that are refitted but not reported
+  std::optional<double> mass{};         ///< kg, where it was not the design's
+  std::optional<double> air_density{};  ///< kg/m³, likewise
 };
 
 /// What is asked: one log at least.

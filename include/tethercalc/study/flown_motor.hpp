@@ -5,18 +5,11 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <vector>
 
+#include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
-
-/// Power at the motors through a free flight, one value a row.
-struct FlownPower {
-  std::vector<double> time;      ///< s, increasing
-  std::vector<double> airspeed;  ///< m/s
-  std::vector<double> power;     ///< W, of all motors together
-};
 
 /// A flight from which no motor can be learned; says why.
 class UnsuitablePowerFlight : public std::invalid_argument {
@@ -42,7 +35,9 @@ struct FlownMotor {
   std::optional<FlownForward> forward;  ///< where the flight has enough of it
 };
 
-/// The motor of `drone` (mass, number of motors and drag count) in air of `air_density`. A hover
+/// The motor of `drone` (mass, number of motors, drag and auxiliary power count) in air of
+/// `air_density`, from a free flight's power at the bus and airspeed. The battery feeds the
+/// auxiliaries as well; their power is taken off first, all else is the motors'. A hover
 /// tells one point of the curve, at the weight; the rest follows momentum theory, P = k·T^1.5 with
 /// k from there, up to `max_thrust` (N). The hover is what is flown below 2 m/s; its power's
 /// interval is that of the means of ten stretches of it, since neighbouring rows resemble each
@@ -50,10 +45,9 @@ struct FlownMotor {
 /// through their middle point, at 95 % of their points. Forward flight, from 4 m/s on, is compared,
 /// not fitted: there the rotors need less power for a thrust (`Drone::translational_lift`).
 ///
-/// Throws UnsuitablePowerFlight for less than 20 s or 50 rows of hover, hover power that is not
-/// positive, and a greatest thrust below that of the hover.
-[[nodiscard]] FlownMotor flown_motor(const FlownPower& flight, const Drone& drone,
-                                     double air_density, double max_thrust,
-                                     std::span<const MotorEntry> measured);
+/// Throws UnsuitablePowerFlight for a log without power at the bus, less than 20 s or 50 rows of
+/// hover, hover power that is not positive, and a greatest thrust below that of the hover.
+[[nodiscard]] FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_density,
+                                     double max_thrust, std::span<const MotorEntry> measured);
 
 }  // namespace tethercalc
