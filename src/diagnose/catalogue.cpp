@@ -123,7 +123,8 @@ std::vector<Effect> flight_effects() {
              if (x[0] == 0) return;
              shift(p.record.time, x[0], p.tilt);
              shift(p.record.time, x[0], p.sideward_thrust);
-           }},
+           },
+       .is_delay = true},
 
       {.id = "pitch_trim",
        .title = "Pitch offset of the attitude estimate",
@@ -432,7 +433,8 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              if (x[0] > 0) lag(p, x[0]);
-           }},
+           },
+       .is_delay = true},
 
       {.id = "velocity_scale",
        .title = "Velocity logged too large or too small",

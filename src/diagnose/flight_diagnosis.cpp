@@ -87,6 +87,22 @@ std::vector<UnnamedRegressor> shapes_of(const std::vector<FlightData>& flights,
   return shapes;
 }
 
+/// Names beside each delay that is short against the time between samples its like.
+void add_delays_alike(const std::vector<FlightData>& flights, const FlightModel& model,
+                      Selection& selection) {
+  for (SelectedGroup& found : selection.selected) {
+    const std::size_t flight = model.log_of(found.group).value_or(0);
+    const double late = selection.complete.values[model.first_parameter(found.group)];
+    if (!model.effect(found.group).is_delay || std::abs(late) >= flights[flight].step / 2) continue;
+    std::erase_if(selection.open, [&](const Selection::Open& open) {
+      const bool is_like = model.effect(open.group).is_delay &&
+                           model.log_of(open.group) == model.log_of(found.group);
+      if (is_like) found.indistinguishable.push_back(open.group);
+      return is_like;
+    });
+  }
+}
+
 void size_up(const Selection& selection, Unexplained& unexplained) {
   if (!unexplained.detected) return;
   unexplained.size = selection.extended.holdout_rmse * std::sqrt(unexplained.share_percent / 100);
@@ -361,7 +377,8 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
     Preliminary preliminary = preliminary_fit(design, read);
     model.problem.unnamed = shapes_of(read, model, preliminary);
     model.problem.systematic = std::move(preliminary.time_stamp_error);
-    const Selection selection = select_effects(model.problem, options.selection, progress);
+    Selection selection = select_effects(model.problem, options.selection, progress);
+    add_delays_alike(read, model, selection);
     report(read, model, selection, options, effects, d);
   }
   d.kind = "flight";

@@ -96,9 +96,11 @@ const std::array all_spec_fields{
     SpecField{"/tether/length_m", number, "m", between(0.1, 1e4), "",
               "Length of the tether in the air, which is the flight height.", 1,
               at<&Design::tether, &Tether::length>},
-    SpecField{"/tether/spooled_length_m", number, "m", between(0, 1e4), "0",
-              "Length left on the drum: it adds resistance, but neither mass nor drag.", 1,
-              at<&Design::tether, &Tether::spooled_length>},
+    SpecField{
+        "/tether/spooled_length_m", number, "m", between(0, 1e4), "0",
+        "Length left on the drum: it adds resistance, but neither mass nor drag. A solved tether "
+        "pays out no more than there is; without any it is as long as it takes.",
+        1, at<&Design::tether, &Tether::spooled_length>},
     SpecField{"/tether/conductor", conductor, "", any_number, "",
               "Conductor material: a name in the library, a file, or an object."},
     SpecField{"/tether/conductor_temperature_C", number, "°C", between(-50, 250), "20",

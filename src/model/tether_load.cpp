@@ -140,6 +140,7 @@ CableOutcome HangingLoad::solve(CableSolver& solver, double radius, Values& valu
   }
   if (outcome != CableOutcome::hangs) return outcome;
   const HangingCable hangs = solver.result();
+  if (hangs.length > situation_.cable_there_is) return CableOutcome::too_short;
   const double load = own_load(radius).value;
   values = {std::max(0.0, drag_of_fold - hangs.on_drone.x) / load, -hangs.on_drone.z / load,
             hangs.tension_at_drone / load, hangs.tension_at_station / load, hangs.length};
@@ -292,6 +293,13 @@ MovingAir air_about(const FlightState& state, const Flight& flight) {
   return air;
 }
 
+/// m in the air and on the drum. Without a drum a cable is cut to the length it takes.
+double cable_there_is(const FlightState& state) {
+  constexpr double a_hair_more = 1 + 1e-12;
+  return state.on_drum > 0 ? (state.deployed + state.on_drum) * a_hair_more
+                           : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 PaidOut paid_out_to(const Tether& tether, double height, double offset) {
@@ -321,6 +329,7 @@ void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
        .wall = straight_.wall_,
        .air = air_about(state, flight),
        .paid_out = paid_out_to(tether, state.deployed, flight.horizontal_offset),
+       .cable_there_is = cable_there_is(state),
        .axial_stiffness = tether.axial_stiffness,
        .offset = flight.horizontal_offset,
        .height = state.deployed});

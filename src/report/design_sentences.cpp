@@ -64,13 +64,21 @@ constexpr LimitWords all_limits[] = {
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"},
     {"Limited by the tether: any thicker, and no way is found for it to hang up to the drone in "
-     "{where}.",
-     "No cross-section works: no way is found for the tether to hang up to the drone in {where}.",
+     "{where}{with_cable}.",
+     "No cross-section works: no way is found for the tether to hang up to the drone in "
+     "{where}{with_cable}.",
      "The tether's way up to the drone",
-     "no way is found for the tether to hang up to the drone in {where}",
+     "no way is found for the tether to hang up to the drone in {where}{with_cable}",
      "tether not found to hang"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
+
+/// How much cable there is, where a drum holds the rest.
+std::string cable_words(const Tether& tether) {
+  if (tether.spooled_length == 0) return "";
+  return fmt::format(" with the {} m of cable there are",
+                     significant(tether.length + tether.spooled_length, 3));
+}
 
 /// `words` with the design's numbers in place of their names.
 std::string filled_in(const char* words, const Design& design, Condition condition) {
@@ -80,6 +88,7 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
   const std::string where = condition_words(condition);
   return fmt::format(
       fmt::runtime(words), fmt::arg("where", where),
+      fmt::arg("with_cable", cable_words(design.tether)),
       fmt::arg("demand", headroom_words(demanded) + " in " + where),
       fmt::arg("headroom", fixed(demanded, 2)),
       fmt::arg("tilt", significant(need.max_pitch / unit::degree, 3)),
@@ -287,7 +296,7 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
     case Demand::tether_strength:
       return "too weak for its tension";
     case Demand::tether_shape:
-      return "no way found for it to hang up to the drone in " + where;
+      return "no way found for it to hang up to the drone in " + where + cable_words(design.tether);
     case Demand::converter_rating:
       break;
   }

@@ -20,15 +20,16 @@ ReachWords words_of(Reach reach) {
   constexpr ReachWords all[] = {{"height_m", "height", "m", 1, 1},
                                 {"payload_g", "payload", "g", unit::gram, 0},
                                 {"headwind_m_s", "headwind", "m/s", 1, 2},
-                                {"airspeed_m_s", "airspeed", "m/s", 1, 2}};  // as in Reach
+                                {"airspeed_m_s", "airspeed", "m/s", 1, 2},
+                                {"offset_m", "distance aside", "m", 1, 1}};  // as in Reach
   return all[static_cast<std::size_t>(reach)];
 }
 
 /// What a limit means to somebody who pushes one of these further.
-std::string beyond_end(const Design& design, Reach reach, const ReachEnd& end) {
+std::string beyond_end(const Design& design, const ReachEnd& end) {
+  if (end.drum_is_empty) return "the drum is empty";
   if (end.bounded) return beyond_words(design, end.limit, end.condition);
-  const bool unwinds = reach == Reach::height && design.tether.spooled_length > 0;
-  return unwinds ? "the drum is empty" : "nothing ends it within the search";
+  return "nothing ends it within the search";
 }
 
 std::string sentence_of(const Design& design, const ReachResult& result) {
@@ -36,7 +37,7 @@ std::string sentence_of(const Design& design, const ReachResult& result) {
   if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
   return fmt::format("Greatest {}: {} {}; beyond it {}.", words.noun,
                      fixed(result.end->value / words.si_factor, words.decimals), words.unit,
-                     beyond_end(design, result.reach, *result.end));
+                     beyond_end(design, *result.end));
 }
 
 /// What ends a reach; null where nothing does.
@@ -72,7 +73,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     for (const EnvelopePoint& point : curve.points) {
       table.add({fixed(point.against / against.si_factor, against.decimals),
                  fixed(end_value(point.end) / of.si_factor, of.decimals),
-                 point.end ? beyond_end(file.design, curve.of, *point.end)
+                 point.end ? beyond_end(file.design, *point.end)
                            : std::string("the demands are not met")});
     }
     out += table.text(style);

@@ -121,9 +121,17 @@ SteadyFlight::Radii too_tilted_with_solved_tether(const SteadyFlight& flight) {
   return {0, within.front().lo > thinnest ? within.front().lo : 0};
 }
 
+/// Whether a solved tether reaches its drone with conductors of some size.
+bool hangs_somewhere(const TetherInFlight& tether) {
+  return std::ranges::any_of(std::array{1e-4, 3e-4, 1e-3, 3e-3}, [&](double radius) {
+    return std::isfinite(tether.load(radius).down);
+  });
+}
+
 /// What keeps the best reachable headroom of one condition below `demanded`.
 Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
   const bool solved = flight.tether().is_solved();
+  if (solved && !(best.value > 0) && !hangs_somewhere(flight.tether())) return Limit::tether_shape;
   const SteadyFlight::Radii beyond =
       solved ? too_tilted_with_solved_tether(flight) : flight.beyond_pitch_limit();
   const bool tilts = beyond.lo < beyond.hi;

@@ -158,3 +158,17 @@ TEST_CASE("the best headroom of a warm or a battery-laden cable is the best of i
     CHECK(evaluate(design, best.area, Condition::hover).headroom == best.value);
   }
 }
+
+TEST_CASE("a tether pays out no more than the drum holds: the optimum says what is missing") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.1;
+  design.tether.spooled_length = 3.001;  // 33 m of 33.001 m are out
+  CHECK(optimize(design).feasible);
+  design.tether.spooled_length = 2.999;
+  const Optimization short_by_a_millimetre = optimize(design);
+  CHECK_FALSE(short_by_a_millimetre.feasible);
+  CHECK(short_by_a_millimetre.limited_by == Limit::tether_shape);
+  design.tether.spooled_length = 0;  // cut to the length it takes
+  CHECK(optimize(design).feasible);
+}

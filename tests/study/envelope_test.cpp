@@ -45,7 +45,7 @@ TEST_CASE("in the envelope a cable flies, beyond it it does not") {
     Design design = test::random_design(random);
     design.flight.headwind = 0;
     design.tether.cross_section = random.magnitude(0.3e-6, 6e-6);
-    for (const Reach reach : all_reaches) {
+    for (const Reach reach : reaches_of(design)) {
       const auto end = greatest_reach(design, reach);
       if (!end || !end->bounded) continue;
       ++ends;
@@ -59,6 +59,48 @@ TEST_CASE("in the envelope a cable flies, beyond it it does not") {
     }
   }
   CHECK(ends > 30);
+}
+
+TEST_CASE("with power to spare a drone goes aside as far as its drum lets it") {
+  Design design = test::published_design();
+  design.supply.voltage = 600;
+  design.requirements.thrust_headroom = 1.2;
+  design.flight.airspeed = 3;
+  design.tether.cross_section = 0.5e-6;
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.02;
+  design.tether.spooled_length = 15;
+  for (const double height : {12.0, 30.0, 40.0}) {
+    const Design there = at_reach(design, Reach::height, height);
+    const auto aside = greatest_reach(there, Reach::offset);
+    REQUIRE(aside);
+    REQUIRE(aside->bounded);
+    CHECK(aside->limit == Limit::tether_shape);
+    CHECK(aside->drum_is_empty);
+    // All 45 m are out: 1.02·√(height² + offset²).
+    CHECK(aside->value == Approx(std::sqrt(45 * 45 / (1.02 * 1.02) - height * height)));
+  }
+  const auto highest = greatest_reach(design, Reach::height);
+  REQUIRE(highest);
+  CHECK(highest->value == Approx(45 / 1.02));
+}
+
+TEST_CASE("a solved tether lets its drone aside so far, a straight one has no side") {
+  Design design = test::published_design();
+  design.tether.cross_section = 1.2e-6;
+  CHECK(study_envelope(design).greatest.size() == 4);
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.03;
+  for (const double wind : {0.0, 2.5, 5.0}) {
+    const Design windy = at_reach(design, Reach::headwind, wind);
+    const auto aside = greatest_reach(windy, Reach::offset);
+    REQUIRE(aside);
+    REQUIRE(aside->bounded);
+    CHECK_FALSE(aside->drum_is_empty);
+    CHECK(flies(at_reach(windy, Reach::offset, aside->value * (1 - 1e-6))));
+    CHECK_FALSE(flies(at_reach(windy, Reach::offset, aside->value * 1.001)));
+    CHECK_FALSE(flies(at_reach(windy, Reach::offset, aside->value * 2)));
+  }
 }
 
 TEST_CASE("more height leaves less payload and less wind") {

@@ -131,9 +131,10 @@ struct HangingSituation {
   double wall = 0;                  ///< m of its insulation
   MovingAir air;                    ///< x points from the station to where the drone stands aside
   PaidOut paid_out;                 ///< how much cable is out
-  std::optional<double> axial_stiffness{};  ///< N, EA
-  double offset = 0;                        ///< m aside
-  double height = 0;                        ///< m over the station
+  double cable_there_is = std::numeric_limits<double>::infinity();  ///< m, on the drum included
+  std::optional<double> axial_stiffness{};                          ///< N, EA
+  double offset = 0;                                                ///< m aside
+  double height = 0;                                                ///< m over the station
 
   /// m of one conductor with its insulation, where that decides the drag coefficient.
   [[nodiscard]] std::optional<double> cylinder_diameter(double radius) const;
@@ -145,6 +146,7 @@ struct HangingSituation {
 /// of its conductor's radius: the cable is solved at radii a quarter of an octave apart, when one
 /// between them is asked for, and forces over the cable's own load, hypot(weight, drag)·height +
 /// winch tension, are cubic in ln r between those, with their slopes. Within 1e-5 of the solver.
+/// Where more is to be paid out than there is, it does not reach.
 /// Where the solver finds no equilibrium, the cubic spans up to an octave; a cable with slack right
 /// above its station that hardly any wind moves is taken as the fold it is in still air, all of its
 /// drag on the drone.

@@ -1,7 +1,7 @@
-// What a given cable can do at most: how high, how heavy, how fast, in how much wind.
+// What a given cable can do at most: how high, how heavy, how fast, in how much wind, how far
+// aside.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,14 +15,15 @@ enum class Reach {
   payload,   ///< mass carried beside `drone.mass`, kg
   headwind,  ///< `flight.headwind`, m/s, in hover and in forward flight
   airspeed,  ///< `flight.airspeed`, m/s, in forward flight
+  offset,    ///< `flight.horizontal_offset`, m, of a solved tether
 };
 
-/// All of them, in the order of the enumeration.
-inline constexpr std::array all_reaches{Reach::height, Reach::payload, Reach::headwind,
-                                        Reach::airspeed};
+/// What can be asked of the design, in the order of the enumeration: all of them of a solved
+/// tether, while a straight one hangs down from the drone wherever it is.
+[[nodiscard]] std::vector<Reach> reaches_of(const Design& design);
 
-/// How far the search goes: all the cable there is where some is left on the drum, else 10 km; what
-/// the motors' greatest thrust lifts; 100 m/s.
+/// How far the search goes: for height and offset all the cable there is where some is left on the
+/// drum, else 10 km; what the motors' greatest thrust lifts; 100 m/s.
 [[nodiscard]] double search_end(const Design& design, Reach reach);
 
 /// The end of one reach.
@@ -31,6 +32,7 @@ struct ReachEnd {
   bool bounded = false;  ///< false: even the end of the search does, and nothing limits it
   Limit limit = Limit::available_power;    ///< what is missed just beyond
   Condition condition = Condition::hover;  ///< where
+  bool drum_is_empty = false;              ///< all of the cable is in the air there
 };
 
 /// `design` with the reach at `value`. With cable left on the drum, height unwinds it; without, the
@@ -39,8 +41,9 @@ struct ReachEnd {
 
 /// The greatest value at which the cable (`tether.cross_section`, which must be set) meets all that
 /// `optimize` demands of one: headroom, tilt and, where asked for, heat, strength and the
-/// converter's rating. Nothing where none does. The range is looked through at 400 values before
-/// the edge is bisected to 1e-9 relative, so that feasible ranges narrower than that may be missed.
+/// converter's rating. Nothing where none does. The range is looked through at 400 values (50
+/// of a solved tether) before the edge is bisected to 1e-9 relative, so that feasible ranges
+/// narrower than their distance may be missed.
 [[nodiscard]] std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach);
 
 /// One point of a curve of one reach against another.
@@ -70,7 +73,9 @@ struct EnvelopeCurve {
 /// What a cable can do at most.
 struct EnvelopeStudy {
   std::vector<ReachResult> greatest;  ///< each with the others as the design has them
-  std::vector<EnvelopeCurve> curves;  ///< payload and wind against height, payload against wind
+  /// Payload and wind against height, payload against wind; of a solved tether also the offset
+  /// against height and wind.
+  std::vector<EnvelopeCurve> curves;
 
   /// Whether the cable flies at all.
   [[nodiscard]] bool any() const;
