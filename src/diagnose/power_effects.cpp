@@ -15,10 +15,10 @@ const std::string to_separate_converter =
     "Vary the load, by height, payload or airspeed: auxiliaries draw the same at every load, the "
     "converter's losses grow with it";
 const std::string to_separate_motors =
-    "Weigh the drone, or log the attitude of the same flight: a heavier drone leans less. Else fly "
-    "at several heights and airspeeds: mass and motor efficiency differ only in how the power "
-    "bends "
-    "with the thrust";
+    "Weigh the drone, or fly passes at speed with attitude and power logged in one flight: a "
+    "heavier "
+    "drone leans less. Else fly at several heights and airspeeds: mass and motor efficiency differ "
+    "only in how the power bends with the thrust";
 const std::string to_separate_airspeed =
     "Hold airspeeds between 0 and the design airspeed at a low and at a great height: tether drag "
     "grows with the height, airframe drag does not, and the induced power falls before drag rises";
