@@ -314,6 +314,15 @@ bool drop_scattered_stages(const PowerResiduals& residuals, ScreenedPowerLog& sc
   return any;
 }
 
+/// The part of the rows that is of the motors and the tilt.
+double share_in_the_air(const PowerLogModel& view) {
+  double on_the_line = 0;
+  for (const PowerStage& stage : view.residuals().stages()) {
+    if (stage.stage != Stage::motors) on_the_line += static_cast<double>(stage.rows);
+  }
+  return 1 - on_the_line / static_cast<double>(view.rows());
+}
+
 /// The search with the residuals' present noise.
 Selection search(PowerLogModel& view, const SelectionProgress& progress) {
   const PowerResiduals& residuals = view.residuals();
@@ -328,6 +337,8 @@ Selection search(PowerLogModel& view, const SelectionProgress& progress) {
   behind_stages();
   SelectionOptions options;
   options.false_alarm_probability = false_alarm_probability;
+  // Few rows tell of the airframe: what they gain is not to drown in those of the line.
+  if (view.tilt()) options.least_gain_percent *= share_in_the_air(view);
   Selection selection = select_subset(problem, options, progress);
   // A step must stand where it happened, or names are sought for the stretch between.
   if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
