@@ -107,8 +107,9 @@ struct Effect {
   /// id of an effect before it in the catalogue that every log shows in the same way. It is told
   /// with that one, never in its place.
   std::string twin_of{};
-  /// Its first parameter is a time by which a channel of a flight is late. What is late by less than
-  /// half the time between samples is told together with its like: the log does not show which.
+  /// Its first parameter is a time by which a channel of a flight is late. What is late by less
+  /// than half the time between samples is told together with its like: the log does not show
+  /// which.
   bool is_delay = false;
 };
 
