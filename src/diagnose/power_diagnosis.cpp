@@ -125,8 +125,9 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
   }
   for (const auto& [name, values] :
        {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
-    if (!values->empty() && std::all_of(values->begin(), values->end(),
-                                        [values](double x) { return x == values->front(); })) {
+    if (!values->empty() && std::all_of(values->begin(), values->end(), [first = values](double x) {
+          return x == first->front();
+        })) {
       notes.push_back(fmt::format("{} never changes in this log: taken as it is", name));
     }
   }
