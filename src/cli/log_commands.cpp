@@ -498,9 +498,12 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
         options.power_log,
         {options.free_flight, battery_numbers(options.batteries), options.flight.core});
     question.power = {.log = std::move(reading.log),
-                      .base = base_effects(options, LogKind::power, question.hypotheses),
-                      .mass = flown_mass(options.flight),
-                      .air_density = air_density(options.flight)};
+                      .base = base_effects(options, LogKind::power, question.hypotheses)};
+    // Beside another log's flight these are that one's.
+    if (options.flight_logs.empty() || !options.whole_log.empty()) {
+      question.power->mass = flown_mass(options.flight);
+      question.power->air_density = air_density(options.flight);
+    }
     power_notes = std::move(reading.notes);
   }
   question.one_flight = !options.whole_log.empty();
