@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "diagnose/flight_model.hpp"
+#include "diagnose/tilt_comparison.hpp"
 #include "diagnose/unnamed_shapes.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
@@ -222,6 +223,69 @@ std::size_t used_samples(const FlightData& data) {
       std::count_if(data.block.begin(), data.block.end(), [](int b) { return b >= 0; }));
 }
 
+/// Middle of each block on the clock of its flight, s.
+std::vector<double> middles_of_blocks(const std::vector<FlightData>& flights) {
+  std::vector<double> middles;
+  for (const FlightData& data : flights) {
+    std::vector<double> first(data.blocks, nan);
+    std::vector<double> last(data.blocks, nan);
+    for (std::size_t i = 0; i < data.block.size(); ++i) {
+      if (data.block[i] < 0) continue;
+      const std::size_t own = static_cast<std::size_t>(data.block[i]) - middles.size();
+      if (std::isnan(first[own])) first[own] = data.record.time[i];
+      last[own] = data.record.time[i];
+    }
+    for (std::size_t b = 0; b < data.blocks; ++b) middles.push_back((first[b] + last[b]) / 2);
+  }
+  return middles;
+}
+
+/// What each group of as many samples has in the mean, in rising order.
+std::vector<double> means_of_equal_parts(std::vector<double> x) {
+  constexpr std::size_t parts = 20;
+  std::sort(x.begin(), x.end());
+  std::vector<double> means;
+  for (std::size_t p = 0; p < parts; ++p) {
+    const std::size_t first = p * x.size() / parts;
+    const std::size_t last = (p + 1) * x.size() / parts;
+    if (first == last) continue;
+    double sum = 0;
+    for (std::size_t i = first; i < last; ++i) sum += x[i];
+    means.push_back(sum / static_cast<double>(last - first));
+  }
+  return means;
+}
+
+DragByTilt drag_by_tilt(const std::vector<FlightData>& flights, const FlightModel& model,
+                        const ModelFit& fit) {
+  const auto predicted = [&](std::size_t k, std::span<const double> values) {
+    FlightPrediction prediction(flights[k].record);
+    predict_acceleration(prediction, model.base(k, values), model.freed(k, values));
+    return prediction;
+  };
+  DragByTilt shown;
+  std::vector<double> airspeed;
+  for (std::size_t k = 0; k < flights.size(); ++k) {
+    const FlightPrediction flown = predicted(k, fit.values);
+    shown.law = flown.law;
+    for (std::size_t i = 0; i < flown.airspeed.size(); ++i) {
+      if (flights[k].block[i] >= 0) airspeed.push_back(flown.airspeed[i]);
+    }
+  }
+  shown.airspeed = means_of_equal_parts(std::move(airspeed));
+  shown.time = middles_of_blocks(flights);
+  const auto over_mass = [&](const AirframeDrag& law) {
+    const FlightRecord& record = flights.front().record;
+    return drag_over_mass(law, record.mass, record.air_density, record.gravity, shown.airspeed);
+  };
+  const double whole = over_mass(shown.law);
+  const auto blocks = static_cast<double>(fit.without_block.size());
+  for (const std::vector<double>& values : fit.without_block) {
+    shown.over_mass.push_back(blocks * whole - (blocks - 1) * over_mass(predicted(0, values).law));
+  }
+  return shown;
+}
+
 void report(const std::vector<FlightData>& flights, const FlightModel& model,
             const Selection& selection, const FlightDiagnosisOptions& options,
             const std::vector<const Effect*>& effects, Diagnosis& d) {
@@ -239,6 +303,7 @@ void report(const std::vector<FlightData>& flights, const FlightModel& model,
   }
   size_up(selection, d.unexplained);
   d.spec_changes = spec_changes(model, selection.complete);
+  d.drag_by_tilt = drag_by_tilt(flights, model, selection.complete);
   d.further.push_back(
       {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
        "m/s", speed_rmse(flights, model, selection.base, options.speed_window),

@@ -29,7 +29,8 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
          (thrust - last.thrust) * (last.power - before.power) / (last.thrust - before.thrust);
 }
 
-/// The design as a drone that left its tether, and all that hangs on that, on the ground.
+}  // namespace
+
 Design without_tether(Design design) {
   design.tether.model = TetherModel::straight;
   design.tether.winch_pull = 0;
@@ -39,8 +40,6 @@ Design without_tether(Design design) {
   design.drone.reserve_battery.specific_energy = 0;
   return design;
 }
-
-}  // namespace
 
 PowerLog without_errors(PowerLog log, const PowerInstruments& instruments) {
   const auto correct = [](std::vector<double>& readings, double gain, double offset) {

@@ -81,6 +81,9 @@ class CableHeat {
 /// auxiliary power, which the battery feeds as well; the design then needs no cross-section.
 [[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
 
+/// The design as a drone that left its tether, and all that hangs on that, on the ground.
+[[nodiscard]] Design without_tether(Design design);
+
 /// The entries of the catalogue for power logs, from the ground to the air.
 [[nodiscard]] std::vector<Effect> power_effects();
 

@@ -13,10 +13,12 @@
 
 #include "diagnose/log_model.hpp"
 #include "diagnose/power_residuals.hpp"
+#include "diagnose/tilt_comparison.hpp"
 #include "diagnose/unnamed_shapes.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/hypothesis.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
@@ -45,8 +47,10 @@ void check_lengths(const PowerLog& log) {
 
 /// What the effect needs and the log lacks, "" where nothing.
 std::string lacking(const Effect& effect, const PowerLog& log) {
-  const bool at_motors_only = effect.shows_in == std::vector{Stage::motors};
-  if (log.free_flight && (effect.of_tether || !at_motors_only)) return "a flight on the tether";
+  const bool in_the_air = std::all_of(effect.shows_in.begin(), effect.shows_in.end(), [](Stage s) {
+    return s == Stage::motors || s == Stage::airframe;
+  });
+  if (log.free_flight && (effect.of_tether || !in_the_air)) return "a flight on the tether";
   const bool has_bus = !bus_power_of(log).empty();
   std::vector<std::string_view> names;
   for (const PowerChannel& channel : power_channels) {
@@ -121,8 +125,9 @@ void note_assumptions(const Design& design, const PowerLog& log, std::vector<std
   }
   for (const auto& [name, values] :
        {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
-    if (!values->empty() && std::all_of(values->begin(), values->end(),
-                                        [values](double x) { return x == values->front(); })) {
+    if (!values->empty() && std::all_of(values->begin(), values->end(), [first = values](double x) {
+          return x == first->front();
+        })) {
       notes.push_back(fmt::format("{} never changes in this log: taken as it is", name));
     }
   }
@@ -152,16 +157,19 @@ std::vector<double> predicted_in(const PowerStage& stage, const std::vector<doub
   return out;
 }
 
-/// The search's view of a log: rows of all stages, their memory taken out.
+/// The search's view of a log: rows of all stages, their memory taken out, and those of the tilt
+/// behind them.
 class PowerLogModel : public LogModel {
  public:
   PowerLogModel(const PowerModel& base, const PowerResiduals& residuals,
+                const std::optional<TiltComparison>& tilt,
                 const std::vector<const Effect*>& effects,
                 const std::vector<std::string>& base_effects)
       : LogModel({span_of(residuals.log().time)}),
         base_(base),
         residuals_(residuals),
-        cache_(residuals.stages().size()) {
+        tilt_(tilt),
+        cache_(residuals.stages().size() + 1) {
     for (const Effect* effect : effects) {
       add(*effect, base.design, contains(base_effects, effect->id));
     }
@@ -180,6 +188,10 @@ class PowerLogModel : public LogModel {
     }
     return changed;
   }
+
+  [[nodiscard]] const PowerResiduals& residuals() const { return residuals_; }
+  [[nodiscard]] const std::optional<TiltComparison>& tilt() const { return tilt_; }
+  [[nodiscard]] std::size_t rows() const { return residuals_.rows() + (tilt_ ? tilt_->rows() : 0); }
 
   /// After the residuals' noise has changed.
   void forget() { cache_.assign(cache_.size(), {}); }
@@ -212,36 +224,49 @@ class PowerLogModel : public LogModel {
     std::vector<double> standardised(residuals_.samples());
     for (std::size_t k = 0; k < residuals_.stages().size(); ++k) {
       const PowerStage& compared = residuals_.stages()[k];
-      std::vector<double> key;
-      for (std::size_t g = 0; g < effects().size(); ++g) {
-        if (!acts_on(effect(g), compared.stage)) continue;
-        const auto of_group = own(g, values);
-        key.insert(key.end(), of_group.begin(), of_group.end());
-      }
-      Cached& last = cache_[k];
-      if (last.rows.empty() || last.key != key) {
+      const auto whitened = [&](std::span<double> rows) {
         residuals_.standardised(k, model(values, compared.stage), standardised);
-        last.key = std::move(key);
-        last.rows.resize(compared.rows);
-        residuals_.whitened(k, standardised, last.rows);
-        // A tilt beyond the limit has no power: far off, but finite.
-        for (double& r : last.rows) {
-          if (!std::isfinite(r)) r = 1e3;
-        }
-      }
-      std::transform(last.rows.begin(), last.rows.end(),
-                     out.begin() + static_cast<std::ptrdiff_t>(compared.first_row),
-                     std::negate<>());
+        residuals_.whitened(k, standardised, rows);
+      };
+      predict_stage(compared.stage, values, cache_[k], whitened,
+                    out.subspan(compared.first_row, compared.rows));
     }
+    if (!tilt_) return;
+    const auto whitened = [&](std::span<double> rows) {
+      tilt_->whitened(model(values, Stage::airframe), rows);
+    };
+    predict_stage(Stage::airframe, values, cache_.back(), whitened, out.last(tilt_->rows()));
   }
 
   struct Cached {
     std::vector<double> key;
     std::vector<double> rows;
   };
+  template <typename Whitened>
+  void predict_stage(Stage stage, std::span<const double> values, Cached& last,
+                     const Whitened& whitened, std::span<double> out) const {
+    std::vector<double> key;
+    for (std::size_t g = 0; g < effects().size(); ++g) {
+      if (!acts_on(effect(g), stage)) continue;
+      const auto of_group = own(g, values);
+      key.insert(key.end(), of_group.begin(), of_group.end());
+    }
+    if (last.rows.empty() || last.key != key) {
+      last.key = std::move(key);
+      last.rows.resize(out.size());
+      whitened(last.rows);
+      // A tilt beyond the limit has no power: far off, but finite.
+      for (double& r : last.rows) {
+        if (!std::isfinite(r)) r = 1e3;
+      }
+    }
+    std::transform(last.rows.begin(), last.rows.end(), out.begin(), std::negate<>());
+  }
+
   const PowerModel& base_;
   const PowerResiduals& residuals_;
-  std::vector<Cached> cache_;
+  const std::optional<TiltComparison>& tilt_;
+  std::vector<Cached> cache_;  ///< one a stage, the tilt's last
 };
 
 /// Block of every row; −1 for rows that are not used.
@@ -254,6 +279,19 @@ std::vector<int> blocks_of(const PowerResiduals& residuals) {
       block.push_back(used ? block_at(residuals.log(), row * stage.samples_per_row) : -1);
     }
   }
+  return block;
+}
+
+/// The same with the tilt's rows, which are spread evenly: they are stretches of the same flight,
+/// in their order.
+std::vector<int> blocks_of(const PowerLogModel& view) {
+  std::vector<int> block = blocks_of(view.residuals());
+  if (!view.tilt()) return block;
+  std::set<int> used(block.begin(), block.end());
+  used.erase(-1);
+  const std::vector<int> in_order(used.begin(), used.end());
+  const std::size_t rows = view.tilt()->rows();
+  for (std::size_t i = 0; i < rows; ++i) block.push_back(in_order[i * in_order.size() / rows]);
   return block;
 }
 
@@ -277,19 +315,35 @@ bool drop_scattered_stages(const PowerResiduals& residuals, ScreenedPowerLog& sc
   return any;
 }
 
+/// The part of the rows that is of the motors and the tilt.
+double share_in_the_air(const PowerLogModel& view) {
+  double on_the_line = 0;
+  for (const PowerStage& stage : view.residuals().stages()) {
+    if (stage.stage != Stage::motors) on_the_line += static_cast<double>(stage.rows);
+  }
+  return 1 - on_the_line / static_cast<double>(view.rows());
+}
+
 /// The search with the residuals' present noise.
-Selection search(const PowerResiduals& residuals, LogModel& view,
-                 const SelectionProgress& progress) {
+Selection search(PowerLogModel& view, const SelectionProgress& progress) {
+  const PowerResiduals& residuals = view.residuals();
   SelectionProblem& problem = view.problem;
-  problem.measured.assign(residuals.rows(), 0);
-  problem.noise.assign(residuals.rows(), 1);
-  problem.block = blocks_of(residuals);
+  problem.measured.assign(view.rows(), 0);
+  problem.noise.assign(view.rows(), 1);
+  problem.block = blocks_of(view);
+  const auto behind_stages = [&] {  // no shape of a stage is in the tilt
+    for (UnnamedRegressor& shape : problem.unnamed) shape.column.resize(view.rows(), 0);
+  };
   problem.unnamed = power_shapes(residuals);
+  behind_stages();
   SelectionOptions options;
   options.false_alarm_probability = false_alarm_probability;
+  // Few rows tell of the airframe: what they gain is not to drown in those of the line.
+  if (view.tilt()) options.least_gain_percent *= share_in_the_air(view);
   Selection selection = select_subset(problem, options, progress);
   // A step must stand where it happened, or names are sought for the stretch between.
   if (add_finer_steps(residuals, selection.unnamed.regressors, problem.unnamed)) {
+    behind_stages();
     selection = select_subset(problem, options, progress);
   }
   return selection;
@@ -409,6 +463,65 @@ void compare_stages(const PowerResiduals& residuals, const PowerLogModel& view,
   }
 }
 
+/// The same of the tilt: what its blocks show, held against the fits without them.
+void compare_tilt(const PowerLogModel& view, const Selection& selection, Diagnosis& diagnosis) {
+  const TiltComparison& tilt = *view.tilt();
+  const DragByTilt& shown = tilt.shown();
+  const auto of_tilt = std::span(view.problem.block).last(tilt.rows());
+  std::set<int> blocks(view.problem.block.begin(), view.problem.block.end());
+  blocks.erase(-1);
+  const auto held_out = [&](const ModelFit& fit) {
+    std::vector<double> of_block;
+    for (const auto& without : fit.without_block) {
+      of_block.push_back(tilt.predicted(view.model(without)));
+    }
+    std::vector<double> predicted;
+    for (const int block : of_tilt) {
+      const auto place = std::distance(blocks.begin(), blocks.find(block));
+      predicted.push_back(of_block[static_cast<std::size_t>(place)]);
+    }
+    return predicted;
+  };
+  const auto rms = [&](const std::vector<double>& predicted) {
+    double sum = 0;
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+      sum += std::pow(shown.over_mass[i] - predicted[i], 2);
+    }
+    return std::sqrt(sum / static_cast<double>(predicted.size()));
+  };
+  const std::vector<double> before = held_out(selection.base);
+  const std::vector<double> after = held_out(selection.extended);
+  diagnosis.quantity += std::string(", ") + TiltComparison::quantity;
+  diagnosis.further.push_back(
+      {TiltComparison::quantity, TiltComparison::unit, rms(before), rms(after)});
+  diagnosis.compared.push_back({TiltComparison::quantity, TiltComparison::unit,
+                                std::string(to_string(Stage::airframe)), shown.time,
+                                shown.over_mass, before, after});
+}
+
+/// What the tilt says in words, and what a verdict by it rests on.
+void tell_tilt(const TiltComparison& tilt, const PowerModel& base, const PowerModel& found,
+               const Drone& extended, Diagnosis& diagnosis) {
+  diagnosis.notes.push_back(fmt::format(
+      "the tilt shows a drag over mass of {:.3f} ± {:.3f} {}; the spec comes to {:.3f}, with the "
+      "findings to {:.3f}. A heavier drone leans less and draws more, hungrier motors lean as "
+      "before. That rests on the spec's drag: where it was guessed, weigh the drone",
+      tilt.mean(), tilt.half_width(), TiltComparison::unit, tilt.predicted(base),
+      tilt.predicted(found)));
+  diagnosis.notes.push_back(fmt::format(
+      "of a drone of {:.0f} g this tilt makes a front area of {:.5f} m², a top area of {:.5f} m² "
+      "and {:.2f} m/s of linear drag: the drag of the extended spec",
+      extended.mass / unit::gram, extended.drag.front_area, extended.drag.top_area,
+      extended.drag.linear_speed));
+  for (Suspected& suspected : diagnosis.suspected) {
+    const Effect* effect = find_effect(suspected.effect);
+    if (effect == nullptr || !acts_on(*effect, Stage::airframe)) continue;
+    suspected.missing +=
+        "; and a drag of the spec that was measured, since the tilt is held "
+        "against it";
+  }
+}
+
 /// In words, of the stages that are measured.
 std::string compared_quantities(const PowerLog& log) {
   std::vector<std::string> words;
@@ -424,8 +537,8 @@ std::string compared_quantities(const PowerLog& log) {
 
 PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                               std::span<const std::string> base_effects,
-                              const SelectionProgress& progress,
-                              std::span<const Effect> hypotheses) {
+                              const SelectionProgress& progress, std::span<const Effect> hypotheses,
+                              const std::optional<DragByTilt>& shown_by_tilt) {
   check_lengths(log);
   check_stages(log);
   if (!design.tether.cross_section && !log.free_flight) {
@@ -462,22 +575,36 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
       testable_effects(residuals.log(), unusable, candidates, diagnosis);
   if (residuals.stages().empty()) return result;
 
-  PowerLogModel view(base, residuals, effects, {base_effects.begin(), base_effects.end()});
-  Selection selection = search(residuals, view, progress);
+  std::optional<TiltComparison> tilt;
+  if (shown_by_tilt) {
+    tilt = TiltComparison::of(*shown_by_tilt, base, residuals.log(),
+                              false_alarm_probability / static_cast<double>(effects.size()),
+                              diagnosis.notes);
+  }
+  PowerLogModel view(base, residuals, tilt, effects, {base_effects.begin(), base_effects.end()});
+  Selection selection = search(view, progress);
   if (refine_noise(residuals, view.model(selection.extended.values), view.problem, selection)) {
     view.forget();
-    selection = search(residuals, view, progress);
+    selection = search(view, progress);
   }
 
   tell(view, selection, diagnosis);
   // Rows are whitened: each counts.
-  diagnosis.effective_samples = std::round(static_cast<double>(selection.rows) /
-                                           static_cast<double>(residuals.stages().size()));
+  diagnosis.effective_samples =
+      std::round(static_cast<double>(selection.rows - (tilt ? tilt->rows() : 0)) /
+                 static_cast<double>(residuals.stages().size()));
   diagnosis.unexplained.undetectable_percent = undetectable_percent(
       diagnosis.effective_samples, view.problem.unnamed.size(), false_alarm_probability);
   size_up(view, selection, diagnosis.unexplained);
   compare_stages(residuals, view, selection, diagnosis);
-  result.extended = view.model(selection.extended.values).design;
+  if (tilt) compare_tilt(view, selection, diagnosis);
+  const PowerModel found = view.model(selection.extended.values);
+  result.extended = found.design;
+  if (tilt) {
+    diagnosis.drag_by_tilt = tilt->shown();
+    result.extended.drone.drag = tilt->drag_of(found);
+    tell_tilt(*tilt, base, found, result.extended.drone, diagnosis);
+  }
   // What the payload draws less than nothing is another's error; a spec cannot hold it.
   result.extended.drone.auxiliary_power = std::max(0.0, result.extended.drone.auxiliary_power);
   return result;

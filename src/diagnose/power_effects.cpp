@@ -15,7 +15,9 @@ const std::string to_separate_converter =
     "Vary the load, by height, payload or airspeed: auxiliaries draw the same at every load, the "
     "converter's losses grow with it";
 const std::string to_separate_motors =
-    "Fly at several heights and airspeeds, and weigh the drone: mass and motor efficiency differ "
+    "Weigh the drone, or fly passes at speed with attitude and power logged in one flight: a "
+    "heavier "
+    "drone leans less. Else fly at several heights and airspeeds: mass and motor efficiency differ "
     "only in how the power bends with the thrust";
 const std::string to_separate_airspeed =
     "Hold airspeeds between 0 and the design airspeed at a low and at a great height: tether drag "
@@ -31,7 +33,8 @@ const std::string to_separate_lengths =
 /// Where an effect shows that does not say it.
 std::vector<Stage> shown_by(Stage stage) {
   if (stage == Stage::supply) return {Stage::tether, Stage::converter};
-  return {stage == Stage::airframe ? Stage::motors : stage};
+  if (stage == Stage::airframe) return {Stage::motors, Stage::airframe};
+  return {stage};
 }
 
 /// What the comparisons in which an effect shows are made of.
@@ -165,7 +168,7 @@ std::vector<Effect> power_effects() {
              constexpr double taut = 1e-4;
              if (solved) tether.slack = std::max(tether.slack, taut);
            },
-       .shows_in = {Stage::tether, Stage::motors},
+       .shows_in = {Stage::tether, Stage::motors, Stage::airframe},
        .of_tether = true},
 
       {.id = "height_bias",
@@ -178,7 +181,7 @@ std::vector<Effect> power_effects() {
        .change = "h = h_read − b",
        .channel = "supply_current",
        .on_power = [](PowerModel& m, Values x) { m.instruments.height_offset += x[0]; },
-       .shows_in = {Stage::tether, Stage::motors},
+       .shows_in = {Stage::tether, Stage::motors, Stage::airframe},
        .of_tether = true},
 
       {.id = "drone_voltage_offset",
@@ -275,7 +278,8 @@ std::vector<Effect> power_effects() {
              // A bench of known density has the motors' curve scaled with that of the flight.
              if (bench_air_density(m.design.drone)) return;
              m.design.drone.motor_power_factor /= std::sqrt(x[0]);
-           }},
+           },
+       .shows_in = {Stage::motors, Stage::airframe}},
 
       {.id = "translational_lift",
        .title = "Moving through the air saves hover power",
@@ -323,7 +327,9 @@ std::vector<Effect> power_effects() {
            [](PowerModel& m, Values x) {
              m.dropped_mass = x[0];
              m.drop_time = x[1];
-           }},
+           },
+       // To the tilt it is a mass that drops, which the flight is asked for itself.
+       .shows_in = {Stage::motors}},
 
       {.id = "winch_tension",
        .title = "The winch pulls harder, or less, than assumed",
@@ -349,7 +355,8 @@ std::vector<Effect> power_effects() {
                       "ground in still air",
        .change = "v = v_read/g",
        .channel = "airspeed",
-       .on_power = [](PowerModel& m, Values x) { m.instruments.airspeed_gain *= x[0]; }},
+       .on_power = [](PowerModel& m, Values x) { m.instruments.airspeed_gain *= x[0]; },
+       .shows_in = {Stage::motors}},
 
       {.id = "tether_drag",
        .title = "The tether drags more, or less, than assumed",

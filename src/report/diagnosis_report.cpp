@@ -421,7 +421,9 @@ std::string joint_diagnosis_text(Diagnosis flight, Diagnosis power, const TextSt
   const std::optional<DesignImpact> impact = std::exchange(power.design_impact, std::nullopt);
   flight.design_impact.reset();
   out += style.bold("THE FLIGHT LOG") + "\n" + diagnosis_text(flight, style);
-  out += "\n" + style.bold("THE POWER LOG") + "\n" + diagnosis_text(power, style);
+  const char* second =
+      power.drag_by_tilt ? "THE POWER, WITH THE TILT OF THE SAME FLIGHT" : "THE POWER LOG";
+  out += "\n" + style.bold(second) + "\n" + diagnosis_text(power, style);
   if (impact) {
     out += "\n" + style.bold(impact_heading) + ", both logs together\n" +
            wrapped(impact_sentence(*impact));

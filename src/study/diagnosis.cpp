@@ -28,6 +28,18 @@ auto of_suitable(LogKind kind, const Diagnose& diagnose) {
   }
 }
 
+constexpr const char* no_tilt =
+    "the flight is too short to say how the drone leans, so mass and motors are told apart by the "
+    "power alone";
+
+/// What was found of the design as it flew, in the design itself: only the day's own mass and air
+/// are not its.
+Design as_designed(Design found, const Design& flown, const Design& design) {
+  found.drone.mass += design.drone.mass - flown.drone.mass;
+  found.flight.air_density *= design.flight.air_density / flown.flight.air_density;
+  return found;
+}
+
 /// `drag` with what a flight says of it.
 AirframeDrag with_changes(AirframeDrag drag, const std::vector<SpecChange>& changes) {
   const std::pair<std::string_view, double*> members[] = {
@@ -70,18 +82,24 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
                               progress);
     });
   }
+  bool one_drone = false;
   if (const auto& power = question.power) {
-    const Design flown = as_flown(design, *power);
+    const bool one_flight = question.one_flight && study.flight;
+    Design flown = as_flown(design, *power);
+    std::optional<DragByTilt> tilt;
+    if (one_flight) {
+      flown = as_flown(flown, *question.flight);
+      tilt = study.flight->drag_by_tilt;
+    }
     PowerDiagnosis found = of_suitable(LogKind::power, [&] {
-      return diagnose_power(flown, power->log, power->base, progress, question.hypotheses);
+      return diagnose_power(flown, power->log, power->base, progress, question.hypotheses, tilt);
     });
     study.power = std::move(found.diagnosis);
-    study.extended = std::move(found.extended);
-    // What was found comes to what the design has, not to what that flight had.
-    study.extended.drone.mass += design.drone.mass - flown.drone.mass;
-    study.extended.flight.air_density *= design.flight.air_density / flown.flight.air_density;
+    study.extended = as_designed(std::move(found.extended), flown, design);
+    one_drone = study.power->drag_by_tilt.has_value();
+    if (one_flight && !tilt) study.power->notes.emplace_back(no_tilt);
   }
-  if (study.flight && !study.flight->spec_changes.empty()) {
+  if (study.flight && !study.flight->spec_changes.empty() && !one_drone) {
     study.extended.drone.drag = with_changes(design.drone.drag, study.flight->spec_changes);
   }
   if (study.flight && study.power) {

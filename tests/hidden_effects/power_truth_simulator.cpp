@@ -49,6 +49,21 @@ double kg_per_metre(const Rig& rig) {
   return 2 * (2700 * rig.area + 1360 * (outer_area - rig.area));
 }
 
+/// W at the bus for a thrust in N, without the random deviation.
+double motor_power_at(const Rig& rig, const HiddenEffects& hidden, double thrust, double speed) {
+  const double thrust_g = thrust / 4 / gravity * 1000;
+  // Glauert's level-flight momentum theory: v_i·√(v² + v_i²) = v_h².
+  double induced = hidden.induced_speed;
+  for (int i = 0; i < 200; ++i) {
+    const double next = hidden.induced_speed * hidden.induced_speed / std::hypot(speed, induced);
+    induced = 0.5 * (induced + next);
+  }
+  const double relief = 1 - hidden.translational_lift * (1 - induced / hidden.induced_speed);
+  // Rankine and Froude: induced power goes with the inverse root of the density.
+  return 4 * rig.motor_size * motor_watts(thrust_g / rig.motor_size) * hidden.motor_power_factor *
+         relief / std::sqrt(hidden.air_density_factor);
+}
+
 /// W at the bus for steady flight, without the random deviation.
 double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, double speed,
                    double dropped) {
@@ -66,17 +81,7 @@ double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, d
     const double drag = 0.5 * density * area * (speed * speed + 19.27 * speed);
     angle = std::atan((drag + tether_drag) / weight);
   }
-  const double thrust_g = weight / std::cos(angle) / 4 / gravity * 1000;
-  // Glauert's level-flight momentum theory: v_i·√(v² + v_i²) = v_h².
-  double induced = hidden.induced_speed;
-  for (int i = 0; i < 200; ++i) {
-    const double next = hidden.induced_speed * hidden.induced_speed / std::hypot(speed, induced);
-    induced = 0.5 * (induced + next);
-  }
-  const double relief = 1 - hidden.translational_lift * (1 - induced / hidden.induced_speed);
-  // Rankine and Froude: induced power goes with the inverse root of the density.
-  return 4 * rig.motor_size * motor_watts(thrust_g / rig.motor_size) * hidden.motor_power_factor *
-         relief / std::sqrt(hidden.air_density_factor);
+  return motor_power_at(rig, hidden, weight / std::cos(angle), speed);
 }
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
@@ -97,6 +102,10 @@ std::vector<double> stamped_late(const std::vector<double>& x, double offset, do
 
 }  // namespace
 
+Cable cable_at(const Rig& rig, double height) {
+  return {kg_per_metre(rig) * height, 0.75 * 4 * height * outer_radius(rig)};
+}
+
 Log simulate(const Scenario& scenario) {
   const HiddenEffects& hidden = scenario.hidden;
   const Rig& rig = scenario.rig;
@@ -107,7 +116,8 @@ Log simulate(const Scenario& scenario) {
 
   const double dt = scenario.sample_interval;
   const double duration = scenario.duration > 0 ? scenario.duration : 1480 + 140 * uniform(engine);
-  const auto n = static_cast<std::size_t>(duration / dt);
+  const bool tracked = !scenario.track.airspeed.empty();
+  const auto n = tracked ? scenario.track.airspeed.size() : static_cast<std::size_t>(duration / dt);
   const double ambient =
       scenario.ambient_temperature != 0 ? scenario.ambient_temperature : 17 + 5 * uniform(engine);
 
@@ -146,7 +156,13 @@ Log simulate(const Scenario& scenario) {
         memory * deviation + scenario.deviation * std::sqrt(1 - memory * memory) * normal(engine);
 
     const double dropped = share >= hidden.step_at ? hidden.payload_drop : 0;
-    double power = motor_power(rig, hidden, h, v, dropped) * (1 + deviation);
+    if (tracked) {
+      h = scenario.track.height[i];
+      v = scenario.track.airspeed[i];
+    }
+    double power = (tracked ? motor_power_at(rig, hidden, scenario.track.thrust[i], v)
+                            : motor_power(rig, hidden, h, v, dropped)) *
+                   (1 + deviation);
     if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
     power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
     power *= 1 + hidden.motor_power_growth * share;

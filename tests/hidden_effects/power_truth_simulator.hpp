@@ -83,6 +83,14 @@ struct Scenario {
   double instrument_noise = 1;  ///< all standard deviations are multiplied with it
   double deviation = 0.012;     ///< of the motor power, relative
 
+  /// Flown instead of the profile, one element a sample; the hidden mass is in the thrust already.
+  struct Track {
+    std::vector<double> height;    ///< m
+    std::vector<double> airspeed;  ///< m/s
+    std::vector<double> thrust;    ///< N, of all motors
+  };
+  Track track{};
+
   // Bad instruments.
   double bus_clock_offset = 0;     ///< s: bus readings are stamped this much late
   double flight_clock_offset = 0;  ///< s: height and airspeed are stamped this much late
@@ -95,6 +103,13 @@ struct Log {
   std::vector<double> time, height, airspeed, ambient_temperature, supply_voltage, supply_current,
       drone_voltage, bus_voltage, bus_current;
 };
+
+/// kg of the cable in the air, and m² that its drag is ½·ρ·v² of.
+struct Cable {
+  double mass = 0;
+  double drag_area = 0;
+};
+[[nodiscard]] Cable cable_at(const Rig& rig, double height);
 
 /// Deterministic in the scenario. Airspeed gusts by 0.3 m/s (first-order autoregressive, 0.85 at
 /// 1 Hz), motor power deviates by 1.2 % (0.79 at 1 Hz); every instrument adds white noise and

@@ -5,6 +5,7 @@
 #include <deque>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace tethercalc::truth {
 namespace {
@@ -137,6 +138,7 @@ double drag(const HiddenFlight& h, double u, double aside, double tilt, double d
   const double area = h.front_area * std::cos(tilt) + h.top_area * std::abs(std::sin(tilt));
   double force = 0.5 * h.air_density * area * (std::hypot(u, aside) + h.linear) * u;
   force *= u > 0 ? 1 + h.fore_aft_asymmetry : 1 - h.fore_aft_asymmetry;
+  force += 0.5 * h.air_density * h.tether_area * std::hypot(u, aside) * u;
   if (u * tilt < 0) force -= h.propwash * u * std::abs(tilt);
   force += h.vertical_coupling * u * down;
   force *= std::max(0.2, 1 + h.height_drag * height);
@@ -147,6 +149,7 @@ double drag(const HiddenFlight& h, double u, double aside, double tilt, double d
 double side_drag(const HiddenFlight& h, double u, double ahead, double roll, double down) {
   const double area = h.side_area * std::cos(roll) + h.top_area * std::abs(std::sin(roll));
   double force = 0.5 * h.air_density * area * (std::hypot(u, ahead) + h.linear) * u;
+  force += 0.5 * h.air_density * h.tether_area * std::hypot(u, ahead) * u;
   if (u * roll < 0) force -= h.propwash * u * std::abs(roll);
   return force + h.vertical_coupling * u * down;
 }
@@ -173,7 +176,7 @@ class LoggedLate {
 
 }  // namespace
 
-FlightLog fly(const HiddenFlight& h) {
+FlightLog fly(const HiddenFlight& h, Flown* flown) {
   Random random(h.seed);
   FlightLog log;
   Pilot pilot(h.pattern, h.steepest_pitch, h.duration);
@@ -198,6 +201,8 @@ FlightLog fly(const HiddenFlight& h) {
   double drifting = 0;  // m/s to the right, where the roll moves the drone
   double lagging_forward = 0;
   double lagging_right = 0;
+  double airspeed_sum = 0;
+  double lift_sum = 0;
   double next_turn = 40;
   double wanted_yaw = yaw;
   const auto steps = static_cast<std::size_t>(h.duration / step);
@@ -302,6 +307,15 @@ FlightLog fly(const HiddenFlight& h) {
       }
     }
     speed += acceleration(halfway) * step;
+    if (flown != nullptr) {
+      airspeed_sum += std::hypot(speed - along, both_axes ? drifting - across : 0);
+      lift_sum += (gravity - down_acceleration) / (std::cos(tilt) * std::cos(roll));
+      constexpr std::size_t second = 100;
+      if ((k + 1) % second == 0) {
+        flown->airspeed.push_back(std::exchange(airspeed_sum, 0) / second);
+        flown->specific_lift.push_back(std::exchange(lift_sum, 0) / second);
+      }
+    }
   }
   return log;
 }

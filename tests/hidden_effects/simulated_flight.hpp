@@ -45,6 +45,7 @@ struct HiddenFlight {
   /// and moves nothing.
   double steepest_roll = 0;
   double side_area = 0.02;  ///< m², of the drag to the side
+  double tether_area = 0;   ///< m², of a cable that drags with the square of the airspeed alone
   double roll_trim = 0;     ///< deg, logged minus true roll
 
   /// Gusts: acceleration of a first-order process. These values leave residuals with a standard
@@ -95,8 +96,14 @@ struct HiddenFlight {
   double height_drag = 0;  ///< 1/m: drag grows by this part with each metre
 };
 
-/// From take-off to landing.
-[[nodiscard]] FlightLog fly(const HiddenFlight& hidden);
+/// What no log tells: one element for each second of a flight, the mean over it.
+struct Flown {
+  std::vector<double> airspeed;       ///< m/s
+  std::vector<double> specific_lift;  ///< m/s², thrust over mass
+};
+
+/// From take-off to landing. Where `flown` is given it is filled, too.
+[[nodiscard]] FlightLog fly(const HiddenFlight& hidden, Flown* flown = nullptr);
 
 /// Replaces `part` of all pitch and forward-speed samples by values far off.
 void add_outliers(FlightLog& log, double part, std::uint64_t seed);

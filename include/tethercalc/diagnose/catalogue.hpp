@@ -99,7 +99,8 @@ struct Effect {
   /// How it changes the model of a power log, which must not contain the effect already; values in
   /// SI, in the order of `parameters`. Null for effects of flight logs.
   std::function<void(PowerModel&, std::span<const double>)> on_power{};
-  /// The stages of a power log whose comparison it changes: tether, converter or motors.
+  /// The stages of a power log whose comparison it changes: tether, converter or motors; and
+  /// airframe, where it changes how far the drone of the same flight leans.
   std::vector<Stage> shows_in{};
   /// Says something of the tether in the air, which the motors carry: no free flight shows it.
   bool of_tether = false;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/diagnose/drag_by_tilt.hpp"
+
 namespace tethercalc {
 
 /// Every default is a choice; the comment says what it trades.
@@ -209,6 +211,8 @@ struct Diagnosis {
   std::optional<DesignImpact> design_impact;  ///< where it was asked for
   std::vector<ComparedSeries> compared;       ///< for pictures: one a stage of the chain
   std::vector<FindingTrace> traces;           ///< for pictures: one a finding
+  std::optional<DragByTilt>
+      drag_by_tilt;  ///< of flights; of a power log where it was compared, too
 };
 
 }  // namespace tethercalc

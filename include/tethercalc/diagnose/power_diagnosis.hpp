@@ -1,6 +1,7 @@
 // What the calculation of a flight's power gets wrong, and why.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,6 +30,12 @@ inline constexpr double shortest_power_log = 180;
 ///
 /// `hypotheses` are tried beside the effects of the catalogue, see `effect_of`.
 ///
+/// `tilt` is what the attitude of the same flight, judged by the same design, says of drag over
+/// mass. It is then one more comparison, of the stage "airframe": a heavier drone leans less, one
+/// with hungrier motors as before. `Diagnosis::drag_by_tilt` is what was compared, and the drag of
+/// the extended design what it comes to for a drone of that design's mass. A flight that tells its
+/// drag from none no better than that stays out, with a note.
+///
 /// Compared are the stages whose channels there are:
 ///
 ///     tether     supply_voltage_V, supply_current_A, drone_voltage_V, height_m
@@ -47,6 +54,7 @@ inline constexpr double shortest_power_log = 180;
 [[nodiscard]] PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                                             std::span<const std::string> base_effects = {},
                                             const SelectionProgress& progress = {},
-                                            std::span<const Effect> hypotheses = {});
+                                            std::span<const Effect> hypotheses = {},
+                                            const std::optional<DragByTilt>& tilt = {});
 
 }  // namespace tethercalc

@@ -35,7 +35,8 @@ struct DiagnosisQuestion {
   std::optional<LoggedFlight> flight{};  ///< logs are held against that
   std::optional<LoggedPower> power{};    ///< likewise
   std::vector<Effect> hypotheses{};      ///< tried beside the catalogue, see `effect_of`
-  bool one_flight = false;               ///< both logs are of one flight
+  bool one_flight =
+      false;  ///< both logs are of one flight: the same drone at the same mass, judged together
 };
 
 /// The answer.
@@ -62,7 +63,9 @@ class UnsuitableLog : public std::invalid_argument {
 [[nodiscard]] DesignImpact design_impact(const Design& before, const Design& after);
 
 /// Compares each log with the design as it stands. Drag that a flight shows directly outranks what
-/// the power at the motors says of it. Throws UnsuitableLog.
+/// the power at the motors says of it. Of one flight the power is judged with what the tilt says,
+/// by the same mass and air, and the extended design is the one drone of both; where the tilt says
+/// nothing of drag, a note of the power says that. Throws UnsuitableLog.
 [[nodiscard]] DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
                                              const SelectionProgress& progress = {});
 
