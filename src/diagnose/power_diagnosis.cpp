@@ -33,8 +33,6 @@ constexpr std::ptrdiff_t fewest_power_samples = 100;
 /// from some 200 rows, which makes the tails heavier; measured rates stand in
 /// docs/diagnosis-power.md.
 constexpr double false_alarm_probability = 0.002;
-/// Smaller gains, however certain, may mend what another name gets a little wrong.
-constexpr double least_gain_percent = 1;
 
 void check_lengths(const PowerLog& log) {
   for (const PowerChannel& channel : power_channels) {

@@ -12,9 +12,9 @@
 namespace tethercalc {
 namespace {
 
-constexpr auto ignored = ColumnUse::ignored;
-constexpr auto taken = ColumnUse::taken;
-constexpr auto needed = ColumnUse::needed;
+constexpr auto is_ignored = ColumnUse::ignored;
+constexpr auto is_taken = ColumnUse::taken;
+constexpr auto is_needed = ColumnUse::needed;
 
 constexpr LogCsvColumn within(std::string_view name, std::string_view unit,
                               std::string_view meaning, ColumnUse flight, ColumnUse power,
@@ -23,29 +23,31 @@ constexpr LogCsvColumn within(std::string_view name, std::string_view unit,
 }
 
 constexpr std::array all_columns{
-    LogCsvColumn{"time_s", "s", "Time, which increases from row to row", needed, needed},
-    within("roll_deg", "°", "Roll, right side down", needed, ignored, furthest_roll_deg),
-    within("pitch_deg", "°", "Pitch, nose up", needed, ignored, steepest_pitch_deg),
-    within("yaw_deg", "°", "Heading, clockwise from north", needed, taken, furthest_yaw_deg),
-    within("vn_m_s", "m/s", "Velocity over ground to the north", needed, taken, fastest_m_s),
-    within("ve_m_s", "m/s", "Velocity over ground to the east", needed, taken, fastest_m_s),
-    within("vd_m_s", "m/s", "Velocity downward", needed, ignored, fastest_m_s),
-    within("wind_north_m_s", "m/s", "Measured velocity of the air over ground to the north", taken,
-           taken, fastest_m_s),
-    within("wind_east_m_s", "m/s", "The same to the east", taken, taken, fastest_m_s),
+    LogCsvColumn{"time_s", "s", "Time, which increases from row to row", is_needed, is_needed},
+    within("roll_deg", "°", "Roll, right side down", is_needed, is_ignored, furthest_roll_deg),
+    within("pitch_deg", "°", "Pitch, nose up", is_needed, is_ignored, steepest_pitch_deg),
+    within("yaw_deg", "°", "Heading, clockwise from north", is_needed, is_taken, furthest_yaw_deg),
+    within("vn_m_s", "m/s", "Velocity over ground to the north", is_needed, is_taken, fastest_m_s),
+    within("ve_m_s", "m/s", "Velocity over ground to the east", is_needed, is_taken, fastest_m_s),
+    within("vd_m_s", "m/s", "Velocity downward", is_needed, is_ignored, fastest_m_s),
+    within("wind_north_m_s", "m/s", "Measured velocity of the air over ground to the north",
+           is_taken, is_taken, fastest_m_s),
+    within("wind_east_m_s", "m/s", "The same to the east", is_taken, is_taken, fastest_m_s),
     within("airspeed_forward_m_s", "m/s", "Instead of that wind: airspeed measured along the nose",
-           taken, taken, fastest_m_s),
-    LogCsvColumn{"height_m", "m", "Height above the station, or above take-off", ignored, needed},
-    within("airspeed_m_s", "m/s", "Airspeed, whatever its direction", ignored, needed, fastest_m_s),
-    LogCsvColumn{"ambient_temperature_C", "°C", "Temperature of the air", ignored, taken,
+           is_taken, is_taken, fastest_m_s),
+    LogCsvColumn{"height_m", "m", "Height above the station, or above take-off", is_ignored,
+                 is_needed},
+    within("airspeed_m_s", "m/s", "Airspeed, whatever its direction", is_ignored, is_needed,
+           fastest_m_s),
+    LogCsvColumn{"ambient_temperature_C", "°C", "Temperature of the air", is_ignored, is_taken,
                  -zero_celsius_K},
-    LogCsvColumn{"supply_voltage_V", "V", "At the ground end of the tether", ignored, taken},
-    LogCsvColumn{"supply_current_A", "A", "At the ground end of the tether", ignored, taken},
-    LogCsvColumn{"drone_voltage_V", "V", "At the converter's input", ignored, taken},
+    LogCsvColumn{"supply_voltage_V", "V", "At the ground end of the tether", is_ignored, is_taken},
+    LogCsvColumn{"supply_current_A", "A", "At the ground end of the tether", is_ignored, is_taken},
+    LogCsvColumn{"drone_voltage_V", "V", "At the converter's input", is_ignored, is_taken},
     LogCsvColumn{"bus_voltage_V", "V", "At the motors' bus: the converter's output, or the battery",
-                 ignored, taken},
-    LogCsvColumn{"bus_current_A", "A", "Into the motors' bus", ignored, taken},
-    LogCsvColumn{"bus_power_W", "W", "Instead of these two: their product", ignored, taken}};
+                 is_ignored, is_taken},
+    LogCsvColumn{"bus_current_A", "A", "Into the motors' bus", is_ignored, is_taken},
+    LogCsvColumn{"bus_power_W", "W", "Instead of these two: their product", is_ignored, is_taken}};
 
 std::size_t index_of(std::string_view name) {
   const auto found = std::ranges::find(all_columns, name, &LogCsvColumn::name);
@@ -62,11 +64,11 @@ LogTable::LogTable(std::string_view text, std::string_view file, ColumnUse LogCs
   for (const LogCsvColumn& column : all_columns) {
     const bool may_lack = std::ranges::find(optional, column.name) != optional.end();
     wanted.push_back({.name = column.name,
-                      .required = column.*use == needed && !may_lack,
+                      .required = column.*use == is_needed && !may_lack,
                       .minimum = column.minimum,
                       .maximum = column.maximum,
                       .increasing = column.name == "time_s",
-                      .ignored = column.*use == ignored});
+                      .ignored = column.*use == is_ignored});
   }
   columns_ = read_csv_columns(text, file, wanted, OtherCsvColumns::rejected);
 }
