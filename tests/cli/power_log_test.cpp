@@ -34,11 +34,11 @@ json answer_to(std::vector<std::string> arguments) {
 
 /// The example flight with a battery beside it: 25 A at 16 V all the time.
 std::string example_flight_with_power() {
-  std::istringstream flight(file_text(project_file("examples/simulated-flight.csv")));
+  std::istringstream rows(file_text(project_file("examples/simulated-flight.csv")));
   std::string line;
-  std::getline(flight, line);
+  std::getline(rows, line);
   std::string text = line + ",height_m,bus_voltage_V,bus_current_A\n";
-  for (int i = 0; std::getline(flight, line); ++i) {
+  for (int i = 0; std::getline(rows, line); ++i) {
     text += line + ",20,16," + (i % 3 == 0 ? "25.2" : "24.9") + "\n";
   }
   return text;
@@ -133,20 +133,21 @@ TEST_CASE("a motor is learned from an autopilot's log") {
 
 TEST_CASE("options of a power log that contradict each other or the log are refused") {
   const TemporaryFolder folder;
-  const std::string flight = project_file("examples/simulated-flight.csv");
+  const std::string flight_csv = project_file("examples/simulated-flight.csv");
   struct Case {
     std::vector<std::string> arguments;
     std::string says;
   };
-  for (const Case& c : {Case{{"--log", example_power, "--power", example_power}, "--log: is both"},
-                        {{"--flight", flight, "--free-flight"}, "--free-flight: is of the power"},
-                        {{"--flight", flight, "--battery", "0"}, "--battery: is of the power"},
-                        {{"--power", example_power, "--battery", "first"},
-                         "--battery: \"first\" is no number of a battery monitor"},
-                        {{"--power", example_power, "--battery", "0"}, "--battery: chooses among"},
-                        {{"--power", example_power, "--free-flight"}, "flies free has no supply"},
-                        {{"--power", flight}, "column \"height_m\" is missing"},
-                        {{"--log", example_power}, "column \"pitch_deg\" is missing"}}) {
+  for (const Case& c :
+       {Case{{"--log", example_power, "--power", example_power}, "--log: is both"},
+        {{"--flight", flight_csv, "--free-flight"}, "--free-flight: is of the power"},
+        {{"--flight", flight_csv, "--battery", "0"}, "--battery: is of the power"},
+        {{"--power", example_power, "--battery", "first"},
+         "--battery: \"first\" is no number of a battery monitor"},
+        {{"--power", example_power, "--battery", "0"}, "--battery: chooses among"},
+        {{"--power", example_power, "--free-flight"}, "flies free has no supply"},
+        {{"--power", flight_csv}, "column \"height_m\" is missing"},
+        {{"--log", example_power}, "column \"pitch_deg\" is missing"}}) {
     const Ran run = diagnosed(c.arguments);
     INFO(c.says << ": " << run.err);
     CHECK(run.exit_code == 2);

@@ -86,7 +86,7 @@ std::string flat(const std::string& text) {
 }
 
 /// Whether a cell is `value` as far as its digits go.
-bool shows(const std::string& cell, const json& value) {
+bool cell_shows(const std::string& cell, const json& value) {
   if (value.is_null()) return cell == "–";
   std::size_t read = 0;
   const double shown = std::stod(cell, &read);
@@ -130,7 +130,7 @@ int check_row(const json& header, const json& row, const json& points, const std
       continue;
     }
     INFO(title << " " << cell << " against " << expected);
-    CHECK(shows(cell, expected));
+    CHECK(cell_shows(cell, expected));
     ++numbers;
   }
   return numbers;
