@@ -96,18 +96,17 @@ class FieldFinder {
     for (std::size_t i = 0; i < fields_.size(); ++i) {
       const SpecField& field = fields_[i];
       if (places_[i].given() || !field.required() || in_unusable_group(field.pointer)) continue;
-      if (may_be_left_out(field) && !is_any_given(may_be_left_out)) continue;
+      if (may_be_left_out(field) && !has_group_of(field)) continue;
       problems_.add(places_[i].where(),
                     fmt::format("\"{}\" is missing{}{}: {}", last_key(field.pointer),
                                 field.unit.empty() ? "" : ", in ", field.unit, field.help));
     }
   }
 
-  [[nodiscard]] bool is_any_given(bool (*of)(const SpecField&)) const {
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (of(fields_[i]) && places_[i].given()) return true;
-    }
-    return false;
+  /// Whether the group that the field stands in is there, if only empty.
+  [[nodiscard]] bool has_group_of(const SpecField& field) const {
+    const std::string_view group = field.pointer.substr(0, field.pointer.rfind('/'));
+    return object_.value->contains(Json::json_pointer(std::string(group)));
   }
 
   [[nodiscard]] bool in_unusable_group(std::string_view pointer) const {

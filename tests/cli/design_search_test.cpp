@@ -141,7 +141,7 @@ TEST_CASE("what binds is told in plain words, and round numbers stay round") {
                            "--subject-to", "supply.voltage_V<=120"});
   CHECK(text.exit_code == 0);
   CHECK_THAT(text.out, Contains("supply.voltage_V<=120 binds: 1.20 V more would save 0."));
-  CHECK_THAT(text.out, Contains("One more metre of tether would cost 2."));
+  CHECK_THAT(text.out, Contains("One more metre of tether would cost 1."));
   CHECK_THAT(text.out, Contains("\"voltage_V\": 120.0,"));
   const Ran twice =
       design({"--free", "supply.voltage_V=40..100", "--subject-to", "supply.voltage_V<=100"});

@@ -231,7 +231,7 @@ TEST_CASE("learned drag goes into a spec, to a file or down a pipe to optimize")
   CHECK(json::parse(piped.out).at("optimum") == json::parse(filed.out).at("optimum"));
 }
 
-TEST_CASE("--into writes a spec: neither without one to learn for, nor over a log") {
+TEST_CASE("drag --into writes a spec: neither without one to learn for, nor over a log") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "flight.csv").string();
   write_file(log, file_text(example));

@@ -249,7 +249,7 @@ TEST_CASE("every number of the design's tables is that of optimize") {
 }
 
 TEST_CASE("every number of the ranking of motors is that of compare") {
-  const json answer = answer_of({"compare", published});
+  const json answer = answer_of({"compare", published, "--motors", "alike"});
   const json rows = table(made({published}), "Motors by power");
   REQUIRE(rows.size() > 5);
   for (std::size_t i = 1; i < rows.size(); ++i) {
