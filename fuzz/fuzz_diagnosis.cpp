@@ -45,8 +45,12 @@ void tell(const DesignFile& file, const Diagnosis& diagnosis, const Design& exte
   require(!figure.title.empty() && !figure.description.empty());
 }
 
+std::span<const std::byte> bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
 void diagnose_power(const DesignFile& file, std::string_view text) {
-  PowerLog log = parse_power_log(text, "power.csv");
+  PowerLog log = parse_power_log(bytes_of(text), "power.csv").log;
   if (log.time.size() > longest) return;
   DiagnosisQuestion question{file.design};
   question.power = LoggedPower{std::move(log)};
@@ -55,8 +59,7 @@ void diagnose_power(const DesignFile& file, std::string_view text) {
 }
 
 void diagnose_flight(const DesignFile& file, std::string_view text) {
-  FlightLog log =
-      parse_flight_log(std::as_bytes(std::span(text.data(), text.size())), "flight.csv", {}).log;
+  FlightLog log = parse_flight_log(bytes_of(text), "flight.csv").log;
   if (log.time.size() > longest) return;
   DiagnosisQuestion question{file.design};
   question.flight.emplace();
