@@ -187,7 +187,9 @@ MatrixXd regressor_columns(const Record& record) {
 BlockSums sums(const Record& record, const BlockFit& fit, const MatrixXd& columns,
                std::size_t block, bool weighted) {
   const auto rows = Eigen::seqN(record.block_begin(block), record.block_size(block));
-  const MatrixXd jacobian = fit.jacobian(rows, Eigen::all);
+  // A matrix without columns has no data that rows could point into.
+  const MatrixXd jacobian = fit.jacobian.cols() > 0 ? MatrixXd(fit.jacobian(rows, Eigen::all))
+                                                    : MatrixXd(record.block_size(block), 0);
   const MatrixXd z = columns(rows, Eigen::all);
   const VectorXd residual = fit.residual(rows);
   VectorXd weight = VectorXd::Ones(residual.size());
