@@ -178,6 +178,13 @@ class Command {
     return whole("--core N", flight.core, 0, 255, "EKF core to read (default: 0)").group("Options");
   }
 
+  /// Which monitors of a log of power count.
+  Command& batteries(std::vector<std::string>& numbers) {
+    return comma_list("--battery N,...", numbers,
+                      "Battery monitors that feed the motors, where the log has several: "
+                      "N[,N...], whose currents add up");
+  }
+
   /// The options that name measured logs and say how to look at them.
   Command& logs(
       DiagnoseOptions& logs, const char* flight_help, const char* power_help,
@@ -186,9 +193,7 @@ class Command {
         .repeatable("--flight LOG", logs.flight_logs, flight_help)
         .option("--power LOG", logs.power_log, power_help)
         .option("--log LOG", logs.whole_log, "Both from one log of one flight")
-        .comma_list("--battery N,...", logs.batteries,
-                    "Battery monitors that feed the motors, where the log has several: N[,N...], "
-                    "whose currents add up")
+        .batteries(logs.batteries)
         .flag("--free-flight", logs.free_flight,
               "The power was logged in flight without the tether, from a battery")
         .comma_list("--base EFFECT,...", logs.base, base_help)
@@ -385,10 +390,9 @@ class CommandLine {
                 "Without a file: ideal over electrical power of the motor to estimate")
         .option("--max-thrust-g G", motor_.max_thrust_g, "Without a file: its greatest thrust")
         .option("--power-log LOG", motor_.power_log,
-                "Instead of a file: a free flight (CSV: time_s, airspeed_m_s, bus_voltage_V, "
-                "bus_current_A)")
-        .comma_list("--battery N,...", motor_.batteries,
-                    "Its battery monitors that feed the motors, where it has several: N[,N...]")
+                "Instead of a file: a free flight with voltage and current, an autopilot's log or "
+                "CSV")
+        .batteries(motor_.batteries)
         .option("--spec SPEC", motor_.spec.file, "The drone that flew it: mass, motors, drag, air")
         .repeatable("--set PATH=VALUE", motor_.spec.overrides,
                     "Change a field of that spec: path=value")

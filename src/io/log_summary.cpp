@@ -240,30 +240,27 @@ LogSummary::Battery summary_of(const LoggedBattery& monitor) {
   battery.samples = monitor.time.size();
   battery.least_voltage = std::ranges::min(monitor.voltage);
   battery.greatest_voltage = std::ranges::max(monitor.voltage);
-  battery.mean_voltage = std::accumulate(monitor.voltage.begin(), monitor.voltage.end(), 0.0) /
-                         static_cast<double>(battery.samples);
+  battery.mean_voltage = monitor.mean_voltage();
   if (!monitor.measures_current()) return battery;
   constexpr double longest_step = 5;  // s
-  double currents = 0;
   double energy = 0;
   double last_power = 0;
   double last_time = 0;
-  std::size_t with_current = 0;
+  bool seen = false;
   for (std::size_t i = 0; i < monitor.time.size(); ++i) {
     const double current = monitor.current[i];
     if (!std::isfinite(current)) continue;
     const double power = monitor.voltage[i] * current;
     const double step = monitor.time[i] - last_time;
-    if (with_current > 0 && step > 0 && step <= longest_step) {
+    if (seen && step > 0 && step <= longest_step) {
       energy += (power + last_power) / 2 * step;
     }
     last_power = power;
     last_time = monitor.time[i];
-    currents += current;
     battery.greatest_current = std::max(battery.greatest_current.value_or(0), current);
-    ++with_current;
+    seen = true;
   }
-  battery.mean_current = currents / static_cast<double>(with_current);
+  battery.mean_current = monitor.mean_current();
   battery.energy = energy;
   return battery;
 }
@@ -322,15 +319,15 @@ std::vector<LogSummary::Use> uses_of(const AutopilotLog& log, const LogSummary& 
           power_use(log, summary, flight, because)};
 }
 
-}  // namespace
-
-LogSummary summarize_log(const AutopilotLog& log) {
-  LogSummary summary;
-  static_cast<LogTotals&>(summary) = log.contents();
-  summary.format = log.format();
-  summary.dropouts = log.contents().dropouts;
+/// What a walk through all messages tells.
+struct Walk {
   Clock clock;
   FlyingByEvents events;
+};
+
+Walk walk_through(const AutopilotLog& log) {
+  Walk walk;
+  auto& [clock, events] = walk;
   std::map<const LogMessageType*, FieldsInUse> fields_of;
   const LogMessageType* last_type = nullptr;
   FieldsInUse* last_fields = nullptr;
@@ -358,7 +355,36 @@ LogSummary summarize_log(const AutopilotLog& log) {
     }
   });
   clock.finish();
+  return walk;
+}
 
+/// As the controller tells it, if it does.
+std::optional<LogSummary::Flying> flying_by_events(const AutopilotLog& log, Walk& walk) {
+  if (!walk.clock.last) return std::nullopt;
+  return walk.events.finish(*walk.clock.last, log.format() == LogFormat::ulog
+                                                  ? "vehicle_land_detected"
+                                                  : "the controller's take-off and landing events");
+}
+
+}  // namespace
+
+std::optional<LogSummary::Flying> time_in_the_air(const AutopilotLog& log) {
+  Walk walk = walk_through(log);
+  if (auto told = flying_by_events(log, walk)) return told;
+  try {
+    return flying_by_speed(parse_flight_log(log));
+  } catch (const InputError&) {
+    return std::nullopt;  // nothing to tell speeds by
+  }
+}
+
+LogSummary summarize_log(const AutopilotLog& log) {
+  LogSummary summary;
+  static_cast<LogTotals&>(summary) = log.contents();
+  summary.format = log.format();
+  summary.dropouts = log.contents().dropouts;
+  Walk walk = walk_through(log);
+  const Clock& clock = walk.clock;
   summary.types = message_table(log, clock);
   summary.first_time = clock.first;
   summary.last_time = clock.last;
@@ -374,12 +400,7 @@ LogSummary summarize_log(const AutopilotLog& log) {
   } catch (const InputError& error) {
     obstacle = error.problems().front().message;
   }
-  if (clock.last) {
-    summary.flying =
-        events.finish(*clock.last, log.format() == LogFormat::ulog
-                                       ? "vehicle_land_detected"
-                                       : "the controller's take-off and landing events");
-  }
+  summary.flying = flying_by_events(log, walk);
   if (!summary.flying && flight) summary.flying = flying_by_speed(*flight);
   summary.batteries = batteries_in(log);
   summary.wind = wind_in(log);

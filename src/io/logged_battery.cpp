@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -49,6 +50,17 @@ LoggedBattery battery_in(const AutopilotLog& log, const BatteryFields& from,
   return battery;
 }
 
+double mean_of_known(const std::vector<double>& values) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    sum += value;
+    ++count;
+  }
+  return sum / static_cast<double>(count);
+}
+
 }  // namespace
 
 std::string LoggedBattery::name() const {
@@ -58,6 +70,10 @@ std::string LoggedBattery::name() const {
 bool LoggedBattery::measures_current() const {
   return std::ranges::any_of(current, [](double x) { return x > 0; });
 }
+
+double LoggedBattery::mean_voltage() const { return mean_of_known(voltage); }
+
+double LoggedBattery::mean_current() const { return mean_of_known(current); }
 
 std::vector<LoggedBattery> logged_batteries(const AutopilotLog& log) {
   std::vector<LoggedBattery> batteries;

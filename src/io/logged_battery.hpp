@@ -22,6 +22,10 @@ struct LoggedBattery {
   [[nodiscard]] std::string name() const;
   /// Whether there is a sensor of the current: one that ever reads more than 0.
   [[nodiscard]] bool measures_current() const;
+  /// V.
+  [[nodiscard]] double mean_voltage() const;
+  /// A, of what is known; there is such where `measures_current`.
+  [[nodiscard]] double mean_current() const;
 };
 
 /// All monitors with a voltage. ArduPilot: BAT, BAT2, CURR and CURR2, whose integers hold

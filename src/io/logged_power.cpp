@@ -1,7 +1,5 @@
 #include "io/logged_power.hpp"
 
-#include "io/logged_power.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -75,17 +73,6 @@ std::vector<std::string> names_of(const std::vector<LoggedBattery>& batteries) {
   return names;
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    sum += value;
-    ++count;
-  }
-  return sum / static_cast<double>(std::max<std::size_t>(1, count));
-}
-
 /// The monitors that feed the motors.
 std::vector<LoggedBattery> chosen_batteries(const AutopilotLog& log,
                                             const std::vector<int>& numbers) {
@@ -107,8 +94,7 @@ std::vector<LoggedBattery> chosen_batteries(const AutopilotLog& log,
     std::vector<std::string> told;
     for (const LoggedBattery& battery : measured) {
       told.push_back(fmt::format("{} is {} (mean {:.2f} V, {:.2f} A)", battery.number,
-                                 battery.name(), mean_of(battery.voltage),
-                                 mean_of(battery.current)));
+                                 battery.name(), battery.mean_voltage(), battery.mean_current()));
     }
     fail_in(log.name(), fmt::format("has {} battery monitors with a current; say which feed the "
                                     "motors: --battery {}, or several to add their currents, "
@@ -282,7 +268,7 @@ PowerLogReading logged_power(const AutopilotLog& log, const FlightLogReading& fl
 }
 
 PowerLogReading parse_power_log(const AutopilotLog& log, const PowerLogOptions& options) {
-  return logged_power(log, parse_flight_log(log, {.core = options.core}), summarize_log(log).flying,
+  return logged_power(log, parse_flight_log(log, {.core = options.core}), time_in_the_air(log),
                       options);
 }
 

@@ -120,16 +120,14 @@ ordered_json optimum_json(const Optimization& result) {
 std::string header_csv() {
   ordered_json names =
       json_list(optimum_results({}), [](const auto& result) { return result.name; });
-  names.push_back("power_uncertainty_percent");
-  names.push_back("drag_uncertainty_factor");
+  for (const auto& [name, value] : estimates_of({})) names.push_back(name);
   return csv_line(names);
 }
 
 std::string results_csv(const Design& design, const Optimization& optimum) {
   ordered_json values = json_list(optimum_results(optimum),
                                   [](const auto& result) { return result_json(result.value); });
-  values.push_back(number_or_null(power_uncertainty_percent(design)));
-  values.push_back(number_or_null(drag_uncertainty_factor(design)));
+  for (const auto& [name, value] : estimates_of(design)) values.push_back(number_or_null(value));
   return csv_line(values);
 }
 

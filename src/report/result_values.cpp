@@ -19,9 +19,13 @@ std::optional<double> drag_uncertainty_factor(const Design& design) {
   return design.drone.drag.is_estimate ? std::optional(drag_estimate_factor) : std::nullopt;
 }
 
+std::array<std::pair<const char*, std::optional<double>>, 2> estimates_of(const Design& design) {
+  return {{{"power_uncertainty_percent", power_uncertainty_percent(design)},
+           {"drag_uncertainty_factor", drag_uncertainty_factor(design)}}};
+}
+
 void add_estimates(ordered_json& answer, const Design& design) {
-  answer["power_uncertainty_percent"] = number_or_null(power_uncertainty_percent(design));
-  answer["drag_uncertainty_factor"] = number_or_null(drag_uncertainty_factor(design));
+  for (const auto& [name, value] : estimates_of(design)) answer[name] = number_or_null(value);
 }
 
 ordered_json number_or_null(const std::optional<double>& value) {

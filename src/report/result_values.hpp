@@ -1,10 +1,12 @@
 // Values as JSON and CSV write them: what does not exist is null there and empty here.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "tethercalc/study/results.hpp"
 
@@ -34,6 +36,10 @@ template <typename Values, typename Of>
 /// the factor by which the drag may be where that is one; nothing where they are not.
 [[nodiscard]] std::optional<double> power_uncertainty_percent(const Design& design);
 [[nodiscard]] std::optional<double> drag_uncertainty_factor(const Design& design);
+
+/// Both with their names, as columns and keys.
+[[nodiscard]] std::array<std::pair<const char*, std::optional<double>>, 2> estimates_of(
+    const Design& design);
 
 /// Puts both into an answer, as `power_uncertainty_percent` and `drag_uncertainty_factor`, null
 /// where nothing is estimated.

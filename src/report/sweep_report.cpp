@@ -141,8 +141,7 @@ SweepRows::SweepRows(std::span<const SweepAxis> axes, RowFormat format)
   std::vector<std::string> columns;
   for (const SweepAxis& axis : axes_) columns.push_back(axis.name);
   for (NamedResult& result : optimum_results({})) columns.push_back(std::move(result.name));
-  columns.emplace_back("power_uncertainty_percent");
-  columns.emplace_back("drag_uncertainty_factor");
+  for (const auto& [name, value] : estimates_of({})) columns.emplace_back(name);
   columns.emplace_back("reason");
   for (const std::string& column : columns) {
     const bool first = openings_.empty();
@@ -172,8 +171,7 @@ void SweepRows::append(std::string& text, const SweepRow& swept) const {
   row.words(limited ? condition_name(outcome.limiting_condition) : "");
   row.number(outcome.area() / unit::square_millimetre);
   row.points(outcome);
-  row.number(power_uncertainty_percent(swept.design).value_or(nan));
-  row.number(drag_uncertainty_factor(swept.design).value_or(nan));
+  for (const auto& [name, value] : estimates_of(swept.design)) row.number(value.value_or(nan));
   row.words(reason_words(swept));
   row.end();
 }

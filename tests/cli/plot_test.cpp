@@ -65,6 +65,8 @@ bool is_xml(const std::string& file) {
              .exit_code == 0;
 }
 
+bool is_drawn_by_gnuplot(const std::string& suffix) { return suffix == ".png" || suffix == ".pdf"; }
+
 }  // namespace
 
 TEST_CASE("every kind is drawn in every format") {
@@ -72,8 +74,7 @@ TEST_CASE("every kind is drawn in every format") {
   for (const auto& [kind, arguments] : kinds.all()) {
     INFO(kind);
     for (const char* suffix : {".svg", ".png", ".pdf", ".gp", ".txt"}) {
-      const bool by_gnuplot = std::string(suffix) == ".png" || std::string(suffix) == ".pdf";
-      if (by_gnuplot && !gnuplot_is_there()) continue;
+      if (is_drawn_by_gnuplot(suffix) && !gnuplot_is_there()) continue;
       INFO(suffix);
       const Ran run = run_tethercalc(kinds.command(kind, kinds.file(kind + suffix)));
       INFO(run.err);
@@ -253,7 +254,7 @@ TEST_CASE("without gnuplot all but PDF and PNG are drawn, and the message for th
   for (const auto& [kind, arguments] : kinds.all()) {
     INFO(kind);
     for (const char* suffix : {".svg", ".txt", ".gp", ".pdf", ".png"}) {
-      const bool by_gnuplot = std::string(suffix) == ".png" || std::string(suffix) == ".pdf";
+      const bool by_gnuplot = is_drawn_by_gnuplot(suffix);
       const std::string file = kinds.file(kind + "-alone" + suffix);
       std::string command = "PATH=/nonexistent " + shell_quoted(TETHERCALC_COMMAND);
       for (const std::string& word : kinds.command(kind, file)) command += " " + shell_quoted(word);

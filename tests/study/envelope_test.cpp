@@ -22,6 +22,14 @@ bool flies(const Design& design) {
          (need.buffer_battery || judged.headroom >= need.thrust_headroom);
 }
 
+/// How far aside, which something limits.
+ReachEnd bounded_offset(const Design& design) {
+  const auto aside = greatest_reach(design, Reach::offset);
+  REQUIRE(aside);
+  REQUIRE(aside->bounded);
+  return *aside;
+}
+
 }  // namespace
 
 TEST_CASE("the greatest payload of strong power is what the motors' last point leaves") {
@@ -72,13 +80,11 @@ TEST_CASE("with power to spare a drone goes aside as far as its drum lets it") {
   design.tether.spooled_length = 15;
   for (const double height : {12.0, 30.0, 40.0}) {
     const Design there = at_reach(design, Reach::height, height);
-    const auto aside = greatest_reach(there, Reach::offset);
-    REQUIRE(aside);
-    REQUIRE(aside->bounded);
-    CHECK(aside->limit == Limit::tether_shape);
-    CHECK(aside->drum_is_empty);
+    const ReachEnd aside = bounded_offset(there);
+    CHECK(aside.limit == Limit::tether_shape);
+    CHECK(aside.drum_is_empty);
     // All 45 m are out: 1.02·√(height² + offset²).
-    CHECK(aside->value == Approx(std::sqrt(45 * 45 / (1.02 * 1.02) - height * height)));
+    CHECK(aside.value == Approx(std::sqrt(45 * 45 / (1.02 * 1.02) - height * height)));
   }
   const auto highest = greatest_reach(design, Reach::height);
   REQUIRE(highest);
@@ -93,13 +99,11 @@ TEST_CASE("a solved tether lets its drone aside so far, a straight one has no si
   design.tether.slack = 0.03;
   for (const double wind : {0.0, 2.5, 5.0}) {
     const Design windy = at_reach(design, Reach::headwind, wind);
-    const auto aside = greatest_reach(windy, Reach::offset);
-    REQUIRE(aside);
-    REQUIRE(aside->bounded);
-    CHECK_FALSE(aside->drum_is_empty);
-    CHECK(flies(at_reach(windy, Reach::offset, aside->value * (1 - 1e-6))));
-    CHECK_FALSE(flies(at_reach(windy, Reach::offset, aside->value * 1.001)));
-    CHECK_FALSE(flies(at_reach(windy, Reach::offset, aside->value * 2)));
+    const ReachEnd aside = bounded_offset(windy);
+    CHECK_FALSE(aside.drum_is_empty);
+    CHECK(flies(at_reach(windy, Reach::offset, aside.value * (1 - 1e-6))));
+    CHECK_FALSE(flies(at_reach(windy, Reach::offset, aside.value * 1.001)));
+    CHECK_FALSE(flies(at_reach(windy, Reach::offset, aside.value * 2)));
   }
 }
 

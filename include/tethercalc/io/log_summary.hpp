@@ -99,4 +99,7 @@ struct LogSummary : LogTotals {
 /// drone moves at 0.5 m/s or more for at least 2 s, pauses up to 10 s included.
 [[nodiscard]] LogSummary summarize_log(const AutopilotLog& log);
 
+/// `LogSummary::flying` alone, sooner than all of it.
+[[nodiscard]] std::optional<LogSummary::Flying> time_in_the_air(const AutopilotLog& log);
+
 }  // namespace tethercalc
