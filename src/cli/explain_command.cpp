@@ -30,8 +30,8 @@ void point_to_explanations(const std::vector<std::string>& codes, const Output& 
     if (find_explanation(code) == nullptr || std::ranges::count(told, code) > 0) continue;
     told.push_back(code);
   }
-  if (!told.empty())
-    remark(fmt::format("tethercalc explain {} says more\n", fmt::join(told, ", or ")));
+  if (told.empty()) return;
+  remark(fmt::format("tethercalc explain CODE says more of {}\n", fmt::join(told, ", ")));
 }
 
 }  // namespace tethercalc::cli

@@ -31,7 +31,7 @@ void set_comparison(const nlohmann::json& json, RuleClause& clause) {
       {"less_than", RuleComparison::less_than},
       {"at_most", RuleComparison::at_most},
       {"at_least", RuleComparison::at_least}};
-  clause.comparison = RuleComparison::met_by_design;
+  clause.comparison = RuleComparison::is_so;
   for (const auto& [key, comparison] : comparisons) {
     if (!json.contains(key)) continue;
     clause.comparison = comparison;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -105,7 +106,9 @@ void complete(Explanation& page, const Effect& effect) {
   const auto source = std::ranges::find(page.parts, "Source", &ExplanationPart::heading);
   std::vector<std::string> parameters;
   for (const EffectParameter& p : effect.parameters) parameters.push_back(parameter_words(p));
-  std::vector<ExplanationPart> told{{"To tell it apart", {with_stop(effect.to_separate)}}};
+  std::string apart = with_stop(effect.to_separate);
+  apart.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(apart.front())));
+  std::vector<ExplanationPart> told{{"To tell it apart", {std::move(apart)}}};
   if (!effect.needs.empty()) {
     told.push_back({"Channels it needs", {fmt::format("{}.", fmt::join(effect.needs, ", "))}});
   }
@@ -209,9 +212,9 @@ const Explanation& explanation_of(const std::string& code) {
   if (const Explanation* page = find_explanation(code)) return *page;
   std::vector<std::string> codes;
   for (const Explanation& page : explanations()) codes.push_back(page.code);
-  throw InputError("explain",
-                   fmt::format("\"{}\" is no code of an answer{}; explain alone lists all {}", code,
-                               did_you_mean(code, codes), codes.size()));
+  throw InputError(
+      "explain", fmt::format("\"{}\" is no code of an answer (explain alone lists all {}){}", code,
+                             codes.size(), did_you_mean(code, codes)));
 }
 
 std::string explanation_list_text(const TextStyle& style) {

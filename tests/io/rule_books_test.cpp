@@ -42,7 +42,7 @@ TEST_CASE("every book reads, and each of its clauses has document, number, editi
       CHECK(clause.text.size() > 20);
       // Own words are said to be a clause's only where a copy was at hand.
       CHECK((!clause.is_quote || !clause.checked.empty()));
-      CHECK(std::isnan(clause.limit) == (clause.comparison == RuleComparison::met_by_design));
+      CHECK(std::isnan(clause.limit) == (clause.comparison == RuleComparison::is_so));
     }
   }
 }

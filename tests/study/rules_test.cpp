@@ -35,7 +35,9 @@ TEST_CASE(
   Design design = starting_design();
   design.tether.length = 50;
   const RuleRequest request{design, area};
-  using enum RuleComparison;
+  const auto less_than = RuleComparison::less_than;
+  const auto at_most = RuleComparison::at_most;
+  const auto at_least = RuleComparison::at_least;
   CHECK(held(request, asks(RuleFigure::tether_length, less_than, 50)).verdict == RuleVerdict::fail);
   CHECK(held(request, asks(RuleFigure::tether_length, at_most, 50)).verdict == RuleVerdict::pass);
   CHECK(held(request, asks(RuleFigure::tether_length, at_least, 50)).verdict == RuleVerdict::pass);

@@ -11,7 +11,7 @@
 
 namespace tethercalc {
 
-/// "3 pass, 1 fail, 2 are unknown …": in a sentence, and for which conductor.
+/// How many pass, fail and are unknown, and for which conductor, in a sentence.
 [[nodiscard]] std::string rules_headline(const RuleStudy& study);
 
 /// A row a clause: verdict, clause, our figure, the limit, the margin.

@@ -46,7 +46,7 @@ enum class RuleComparison {
   less_than,
   at_most,
   at_least,
-  met_by_design,  ///< no number: what is computed here is of that kind
+  is_so,  ///< no number: it is so, or nothing says that it is
 };
 
 /// One clause.
