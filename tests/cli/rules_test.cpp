@@ -54,7 +54,8 @@ TEST_CASE("a large system on 100 m fails the tether's length of class C3 and exi
   const json answer = rules_of(large, "eu-c3");
   CHECK(verdict_of(answer, "tether-length") == "fail");
   CHECK(verdict_of(answer, "tether-strength") == "pass");
-  CHECK(verdict_of(answer, "mass") == "pass");
+  // 23.9 kg without the tether that it lifts, more than 25 kg with it.
+  CHECK(verdict_of(answer, "mass") == "unknown");
 }
 
 TEST_CASE("every clause is told with document, number and edition") {
