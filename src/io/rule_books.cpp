@@ -16,7 +16,7 @@ namespace tethercalc {
 namespace {
 
 constexpr std::string_view rules_folder = "rules/";
-constexpr std::string_view json_suffix = ".json";
+constexpr std::string_view rules_suffix = ".json";
 
 RuleFigure figure_named(const std::string& name) {
   for (std::size_t i = 0; i < rule_figure_count; ++i) {
@@ -60,7 +60,7 @@ RuleClause clause_of(const nlohmann::json& json, const nlohmann::json& book) {
 
 RuleBook book_of(const std::string& id) {
   const nlohmann::json json = nlohmann::json::parse(
-      embedded_file(std::string(rules_folder) + id + std::string(json_suffix)));
+      embedded_file(std::string(rules_folder) + id + std::string(rules_suffix)));
   RuleBook book{id,
                 json.at("title").get<std::string>(),
                 json.at("scope").get<std::string>(),
@@ -84,8 +84,8 @@ std::vector<std::string> rule_book_ids() {
   std::vector<std::string> ids;
   for (const EmbeddedFile& file : embedded_files()) {
     if (!file.name.starts_with(rules_folder)) continue;
-    ids.emplace_back(file.name.substr(rules_folder.size(),
-                                      file.name.size() - rules_folder.size() - json_suffix.size()));
+    ids.emplace_back(file.name.substr(
+        rules_folder.size(), file.name.size() - rules_folder.size() - rules_suffix.size()));
   }
   return ids;
 }

@@ -59,7 +59,7 @@ std::string clause_words(const RuleCheck& check) {
   return out;
 }
 
-ordered_json check_json(const RuleCheck& check) {
+ordered_json clause_json(const RuleCheck& check) {
   const RuleClause& clause = check.clause;
   return {{"id", clause.id},
           {"document", clause.document},
@@ -144,7 +144,7 @@ ordered_json rules_json(const std::string& name, const RuleStudy& study) {
            {{"pass", study.count(RuleVerdict::pass)},
             {"fail", study.count(RuleVerdict::fail)},
             {"unknown", study.count(RuleVerdict::unknown)}}},
-          {"clauses", json_list(study.checks, check_json)}};
+          {"clauses", json_list(study.checks, clause_json)}};
 }
 
 std::string rules_csv(const RuleStudy& study) {
@@ -152,7 +152,7 @@ std::string rules_csv(const RuleStudy& study) {
       "id,document,clause,edition,figure,unit,least,greatest,comparison,limit,margin_percent,"
       "verdict,because\n";
   for (const RuleCheck& check : study.checks) {
-    const ordered_json row = check_json(check);
+    const ordered_json row = clause_json(check);
     out += csv_line({row["id"], row["document"], row["clause"], row["edition"], row["figure"],
                      row["unit"], row["value"][0], row["value"][1], row["comparison"], row["limit"],
                      row["margin_percent"], row["verdict"], row["because"]});
