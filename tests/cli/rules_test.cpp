@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string large = project_file("examples/tethered-25kg.json");
+const std::string octocopter = project_file("examples/tethered-25kg.json");
 
 json rules_of(const std::string& spec, const std::string& book) {
   return json::parse(run_tethercalc({"rules", spec, "--rules", book, "--format", "json"}).out);
@@ -48,10 +48,10 @@ TEST_CASE("the published drone keeps mass and tether length of class C3; its str
 }
 
 TEST_CASE("a large system on 100 m fails the tether's length of class C3 and exits with 1") {
-  const Ran run = run_tethercalc({"rules", large, "--rules", "eu-c3"});
+  const Ran run = run_tethercalc({"rules", octocopter, "--rules", "eu-c3"});
   CHECK(run.exit_code == 1);
   CHECK(widest_line(run.out) <= 100);
-  const json answer = rules_of(large, "eu-c3");
+  const json answer = rules_of(octocopter, "eu-c3");
   CHECK(verdict_of(answer, "tether-length") == "fail");
   CHECK(verdict_of(answer, "tether-strength") == "pass");
   // 23.9 kg without the tether that it lifts, more than 25 kg with it.
@@ -79,7 +79,7 @@ TEST_CASE("every clause is told with document, number and edition") {
 TEST_CASE("no form of the answer calls anything safe") {
   const TemporaryFolder folder;
   const std::string page = (folder.path() / "page.html").string();
-  for (const std::string& spec : {published, large}) {
+  for (const std::string& spec : {published, octocopter}) {
     for (const char* book : {"eu-c3", "uk", "us", "electrical"}) {
       for (const char* format : {"table", "json", "csv"}) {
         CHECK_FALSE(
@@ -87,7 +87,7 @@ TEST_CASE("no form of the answer calls anything safe") {
       }
     }
   }
-  run_tethercalc({"report", large, "--rules", "eu-c3", "--output", page});
+  run_tethercalc({"report", octocopter, "--rules", "eu-c3", "--output", page});
   const std::string html = file_text(page);
   const std::size_t begin = html.find("id=\"rules\"");
   REQUIRE(begin != std::string::npos);
