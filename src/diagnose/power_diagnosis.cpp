@@ -60,6 +60,18 @@ std::string lacking(const Effect& effect, const PowerLog& log) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// What a stage is compared by, where the bus's power was not measured itself.
+std::string channels_needed(Stage stage, bool free_flight) {
+  PowerLog empty;
+  empty.free_flight = free_flight;
+  const auto needed = compared_channels(stage, empty);
+  std::vector<std::string_view> names;
+  for (const PowerChannel& channel : power_channels) {
+    if (contains(needed, channel.values)) names.push_back(channel.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 /// Throws where the log can show no part of the chain.
 void check_stages(const PowerLog& log) {
   const bool has_stage = is_measured(Stage::tether, log) || is_measured(Stage::converter, log) ||
@@ -70,14 +82,15 @@ void check_stages(const PowerLog& log) {
         "supply_current_A; was it flown on the tether?");
   }
   if (has_stage) return;
-  const std::string bus = "bus_voltage_V and bus_current_A (or bus_power_W)";
+  const auto of = [&](Stage stage) { return channels_needed(stage, log.free_flight); };
   throw std::invalid_argument(
-      log.free_flight
-          ? fmt::format("nothing of the motors was measured: a free flight needs {}", bus)
-          : fmt::format("no part of the chain was measured whole; the motors need height_m, "
-                        "airspeed_m_s, {0}; the converter supply_current_A, drone_voltage_V, {0}; "
-                        "the tether supply_voltage_V, supply_current_A, drone_voltage_V, height_m",
-                        bus));
+      (log.free_flight
+           ? fmt::format("nothing of the motors was measured: a free flight needs {}",
+                         of(Stage::motors))
+           : fmt::format("no part of the chain was measured whole; the motors need {}; the "
+                         "converter {}; the tether {}",
+                         of(Stage::motors), of(Stage::converter), of(Stage::tether))) +
+      "; bus_power_W will do for bus_voltage_V and bus_current_A");
 }
 
 /// Blocks are equal stretches of time.
