@@ -32,7 +32,7 @@ constexpr std::ptrdiff_t fewest_power_samples = 100;
 /// Of a false name in the whole catalogue, were the noise known exactly. Its memory is estimated
 /// from some 200 rows, which makes the tails heavier; measured rates stand in
 /// docs/diagnosis-power.md.
-constexpr double false_alarm_probability = 0.002;
+constexpr double chance_of_a_false_alarm = 0.002;
 
 void check_lengths(const PowerLog& log) {
   for (const PowerChannel& channel : power_channels) {
@@ -348,7 +348,7 @@ Selection search(PowerLogModel& view, const SelectionProgress& progress) {
   problem.unnamed = power_shapes(residuals);
   behind_stages();
   SelectionOptions options;
-  options.false_alarm_probability = false_alarm_probability;
+  options.false_alarm_probability = chance_of_a_false_alarm;
   // Few rows tell of the airframe: what they gain is not to drown in those of the line.
   if (view.tilt()) options.least_gain_percent *= share_in_the_air(view);
   Selection selection = select_subset(problem, options, progress);
@@ -589,7 +589,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   std::optional<TiltComparison> tilt;
   if (shown_by_tilt) {
     tilt = TiltComparison::of(*shown_by_tilt, base, residuals.log(),
-                              false_alarm_probability / static_cast<double>(effects.size()),
+                              chance_of_a_false_alarm / static_cast<double>(effects.size()),
                               diagnosis.notes);
   }
   PowerLogModel view(base, residuals, tilt, effects, {base_effects.begin(), base_effects.end()});
@@ -605,7 +605,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
       std::round(static_cast<double>(selection.rows - (tilt ? tilt->rows() : 0)) /
                  static_cast<double>(residuals.stages().size()));
   diagnosis.unexplained.undetectable_percent = undetectable_percent(
-      diagnosis.effective_samples, view.problem.unnamed.size(), false_alarm_probability);
+      diagnosis.effective_samples, view.problem.unnamed.size(), chance_of_a_false_alarm);
   size_up(view, selection, diagnosis.unexplained);
   compare_stages(residuals, view, selection, diagnosis);
   if (tilt) compare_tilt(view, selection, diagnosis);
