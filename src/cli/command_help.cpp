@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "report/characters.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/explanation.hpp"
@@ -22,7 +23,7 @@ std::string entry(const std::string& left, const std::string& right, std::size_t
   constexpr std::size_t second = 26;
   const std::string indent(second, ' ');
   std::string out = wrapped(right, columns, indent);
-  const std::size_t used = 2 + display_width(left);
+  const std::size_t used = 2 + std::size_t(columns_of(left));
   if (used + 2 > second) return "  " + left + "\n" + out;
   return out.replace(0, used, "  " + left);
 }

@@ -396,8 +396,18 @@ class CommandLine {
         .option("--spec SPEC", motor_.spec.file, "The drone that flew it: mass, motors, drag, air")
         .repeatable("--set PATH=VALUE", motor_.spec.overrides,
                     "Change a field of that spec: path=value")
+        .group("Autopilot")
+        .option("--parameters ardupilot", motor_.autopilot,
+                "Print MOT_THST_EXPO from the throttles of the tables instead")
+        .option("--spin-min X", motor_.spin_min, "MOT_SPIN_MIN (default: 0.15)")
+        .option("--spin-max X", motor_.spin_max, "MOT_SPIN_MAX (default: 0.95)")
+        .option("--pwm-min-us US", motor_.pwm_min_us,
+                "MOT_PWM_MIN, of throttles in µs (default: 1000)")
+        .option("--pwm-max-us US", motor_.pwm_max_us,
+                "MOT_PWM_MAX, of throttles in µs (default: 2000)")
         .output(output_)
-        .examples({"tethercalc motor bench.csv --output my-motor.json"});
+        .examples({"tethercalc motor bench.csv --output my-motor.json",
+                   "tethercalc motor bench.csv --parameters ardupilot --output expo.param"});
     add("sweep", "One row a design, for every combination or a sample of values",
         [this] { return run_sweep(sweep_); })
         .spec(sweep_.spec)

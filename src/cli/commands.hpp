@@ -187,6 +187,11 @@ struct MotorOptions {
   std::string power_log;               ///< or: of a free flight, with the greatest thrust and
   SpecOptions spec;                    ///< the drone that flew
   std::vector<std::string> batteries;  ///< see battery_numbers
+  std::string autopilot;               ///< "ardupilot": print its thrust curve instead
+  std::optional<double> spin_min;      ///< see SpinRange
+  std::optional<double> spin_max;
+  std::optional<double> pwm_min_us;  ///< see PulseRange
+  std::optional<double> pwm_max_us;
 };
 
 /// Shows a motor, or writes it as a motor file: as JSON, which an output file ending in .json is.

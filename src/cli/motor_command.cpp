@@ -10,6 +10,7 @@
 #include "files/input_files.hpp"
 #include "io/checked_values.hpp"
 #include "tethercalc/files/read_files.hpp"
+#include "tethercalc/identify/thrust_expo.hpp"
 #include "tethercalc/io/motor_bench.hpp"
 #include "tethercalc/report/motor_report.hpp"
 #include "tethercalc/study/motor.hpp"
@@ -17,11 +18,50 @@
 namespace tethercalc::cli {
 namespace {
 
+bool is_motor_file(const std::string& file) { return file.ends_with(".json"); }
+
 void check_between(Problems& problems, const char* option, const std::optional<double>& value,
                    double least, double most, const char* unit) {
   if (!value || (*value > least && *value <= most)) return;
   problems.add(option, fmt::format("{:g} is out of range; allowed is above {:g} up to {:g} {}",
                                    *value, least, most, unit));
+}
+
+void check_autopilot(const MotorOptions& options, Problems& problems) {
+  if (options.autopilot.empty()) {
+    const auto unused = [&](const char* option, const std::optional<double>& value) {
+      if (value) problems.add(option, "belongs to --parameters ardupilot; give it");
+    };
+    unused("--spin-min", options.spin_min);
+    unused("--spin-max", options.spin_max);
+    unused("--pwm-min-us", options.pwm_min_us);
+    unused("--pwm-max-us", options.pwm_max_us);
+    return;
+  }
+  if (options.autopilot != "ardupilot") {
+    problems.add(
+        "--parameters",
+        fmt::format("\"{}\" has no thrust curve here; allowed is ardupilot", options.autopilot));
+  }
+  const auto is_table = [](const std::string& file) { return !is_motor_file(file); };
+  if (options.files.empty() || !std::ranges::all_of(options.files, is_table)) {
+    problems.add("--parameters", "needs tables of a thrust stand with a throttle");
+  }
+  const auto in = [&](const char* option, const std::optional<double>& value, double least,
+                      double most) {
+    if (!value || (*value >= least && *value <= most)) return;
+    problems.add(option,
+                 fmt::format("{:g} is out of range; allowed is {:g} to {:g}", *value, least, most));
+  };
+  // As ArduPilot documents them.
+  in("--spin-min", options.spin_min, 0, 0.3);
+  in("--spin-max", options.spin_max, 0.9, 1);
+  in("--pwm-min-us", options.pwm_min_us, 0, 2000);
+  in("--pwm-max-us", options.pwm_max_us, 0, 2000);
+  const PulseRange usual;
+  if (options.pwm_min_us.value_or(usual.least) >= options.pwm_max_us.value_or(usual.most)) {
+    problems.add("--pwm-min-us", "must be below --pwm-max-us");
+  }
 }
 
 /// Every problem of the options by themselves.
@@ -48,6 +88,7 @@ void check(const MotorOptions& options) {
   if (!flown && !(options.spec.file.empty() && options.spec.overrides.empty())) {
     problems.add("--spec", "is the drone that flew a --power-log; give one");
   }
+  check_autopilot(options, problems);
   const bool generic = options.figure_of_merit || options.max_thrust_g || flown;
   if (!options.files.empty() && generic) {
     problems.add(flown                     ? "--power-log"
@@ -222,23 +263,76 @@ void check_merit(const MotorEntry& motor) {
                   *best, point.thrust / unit::gram_force, point.power, *motor.propeller_in));
 }
 
-bool is_motor_file(const std::string& file) { return file.ends_with(".json"); }
+MotorBench read_bench(const MotorOptions& options) {
+  std::vector<LoadedText> tables;
+  for (const std::string& file : options.files) tables.push_back(read_text_file(file));
+  return motor_from_bench(tables, {options.columns, options.where});
+}
 
 ShownMotor shown_motor(const MotorOptions& options) {
   if (!options.power_log.empty()) return motor_of_flight(options);
   if (options.files.empty()) return generic_motor(options);
   if (std::ranges::any_of(options.files, is_motor_file)) return motor_of_json(options);
-  std::vector<LoadedText> tables;
-  for (const std::string& file : options.files) tables.push_back(read_text_file(file));
   ShownMotor out;
-  out.motor = motor_from_bench(tables, {options.columns, options.where}).motor;
+  out.motor = read_bench(options).motor;
   return out;
+}
+
+/// The throttles of a bench as outputs.
+std::vector<ThrottledThrust> outputs_of(const MotorBench& bench, const std::string& file,
+                                        const PulseRange& pulses) {
+  const bool has_throttle = std::ranges::any_of(
+      bench.throttled, [](const MotorBench::Row& row) { return std::isfinite(row.throttle); });
+  if (!has_throttle) {
+    throw InputError(file,
+                     "has no column of the throttle, from which --parameters is fitted; say "
+                     "which is: --columns throttle_percent=HEADER or throttle_us=HEADER");
+  }
+  if (bench.throttle_unit == ThrottleUnit::unknown) {
+    throw InputError(file,
+                     "does not say what its throttle is counted in; say it: --columns "
+                     "throttle_percent=HEADER or throttle_us=HEADER");
+  }
+  const bool is_pulse = bench.throttle_unit == ThrottleUnit::microseconds;
+  std::vector<ThrottledThrust> out;
+  for (const MotorBench::Row& row : bench.throttled) {
+    const double output = is_pulse ? (row.throttle - pulses.least) / (pulses.most - pulses.least)
+                                   : row.throttle / 100;
+    out.push_back({output, row.thrust});
+  }
+  return out;
+}
+
+/// Prints the thrust curve in the terms of an autopilot.
+void print_thrust_curve(const MotorOptions& options, const Output& output) {
+  if (output.format != Format::table) {
+    throw InputError("--parameters", "and --format each ask for another answer; give one");
+  }
+  MotorBench bench = read_bench(options);
+  apply(options, bench.motor);
+  const SpinRange range{options.spin_min.value_or(SpinRange{}.least),
+                        options.spin_max.value_or(SpinRange{}.most)};
+  const PulseRange pulses{options.pwm_min_us.value_or(PulseRange{}.least),
+                          options.pwm_max_us.value_or(PulseRange{}.most)};
+  const std::string& file = options.files.front();
+  try {
+    const ThrustExpo curve = fit_thrust_expo(outputs_of(bench, file, pulses), range);
+    const bool is_pulse = bench.throttle_unit == ThrottleUnit::microseconds;
+    emit(output, thrust_expo_file(bench.motor, curve, range,
+                                  is_pulse ? std::optional(pulses) : std::nullopt));
+  } catch (const UnsuitableThrottle& error) {
+    throw InputError(file, error.what());
+  }
 }
 
 }  // namespace
 
 int run_motor(const MotorOptions& options, Output output) {
   check(options);
+  if (!options.autopilot.empty()) {
+    print_thrust_curve(options, output);
+    return done;
+  }
   ShownMotor shown = shown_motor(options);
   apply(options, shown.motor);
   check_merit(shown.motor);

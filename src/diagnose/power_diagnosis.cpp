@@ -32,7 +32,7 @@ constexpr std::ptrdiff_t fewest_power_samples = 100;
 /// Of a false name in the whole catalogue, were the noise known exactly. Its memory is estimated
 /// from some 200 rows, which makes the tails heavier; measured rates stand in
 /// docs/diagnosis-power.md.
-constexpr double false_alarm_probability = 0.002;
+constexpr double chance_of_a_false_alarm = 0.002;
 
 void check_lengths(const PowerLog& log) {
   for (const PowerChannel& channel : power_channels) {
@@ -60,6 +60,18 @@ std::string lacking(const Effect& effect, const PowerLog& log) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// What a stage is compared by, where the bus's power was not measured itself.
+std::string channels_needed(Stage stage, bool free_flight) {
+  PowerLog empty;
+  empty.free_flight = free_flight;
+  const auto needed = compared_channels(stage, empty);
+  std::vector<std::string_view> names;
+  for (const PowerChannel& channel : power_channels) {
+    if (contains(needed, channel.values)) names.push_back(channel.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 /// Throws where the log can show no part of the chain.
 void check_stages(const PowerLog& log) {
   const bool has_stage = is_measured(Stage::tether, log) || is_measured(Stage::converter, log) ||
@@ -70,14 +82,15 @@ void check_stages(const PowerLog& log) {
         "supply_current_A; was it flown on the tether?");
   }
   if (has_stage) return;
-  const std::string bus = "bus_voltage_V and bus_current_A (or bus_power_W)";
+  const auto of = [&](Stage stage) { return channels_needed(stage, log.free_flight); };
   throw std::invalid_argument(
-      log.free_flight
-          ? fmt::format("nothing of the motors was measured: a free flight needs {}", bus)
-          : fmt::format("no part of the chain was measured whole; the motors need height_m, "
-                        "airspeed_m_s, {0}; the converter supply_current_A, drone_voltage_V, {0}; "
-                        "the tether supply_voltage_V, supply_current_A, drone_voltage_V, height_m",
-                        bus));
+      (log.free_flight
+           ? fmt::format("nothing of the motors was measured: a free flight needs {}",
+                         of(Stage::motors))
+           : fmt::format("no part of the chain was measured whole; the motors need {}; the "
+                         "converter {}; the tether {}",
+                         of(Stage::motors), of(Stage::converter), of(Stage::tether))) +
+      "; bus_power_W will do for bus_voltage_V and bus_current_A");
 }
 
 /// Blocks are equal stretches of time.
@@ -335,7 +348,7 @@ Selection search(PowerLogModel& view, const SelectionProgress& progress) {
   problem.unnamed = power_shapes(residuals);
   behind_stages();
   SelectionOptions options;
-  options.false_alarm_probability = false_alarm_probability;
+  options.false_alarm_probability = chance_of_a_false_alarm;
   // Few rows tell of the airframe: what they gain is not to drown in those of the line.
   if (view.tilt()) options.least_gain_percent *= share_in_the_air(view);
   Selection selection = select_subset(problem, options, progress);
@@ -576,7 +589,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   std::optional<TiltComparison> tilt;
   if (shown_by_tilt) {
     tilt = TiltComparison::of(*shown_by_tilt, base, residuals.log(),
-                              false_alarm_probability / static_cast<double>(effects.size()),
+                              chance_of_a_false_alarm / static_cast<double>(effects.size()),
                               diagnosis.notes);
   }
   PowerLogModel view(base, residuals, tilt, effects, {base_effects.begin(), base_effects.end()});
@@ -592,7 +605,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
       std::round(static_cast<double>(selection.rows - (tilt ? tilt->rows() : 0)) /
                  static_cast<double>(residuals.stages().size()));
   diagnosis.unexplained.undetectable_percent = undetectable_percent(
-      diagnosis.effective_samples, view.problem.unnamed.size(), false_alarm_probability);
+      diagnosis.effective_samples, view.problem.unnamed.size(), chance_of_a_false_alarm);
   size_up(view, selection, diagnosis.unexplained);
   compare_stages(residuals, view, selection, diagnosis);
   if (tilt) compare_tilt(view, selection, diagnosis);

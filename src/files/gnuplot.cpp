@@ -10,8 +10,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <map>
+#include <cstdlib>
 #include <memory>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -91,25 +93,40 @@ Ended run_program(std::vector<std::string> words, const std::string& input) {
           .err = content(err.get())};
 }
 
-/// Whether some font has the character; fc-list comes with the library that draws gnuplot's
+/// Those of `characters` that some font has; fc-list comes with the library that draws gnuplot's
 /// letters.
-bool has_font(std::uint32_t character) {
-  constexpr std::uint32_t latin_end = 0x250;
-  if (character < latin_end) return true;
-  const Ended asked =
-      run_program({"fc-list", fmt::format(":charset={:x}", character), "family"}, "");
-  return asked.well && !asked.out.empty();
+std::set<std::uint32_t> with_a_font(const std::set<std::uint32_t>& characters) {
+  std::set<std::uint32_t> found;
+  if (characters.empty()) return found;
+  // All fonts at once, each as one line of ranges: "20-7e a0-17f 2010".
+  const Ended asked = run_program({"fc-list", "--format", "%{charset}\n"}, "");
+  if (!asked.well) return found;
+  std::istringstream ranges(asked.out);
+  for (std::string range; ranges >> range;) {
+    const std::size_t dash = range.find('-');
+    const auto hex = [](const std::string& text) {
+      return static_cast<std::uint32_t>(std::strtoul(text.c_str(), nullptr, 16));
+    };
+    const std::uint32_t first = hex(range);
+    const std::uint32_t last = dash == std::string::npos ? first : hex(range.substr(dash + 1));
+    const auto end = characters.upper_bound(last);
+    for (auto at = characters.lower_bound(first); at != end; ++at) found.insert(*at);
+  }
+  return found;
 }
 
 /// The script with a box for every character that no font has: gnuplot draws them as boxes of its
 /// own, with their number in digits, many times as large as letters.
 std::string with_fonts(const std::string& script) {
-  std::map<std::uint32_t, bool> known;
+  constexpr std::uint32_t latin_end = 0x250;  // every font has them
+  std::set<std::uint32_t> rare;
+  for_each_character(script, [&](std::uint32_t character, std::string_view) {
+    if (character >= latin_end) rare.insert(character);
+  });
+  const std::set<std::uint32_t> drawable = with_a_font(rare);
   std::string out;
   for_each_character(script, [&](std::uint32_t character, std::string_view bytes) {
-    const auto [at, first] = known.try_emplace(character, true);
-    if (first) at->second = has_font(character);
-    out += at->second ? bytes : "\u25A1";
+    out += character < latin_end || drawable.contains(character) ? bytes : "\u25A1";
   });
   return out;
 }

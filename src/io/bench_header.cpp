@@ -147,6 +147,11 @@ std::string without_qualifiers(std::string text) {
   return text;
 }
 
+ThrottleUnit throttle_unit_of(std::string_view unit) {
+  if (unit == "percent" || unit == "%") return ThrottleUnit::percent;
+  return unit == "us" || unit == "µs" ? ThrottleUnit::microseconds : ThrottleUnit::unknown;
+}
+
 }  // namespace
 
 std::optional<BenchColumnMeaning> bench_column_meaning(std::string_view header) {
@@ -158,17 +163,19 @@ std::optional<BenchColumnMeaning> bench_column_meaning(std::string_view header) 
         parts.unit.size() >= 3 && unit != units.end() &&
         (unit->quantity == BenchQuantity::power || unit->quantity == BenchQuantity::voltage ||
          unit->quantity == BenchQuantity::current);
-    return spelt_out ? std::optional(BenchColumnMeaning{unit->quantity, unit->factor})
+    return spelt_out ? std::optional(
+                           BenchColumnMeaning{unit->quantity, unit->factor, ThrottleUnit::unknown})
                      : std::nullopt;
   }
   const auto word =
       std::ranges::find(quantity_words, name, &std::pair<std::string_view, BenchQuantity>::first);
   if (word == quantity_words.end()) return std::nullopt;
-  // A throttle only tells which rows belong together: its unit does not matter.
-  if (word->second == BenchQuantity::throttle)
-    return BenchColumnMeaning{BenchQuantity::throttle, 1};
+  // A throttle may be in any unit: mostly it only tells which rows belong together.
+  if (word->second == BenchQuantity::throttle) {
+    return BenchColumnMeaning{BenchQuantity::throttle, 1, throttle_unit_of(parts.unit)};
+  }
   if (unit == units.end() || unit->quantity != word->second) return std::nullopt;
-  return BenchColumnMeaning{unit->quantity, unit->factor};
+  return BenchColumnMeaning{unit->quantity, unit->factor, ThrottleUnit::unknown};
 }
 
 std::string bench_column_words(std::string_view header) { return parts_of(header).words; }

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "tethercalc/io/motor_bench.hpp"
+
 namespace tethercalc {
 
 /// What a column of a thrust-stand table may hold.
@@ -16,6 +18,7 @@ struct BenchColumnMeaning {
   /// Turns its numbers into grams-force, watts, grams-force per watt, volts, amperes or, of a
   /// throttle, whatever it is counted in.
   double factor = 1;
+  ThrottleUnit throttle_unit = ThrottleUnit::unknown;  ///< of a throttle
 };
 
 /// The meaning of a header's cell, such as "Thrust (g)", "Thrust [N]", "thrust_kgf", "Power, W",

@@ -9,7 +9,7 @@ namespace {
 
 constexpr FieldRange positive{.min = 0, .max = 1e12, .min_excluded = true};
 constexpr FieldRange not_negative{.min = 0, .max = 1e12};
-constexpr FieldRange any{.min = -1e12, .max = 1e12};
+constexpr FieldRange any_length{.min = -1e12, .max = 1e12};
 
 constexpr SpecField field(std::string_view pointer, const FieldRange& range, std::string_view unit,
                           std::string_view help) {
@@ -40,7 +40,7 @@ constexpr std::array plane_fields{
     field("/w_N_per_m", positive, "N/m", "Weight."),
     stiffness_field(),
     field("/x_m", not_negative, "m", "The drone's distance aside."),
-    field("/z_m", any, "m", "The drone's height."),
+    field("/z_m", any_length, "m", "The drone's height."),
 };
 
 constexpr std::array space_fields{
@@ -59,7 +59,7 @@ std::optional<Vector3> read_vector(const JsonPlace& place, Problems& problems) {
     return problems.refuse(place.where(), "expected a list of three numbers");
   }
   std::array<double, 3> numbers{};
-  constexpr SpecField component = field("", any, "", "");
+  constexpr SpecField component = field("", any_length, "", "");
   bool read = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto number = checked_number(place.element(i), component, problems);

@@ -24,8 +24,10 @@ namespace {
 constexpr double believed_step = 60;  // s, see LogSummary
 constexpr double shortest_gap = 1;    // s
 constexpr std::size_t most_gaps_told = 100;
+constexpr double longest_pause = 10;  // s of a drone in the air that hardly moves
 
 // LogEvent in ArduPilot's libraries/AP_Logger/AP_Logger.h.
+constexpr double event_disarmed = 11;
 constexpr double event_land_complete = 18;
 constexpr double event_not_landed = 28;
 
@@ -146,6 +148,7 @@ class FlyingByEvents {
       if (!since_ && !any_) since_ = log_start;
       land(now);
     }
+    if (event == event_disarmed) land(now);
     any_ = any_ || event == event_not_landed || event == event_land_complete;
   }
   /// PX4's detector says again and again what is.
@@ -154,9 +157,21 @@ class FlyingByEvents {
     if (landed) land(now);
     any_ = true;
   }
-  std::optional<LogSummary::Flying> finish(double log_end, std::string determined_by) {
-    if (!any_) return std::nullopt;
-    land(log_end);
+
+  [[nodiscard]] bool any() const { return any_; }
+  /// Whether the last flight has not been ended.
+  [[nodiscard]] bool in_the_air() const { return since_.has_value(); }
+
+  /// A last flight that nothing ended lasts to the end of the log, or to the last of what is
+  /// `moving`, where that is long before.
+  LogSummary::Flying finish(double log_end, const std::optional<LogSummary::Flying>& moving,
+                            std::string determined_by) {
+    if (since_) {
+      const bool moved = moving && moving->whole && moving->whole->end > *since_;
+      const bool rests = moved && log_end - moving->whole->end > longest_pause;
+      if (rests) determined_by += ", and for want of the last landing the last movement";
+      land(rests ? moving->whole->end : log_end);
+    }
     return flying_of(std::move(flights_), std::move(determined_by));
   }
 
@@ -173,7 +188,6 @@ class FlyingByEvents {
 
 LogSummary::Flying flying_by_speed(const FlightLogReading& reading) {
   constexpr double slowest = 0.5;         // m/s, above the velocity noise of an EKF at rest
-  constexpr double longest_pause = 10;    // s
   constexpr double shortest_stretch = 2;  // s
   const FlightLog& log = reading.log;
   std::vector<LogSummary::Flight> flights;
@@ -327,7 +341,8 @@ struct Walk {
 
 Walk walk_through(const AutopilotLog& log) {
   Walk walk;
-  auto& [clock, events] = walk;
+  Clock& clock = walk.clock;  // no structured binding: clang 14 captures none
+  FlyingByEvents& events = walk.events;
   std::map<const LogMessageType*, FieldsInUse> fields_of;
   const LogMessageType* last_type = nullptr;
   FieldsInUse* last_fields = nullptr;
@@ -358,24 +373,31 @@ Walk walk_through(const AutopilotLog& log) {
   return walk;
 }
 
-/// As the controller tells it, if it does.
-std::optional<LogSummary::Flying> flying_by_events(const AutopilotLog& log, Walk& walk) {
-  if (!walk.clock.last) return std::nullopt;
-  return walk.events.finish(*walk.clock.last, log.format() == LogFormat::ulog
-                                                  ? "vehicle_land_detected"
-                                                  : "the controller's take-off and landing events");
+/// As the controller tells it, if it does, else by the speed of `flight`, where it could be read.
+std::optional<LogSummary::Flying> flying_in(const AutopilotLog& log, Walk& walk,
+                                            const std::optional<FlightLogReading>& flight) {
+  std::optional<LogSummary::Flying> moving;
+  if (flight) moving = flying_by_speed(*flight);
+  if (!walk.events.any()) return moving;
+  return walk.events.finish(*walk.clock.last, moving,
+                            log.format() == LogFormat::ulog
+                                ? "vehicle_land_detected"
+                                : "the controller's take-off and landing events");
 }
 
 }  // namespace
 
 std::optional<LogSummary::Flying> time_in_the_air(const AutopilotLog& log) {
   Walk walk = walk_through(log);
-  if (auto told = flying_by_events(log, walk)) return told;
-  try {
-    return flying_by_speed(parse_flight_log(log));
-  } catch (const InputError&) {
-    return std::nullopt;  // nothing to tell speeds by
+  std::optional<FlightLogReading> flight;
+  if (!walk.events.any() || walk.events.in_the_air()) {
+    try {
+      flight = parse_flight_log(log);
+    } catch (const InputError&) {
+      flight.reset();  // nothing to tell speeds by
+    }
   }
+  return flying_in(log, walk, flight);
 }
 
 LogSummary summarize_log(const AutopilotLog& log) {
@@ -400,8 +422,7 @@ LogSummary summarize_log(const AutopilotLog& log) {
   } catch (const InputError& error) {
     obstacle = error.problems().front().message;
   }
-  summary.flying = flying_by_events(log, walk);
-  if (!summary.flying && flight) summary.flying = flying_by_speed(*flight);
+  summary.flying = flying_in(log, walk, flight);
   summary.batteries = batteries_in(log);
   summary.wind = wind_in(log);
   summary.uses = uses_of(log, summary, flight, obstacle);

@@ -77,17 +77,22 @@ std::vector<std::string> names_of(const std::vector<LoggedBattery>& batteries) {
 std::vector<LoggedBattery> chosen_batteries(const AutopilotLog& log,
                                             const std::vector<int>& numbers) {
   std::vector<LoggedBattery> all = logged_batteries(log);
+  const bool is_px4 = log.format() == LogFormat::ulog;
   if (all.empty()) {
     fail_in(log.name(),
-            "no voltage and no current in the log: it has no BAT, CURR or battery_status messages "
-            "(ArduPilot: BATT_MONITOR, and the bit of the battery in LOG_BITMASK)");
+            is_px4
+                ? "no voltage and no current in the log: it has no battery_status messages "
+                  "(BAT1_SOURCE says where PX4 measures, bit 0 of SDLOG_PROFILE that it is logged)"
+                : "no voltage and no current in the log: it has no BAT or CURR messages "
+                  "(BATT_MONITOR, and the bit of the battery in LOG_BITMASK)");
   }
   std::vector<LoggedBattery> measured;
   std::ranges::copy_if(all, std::back_inserter(measured), &LoggedBattery::measures_current);
   if (measured.empty()) {
-    fail_in(log.name(), fmt::format("no current in {}: it has a voltage, but its current is always "
-                                    "0 or unknown; is there a sensor, and BATT_MONITOR set to it?",
-                                    fmt::join(names_of(all), ", ")));
+    fail_in(log.name(),
+            fmt::format("no current in {}: it has a voltage, but its current is always "
+                        "0 or unknown; is there a sensor, and {} set to it?",
+                        fmt::join(names_of(all), ", "), is_px4 ? "BAT1_SOURCE" : "BATT_MONITOR"));
   }
   if (numbers.empty()) {
     if (measured.size() == 1) return measured;

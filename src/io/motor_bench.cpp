@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "io/bench_header.hpp"
@@ -105,6 +106,7 @@ std::vector<NamedColumn> named_columns(const std::vector<std::string>& given, Pr
 /// Where a table holds what.
 struct Columns {
   std::map<BenchQuantity, std::pair<std::size_t, double>> found;  ///< index and factor
+  ThrottleUnit throttle_unit = ThrottleUnit::unknown;
   std::vector<std::string> problems;
   std::vector<std::string> notes;
 
@@ -123,13 +125,20 @@ Columns columns_of(const std::vector<std::string>& header, const std::vector<Nam
     if (at == header.end()) continue;
     out.found[column.meaning.quantity] = {static_cast<std::size_t>(at - header.begin()),
                                           column.meaning.factor};
+    if (column.meaning.quantity == BenchQuantity::throttle) {
+      out.throttle_unit = column.meaning.throttle_unit;
+    }
     by_name[column.meaning.quantity] = true;
   }
   for (std::size_t i = 0; i < header.size(); ++i) {
     const auto meaning = bench_column_meaning(header[i]);
     if (!meaning || by_name[meaning->quantity]) continue;
     const auto [before, is_new] = out.found.try_emplace(meaning->quantity, i, meaning->factor);
-    if (is_new || meaning->quantity == BenchQuantity::throttle) continue;
+    if (meaning->quantity == BenchQuantity::throttle) {
+      if (is_new) out.throttle_unit = meaning->throttle_unit;
+      continue;
+    }
+    if (is_new) continue;
     const std::string& first = header[before->second.first];
     if (before->second.second == meaning->factor) {
       out.problems.push_back(
@@ -569,6 +578,7 @@ MotorBench motor_from_bench(std::span<const LoadedText> tables, const MotorBench
   problems.throw_if_any();
   std::vector<Measured> rows;
   std::vector<std::string> names;
+  std::set<ThrottleUnit> throttle_units;
   for (const LoadedText& input : tables) {
     names.push_back(as_utf8(input.name.substr(input.name.find_last_of('/') + 1)));
     std::optional<Table> table = table_of(input, named, problems);
@@ -579,11 +589,14 @@ MotorBench motor_from_bench(std::span<const LoadedText> tables, const MotorBench
     if (problems.count() > before) continue;
     const std::vector<Measured> own = running_rows(*table, problems, out.motor.warnings);
     check_power(*table, own, out.motor.warnings);
+    throttle_units.insert(table->columns.throttle_unit);
     rows.insert(rows.end(), own.begin(), own.end());
   }
   problems.throw_if_any();
 
   out.rows = rows.size();
+  for (const Measured& row : rows) out.throttled.push_back({row.throttle, row.point.thrust});
+  if (throttle_units.size() == 1) out.throttle_unit = *throttle_units.begin();
   out.passes = passes_of(rows);
   const auto groups = grouped(rows, out.passes);
   std::vector<BenchPoint> points;

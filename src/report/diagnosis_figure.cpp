@@ -15,7 +15,7 @@ namespace {
 
 using plot::Colour;
 
-constexpr std::size_t most_dots = 250;  // a plot and series
+constexpr std::size_t most_dots_a_plot = 250;  // a plot and series
 
 /// Columns of equal length without the rows in which any value is missing.
 using Table = std::vector<std::vector<double>>;
@@ -31,7 +31,7 @@ Table complete_rows(const std::vector<std::span<const double>>& columns) {
 }
 
 Table thinned(const Table& rows) {
-  const std::size_t step = plot::thinning(rows.front().size(), most_dots);
+  const std::size_t step = plot::thinning(rows.front().size(), most_dots_a_plot);
   Table kept(rows.size());
   for (std::size_t c = 0; c < rows.size(); ++c) {
     for (std::size_t i = 0; i < rows[c].size(); i += step) kept[c].push_back(rows[c][i]);

@@ -29,7 +29,7 @@ template <typename Row>
 /// one around it.
 [[nodiscard]] inline Range with_margin(Range range, double margin = 0.05) {
   const auto [lo, hi] = range;
-  const double length = hi > lo ? hi - lo : std::max(1e-9, std::abs(hi));
+  const double length = hi > lo ? hi - lo : hi != 0 ? std::abs(hi) : 1;
   return {lo - margin * length, hi + margin * length};
 }
 

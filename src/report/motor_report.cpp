@@ -68,4 +68,32 @@ std::string motor_csv(const MotorEntry& motor) {
   return out;
 }
 
+std::string thrust_expo_file(const MotorEntry& motor, const ThrustExpo& curve,
+                             const SpinRange& range, const std::optional<PulseRange>& pulses) {
+  const auto commented = [](const std::string& sentence) { return wrapped(sentence, 92, "# "); };
+  std::string out = commented(
+      fmt::format("Thrust curve of {} for ArduPilot, fitted by tethercalc to {} rows of a thrust "
+                  "stand ({}).",
+                  motor.name, curve.rows, motor.source));
+  out += commented(fmt::format(
+      "Of the thrust between its ends the rows scatter by {:.1f} % around the curve, by {:.1f} % "
+      "around a straight line. At MOT_SPIN_MIN it has {} g, at MOT_SPIN_MAX {} g.",
+      100 * curve.scatter, 100 * curve.left_unbent, fixed(curve.idle_thrust / unit::gram_force, 0),
+      fixed(curve.full_thrust / unit::gram_force, 0)));
+  out += commented(
+      "It holds for this motor, propeller, speed controller and supply. Load with Mission Planner "
+      "(Full Parameter List, Load from file) or MAVProxy (param load); tune the rate controllers "
+      "after a change. https://ardupilot.org/copter/docs/motor-thrust-scaling.html tells more.");
+  out +=
+      commented(fmt::format("MOT_THST_EXPO, 95 % interval {} \u2026 {} if the rows are independent",
+                            fixed(curve.expo.lower, 3), fixed(curve.expo.upper, 3)));
+  out += fmt::format("MOT_THST_EXPO,{:.3f}\n", curve.expo.value);
+  out += commented("It was fitted between these, and goes with them:");
+  out += fmt::format("MOT_SPIN_MIN,{:g}\nMOT_SPIN_MAX,{:g}\n", range.least, range.most);
+  if (pulses) {
+    out += fmt::format("MOT_PWM_MIN,{:g}\nMOT_PWM_MAX,{:g}\n", pulses->least, pulses->most);
+  }
+  return out;
+}
+
 }  // namespace tethercalc

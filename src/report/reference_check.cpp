@@ -209,9 +209,11 @@ std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
     const std::string status(status_of(check));
     const std::string shown_status = check.passed() ? style.good(status) : style.bad(status);
     out += fmt::format("{}{}  {}  {}\n", shown_status, std::string(10 - status.size(), ' '),
-                       check.spec, style.subdued(check.name));
+                       printable(check.spec), style.subdued(printable(check.name)));
     if (check.passed()) continue;
-    for (const std::string& complaint : complaints(check)) out += "    " + complaint + "\n";
+    for (const std::string& complaint : complaints(check)) {
+      out += "    " + printable(complaint) + "\n";
+    }
   }
   out += fmt::format("{} designs: {} as recorded, {} drifted, {} without a record", checks.size(),
                      count_status(checks, "ok"), count_status(checks, "drifted"),

@@ -56,12 +56,12 @@ std::string header_row(const TextTable& table) {
 }
 
 std::string body_row(const TextTable& table, const TextTable::Row& row) {
-  constexpr std::size_t longest_word = 32;  // characters that stay in one line
+  constexpr int longest_word = 32;  // columns that stay in one line
   std::string out = row.emphasis ? "<tr class=\"main\">" : "<tr>";
   for (std::size_t c = 0; c < row.cells.size(); ++c) {
     const std::string& cell = row.cells[c];
     const bool number = table.columns()[c].align == TextTable::Align::right;
-    const char* kind = number ? "n" : display_width(cell) <= longest_word ? "word" : "prose";
+    const char* kind = number ? "n" : columns_of(cell) <= longest_word ? "word" : "prose";
     out += c == 0 ? element("th", cell, fmt::format(" scope=\"row\" class=\"{}\"", kind))
                   : element("td", cell, fmt::format(" class=\"{}\"", kind));
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "report/characters.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -34,22 +36,22 @@ void TextTable::add(std::vector<std::string> cells, bool emphasis) {
 }
 
 std::string TextTable::text(const TextStyle& style) const {
-  std::vector<std::size_t> widths;
+  std::vector<int> widths;
   std::vector<std::string> upper_titles;
   std::vector<std::string> lower_titles;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const auto [upper, lower] = title_lines(columns_[c].title);
     upper_titles.push_back(upper);
     lower_titles.push_back(lower);
-    std::size_t width = std::max(display_width(upper), display_width(lower));
-    for (const Row& row : rows_) width = std::max(width, display_width(row.cells[c]));
+    int width = std::max(columns_of(upper), columns_of(lower));
+    for (const Row& row : rows_) width = std::max(width, columns_of(row.cells[c]));
     widths.push_back(width);
   }
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string out = "  ";
     for (std::size_t c = 0; c < cells.size(); ++c) {
       if (c > 0) out += "  ";
-      const std::string padding(widths[c] - display_width(cells[c]), ' ');
+      const std::string padding(std::size_t(widths[c] - columns_of(cells[c])), ' ');
       out += columns_[c].align == Align::right ? padding + cells[c] : cells[c] + padding;
     }
     out.erase(out.find_last_not_of(' ') + 1);
@@ -85,19 +87,13 @@ std::string significant(double value, int digits) {
   return fixed(value, std::max(0, digits - magnitude));
 }
 
-std::size_t display_width(const std::string& text) {
-  // Bytes 10xxxxxx continue a character.
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 std::string wrapped(const std::string& text, std::size_t width, const std::string& indent) {
   std::istringstream words(text);
   std::string out;
   std::string line = indent;
   for (std::string word; words >> word;) {
     const bool first = line.size() == indent.size();
-    if (!first && display_width(line) + 1 + display_width(word) > width) {
+    if (!first && columns_of(line) + 1 + columns_of(word) > int(width)) {
       out += line + "\n";
       line = indent + word;
     } else {

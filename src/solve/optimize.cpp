@@ -54,12 +54,13 @@ void take(Optimization& result, const Flights& flights, double area) {
 }
 
 /// The same at `area`, or a hair's breadth inside where it is an edge beyond which a warm cable
-/// runs away or a reserve battery leaps, so that rounding may take it out.
+/// runs away or a reserve battery leaps, so that rounding may take it out. Where a cable runs away
+/// is known to about 1e-9, and differently by the search for the least power.
 void take_within(Optimization& result, const Flights& flights, const IntervalSet& areas,
                  double area) {
   take(result, flights, area);
   for (const Interval& range : areas) {
-    constexpr double rounding = 1e-14;
+    constexpr double rounding = 1e-8;
     const bool thinnest = area <= range.lo * (1 + rounding);
     if (!thinnest && area < range.hi * (1 - rounding)) continue;
     for (double share = 1e-15; share < 1e-5 && !result.feasible; share *= 10) {

@@ -118,7 +118,7 @@ TEST_CASE("evaluate takes the cable of the spec where no area is given") {
 TEST_CASE("compare ranks feasible motors by power and tells why the others are not") {
   const json answer = json::parse(
       run_tethercalc({"compare", published, "--motors", "all", "--format", "json"}).out);
-  REQUIRE(answer["motors"].size() == 30);
+  REQUIRE(answer["motors"].size() == 34);
   double power = 0;
   bool seen_infeasible = false;
   for (const json& motor : answer["motors"]) {

@@ -1,9 +1,11 @@
 // `motor`, and motors of one's own in other commands, through the real program.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "cli/published.hpp"
+#include "support/reference_data.hpp"
 #include "support/run_program.hpp"
 
 using namespace tethercalc::test;
@@ -144,4 +146,55 @@ TEST_CASE("a motor is learned from the power of a flight, and says how well") {
   const Ran bare = run_tethercalc({"motor", "--power-log", log});
   CHECK(bare.exit_code == 2);
   CHECK_THAT(bare.err, Contains("needs --spec SPEC"));
+}
+
+TEST_CASE("the thrust curve for ArduPilot comes from throttles in percent and in pulses alike") {
+  const TemporaryFolder folder;
+  const auto table = [&](const std::string& header, const std::function<double(int)>& throttle) {
+    const std::string file = (folder.path() / "bench.csv").string();
+    std::string text = header + ",thrust_g,power_W\n";
+    for (int i = 0; i <= 16; ++i) {  // MOT_SPIN_MIN to MOT_SPIN_MAX, with a bend of 0.4
+      const double a = i / 16.0;
+      const double grams = 50 + 900 * (0.6 * a + 0.4 * a * a);
+      text += std::to_string(throttle(15 + 5 * i)) + "," + std::to_string(grams) + "," +
+              std::to_string(grams / 8) + "\n";
+    }
+    write_file(file, text);
+    return file;
+  };
+  const auto percent = [](int output) { return double(output); };
+  const auto printed = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "motor");
+    arguments.insert(arguments.end(), {"--parameters", "ardupilot"});
+    return run_tethercalc(arguments);
+  };
+  const Ran by_percent = printed({table("throttle_percent", percent)});
+  CHECK(by_percent.exit_code == 0);
+  CHECK_THAT(by_percent.out, Contains("\nMOT_THST_EXPO,0.400\n") && !Contains("MOT_PWM_MIN"));
+  const auto pulse = [](int output) { return 1100 + 8.0 * output; };
+  const Ran by_pulse = printed(
+      {table("ESC signal (\u00B5s)", pulse), "--pwm-min-us", "1100", "--pwm-max-us", "1900"});
+  CHECK_THAT(by_pulse.out, Contains("\nMOT_THST_EXPO,0.400\n") && Contains("MOT_PWM_MIN,1100\n"));
+
+  const std::string unsaid = table("throttle", percent);
+  CHECK_THAT(printed({unsaid}).err, Contains("does not say what its throttle is counted in"));
+  CHECK_THAT(printed({unsaid, "--columns", "throttle_percent=throttle"}).out,
+             Contains("MOT_THST_EXPO,0.400"));
+  write_file(unsaid, "thrust_g,power_W\n100,10\n200,26\n");
+  const Ran without = printed({unsaid});
+  CHECK(without.exit_code == 2);
+  CHECK(without.out.empty());
+  CHECK_THAT(without.err, Contains("has no column of the throttle"));
+}
+
+TEST_CASE("the thrust curve of a real bench run is that of another least squares") {
+  const auto path = reference_file("data/bench/strawson_all.csv");
+  if (!path) return;
+  // By normal equations in plain Python over the eight rows between the spin limits.
+  for (const auto& [run, expo] : {std::pair{"f4_11", "0.303"}, std::pair{"g4_11", "0.471"}}) {
+    const Ran ran = run_tethercalc({"motor", path->string(), "--where", std::string("test=") + run,
+                                    "--parameters", "ardupilot"});
+    CHECK(ran.exit_code == 0);
+    CHECK_THAT(ran.out, Contains(std::string("\nMOT_THST_EXPO,") + expo + "\n"));
+  }
 }

@@ -204,6 +204,14 @@ TEST_CASE("a heat map of characters has digits and says what they mean") {
   CHECK(count('3') == 0);
 }
 
+TEST_CASE("a quantity that is 0 everywhere has an axis of plain numbers") {
+  const Ran run = run_tethercalc({"plot", "sweep", "-", "--value", "hover.pitch_deg"},
+                                 "supply.voltage_V,status,hover.pitch_deg,reason\n"
+                                 "60,optimal,0,\n70,optimal,0,\n80,optimal,0,\n");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.out, Contains("0.02 +") && !Contains("e-"));
+}
+
 TEST_CASE("options of other figures are refused, all at once") {
   const Ran run = run_tethercalc({"plot", "optimum", published, "--x", "supply.voltage_V",
                                   "--mass-g", "1", "--view", "speed"});

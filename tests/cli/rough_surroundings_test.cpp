@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -118,6 +119,30 @@ TEST_CASE("a reader that has enough ends the program without a word") {
   CHECK(std::count(sweep.out.begin(), sweep.out.end(), '\n') == 3);
 }
 
+TEST_CASE("what may not be read is refused with a reason, by check too") {
+  const TemporaryFolder folder;
+  const fs::path locked = folder.path() / "locked";
+  fs::create_directory(locked);
+  write_file(locked / "a.json", file_text(published));
+  write_file(locked / "a.expected.json", "{}");
+  // Root may read everything.
+  const std::string somebody = ::geteuid() == 0 ? "setpriv --reuid=65534 --clear-groups " : "";
+  const auto refused = [&](const fs::path& asked) {
+    const Ran ran = run_shell(somebody + command + " check " + shell_quoted(asked.string()));
+    INFO(ran.err);
+    return ran.exit_code == 2 && ran.err.find("Permission denied") != std::string::npos;
+  };
+  fs::permissions(locked / "a.expected.json", fs::perms::none);
+  CHECK(refused(locked / "a.json"));
+  const fs::perms listed = fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read;
+  for (const fs::perms allowed : {listed, fs::perms::none}) {
+    fs::permissions(locked, allowed);
+    CHECK(refused(locked));
+    CHECK(refused(locked / "a.json"));
+  }
+  fs::permissions(locked, fs::perms::owner_all);
+}
+
 TEST_CASE("check does not wait for a pipe among the specs") {
   const TemporaryFolder folder;
   const std::string pipe = (folder.path() / "a.json").string();
@@ -217,6 +242,9 @@ TEST_CASE("names of files command no terminal") {
   const Ran valid = run_tethercalc({"validate", name});
   CHECK(valid.exit_code == 0);
   CHECK_THAT(valid.out, Contains("[31m.json: valid") && !Contains("\x1b"));
+  const Ran checked = run_tethercalc({"check", name});
+  CHECK(checked.exit_code == 1);
+  CHECK_THAT(checked.out, Contains("[31m.json") && !Contains("\x1b"));
   const Ran missing = run_tethercalc({"validate", name + "x"});
   CHECK(missing.exit_code == 2);
   CHECK_THAT(missing.err, Contains("no such file") && !Contains("\x1b"));

@@ -9,6 +9,7 @@
 
 #include "hidden_effects/power_scenarios.hpp"
 #include "hidden_effects/simulated_flight.hpp"
+#include "report/characters.hpp"
 #include "support/log_csv.hpp"
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
@@ -90,7 +91,7 @@ void check_readable(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     INFO(line);
-    CHECK(display_width(line) <= 100);
+    CHECK(columns_of(line) <= 100);
     CHECK_FALSE(line.ends_with(' '));
   }
 }

@@ -173,6 +173,20 @@ TEST_CASE("what the log's summary says of the power is what the reader does") {
   CHECK(use().because == "BAT 0 and XKF1 of EKF core 0");
 }
 
+TEST_CASE("what measures no battery is told in the words of the autopilot that flew") {
+  ULogWriter log;
+  log.information("sys_name", "PX4");
+  test::define_flight_topics(log);
+  for (int i = 0; i < 200; ++i) {
+    test::add_local_position(log, us(1 + 0.1 * i), 6, 8, 0);
+    test::add_attitude(log, us(1 + 0.1 * i), 1, 0, 0, 0);
+  }
+  const std::vector<std::byte> bytes(log.bytes().begin(), log.bytes().end());
+  CHECK_THROWS_WITH(parse_power_log(bytes, "flight.ulg"),
+                    Contains("BAT1_SOURCE") && !Contains("BATT_MONITOR"));
+  CHECK_THAT(refusal(flight()), Contains("BATT_MONITOR") && !Contains("BAT1_SOURCE"));
+}
+
 TEST_CASE("PX4's battery_status is a bus, a current of -1 is none") {
   ULogWriter log;
   log.information("sys_name", "PX4");

@@ -129,6 +129,27 @@ TEST_CASE("a log that begins or ends in the air counts from its beginning or to 
   CHECK(summarized(log).flying->duration == Approx(8 + 5.9));
 }
 
+TEST_CASE("a flight without a landing ends with the motors or the movement, not with the log") {
+  const auto flown_until = [](bool disarmed, double speed_after) {
+    DataFlashWriter log;
+    test::define_xkf1(log);
+    define_ev(log);
+    add_ev(log, 1, 10);  // armed
+    add_ev(log, 2, 28);
+    add_samples(log, 2, 30, 5);
+    if (disarmed) add_ev(log, 33, 11);
+    add_samples(log, 30, 90, speed_after);
+    return summarized(log).flying.value();
+  };
+  CHECK(flown_until(true, 0.1).duration == Approx(31));
+  CHECK(flown_until(false, 0.1).duration == Approx(27.9));
+  CHECK(flown_until(false, 0.1).determined_by ==
+        "the controller's take-off and landing events, and for want of the last landing the last "
+        "movement");
+  // Still flown when it was cut off.
+  CHECK(flown_until(false, 1).duration == Approx(87.9));
+}
+
 TEST_CASE("without events, flying is moving, short pauses included and twitches not") {
   DataFlashWriter log;
   test::define_xkf1(log);

@@ -20,6 +20,7 @@ import time
 import zlib
 
 DESKTOP, PHONE, SMALLEST = 1280, 390, 320
+A4, LETTER = (8.27, 11.69), (8.5, 11)  # inch
 
 
 class Browser:
@@ -112,10 +113,11 @@ class Browser:
                                 "scale": 1})
         file.write_bytes(base64.b64decode(image["data"]))
 
-    def pdf(self, file):
+    def pdf(self, file, paper):
+        width, height = paper
         file.write_bytes(base64.b64decode(
-            self.call("Page.printToPDF", preferCSSPageSize=True, paperWidth=8.27,
-                      paperHeight=11.69)["data"]))
+            self.call("Page.printToPDF", preferCSSPageSize=True, paperWidth=width,
+                      paperHeight=height)["data"]))
 
     def close(self):
         try:
@@ -235,10 +237,11 @@ def check_page(browser, page, sections):
            "rgb(0, 114, 178)")
     expect(f"{page.name}: contents on paper",
            browser.value("getComputedStyle(document.querySelector('nav')).display"), "none")
-    browser.pdf(page.with_suffix(".pdf"))
-    lines = lines_of_pages(page.with_suffix(".pdf"))
-    expect(f"{page.name}: pages of the PDF", len(lines) >= len(sections) - 1, True)
-    expect(f"{page.name}: pages of few texts", [n for n in lines if n < 12], [])
+    for paper in LETTER, A4:
+        browser.pdf(page.with_suffix(".pdf"), paper)
+        lines = lines_of_pages(page.with_suffix(".pdf"))
+        expect(f"{page.name}: pages of the PDF, {paper}", len(lines) >= len(sections) - 1, True)
+        expect(f"{page.name}: pages of few texts, {paper}", [n for n in lines if n < 12], [])
 
 
 def check_policy(browser, page):

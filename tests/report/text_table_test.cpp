@@ -37,3 +37,11 @@ TEST_CASE("wrapped lines keep their words, their indent and their width") {
   CHECK(wrapped("one two three four", 9, "  ") == "  one two\n  three\n  four\n");
   CHECK(wrapped("abcdefghijklmnop q", 6) == "abcdefghijklmnop\nq\n");
 }
+
+TEST_CASE("columns stand below each other where names are in wide scripts") {
+  // Unicode's EastAsianWidth: each of these letters is as wide as two Latin ones.
+  TextTable table({word_column("name"), {"g", TextTable::Align::right}});
+  table.add({"\u7535\u673A\u4E00", "5"});
+  table.add({"motor", "12"});
+  CHECK(table.text() == "  name     g\n  \u7535\u673A\u4E00   5\n  motor   12\n");
+}

@@ -103,6 +103,16 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("where the least power lies on the brink of running away, the brink is the optimum") {
+  // The searches for the least power and for the feasible areas find this brink 4e-10 apart.
+  test::Random random(704741376U);
+  Design design = test::random_extreme_design(random);
+  design.drone.motor_air_density = 0.098951479811641596;
+  design.drone.translational_lift.hover_induced_speed = 95.126533483700129;
+  design.supply.converter.losses.square = 9.6489837440037004e-06;
+  check_against_areas(design, 3000);
+}
+
 TEST_CASE("a short tether behind a resistive slip ring is given the area that draws least") {
   test::each_random(test::draws(300), [](test::Random& random) {
     Design design = test::published_design();

@@ -94,9 +94,11 @@ struct LogSummary : LogTotals {
 ///
 /// Flights are told by the controller's own events where the log has any: from "not landed" to
 /// "land complete" (EV 28 and 18, ArduPilot's AP_Logger.h, LogEvent), from the log's beginning if
-/// it starts in the air and to its end if it ends there; in ULog while vehicle_land_detected says
-/// that it is not landed. Otherwise they are estimated from the first estimator: the time that the
-/// drone moves at 0.5 m/s or more for at least 2 s, pauses up to 10 s included.
+/// it starts in the air; in ULog while vehicle_land_detected says that it is not landed. A last
+/// flight without a landing ends as the motors are disarmed (EV 11), or with the last movement (see
+/// below) if that is 10 s or more before the end of the log, else with the log. Otherwise flights
+/// are estimated from the first estimator: the time that the drone moves at 0.5 m/s or more for at
+/// least 2 s, pauses up to 10 s included.
 [[nodiscard]] LogSummary summarize_log(const AutopilotLog& log);
 
 /// `LogSummary::flying` alone, sooner than all of it.

@@ -22,12 +22,28 @@ struct MotorBenchOptions {
   std::vector<std::string> where;
 };
 
+/// What a throttle is counted in, as a header says it.
+enum class ThrottleUnit {
+  unknown,      ///< not said
+  percent,      ///< of the speed controller's range
+  microseconds  ///< length of its pulses
+};
+
 /// A motor and what its curve was made of.
 struct MotorBench {
+  /// What a row says.
+  struct Row {
+    double throttle = 0;  ///< in `throttle_unit`; NaN where it has none
+    double thrust = 0;    ///< N
+  };
+
   MotorEntry motor;        ///< called after the (first) file; `warnings` say what was done to rows
   std::size_t rows = 0;    ///< that thrust and power were taken from
   std::size_t passes = 1;  ///< how often a thrust was visited: repeated runs, up and down
   double scatter = 0;      ///< root mean square of power over the curve's, less 1, of those rows
+  std::vector<Row> throttled;  ///< those rows, as they stand
+  /// Unknown as well where the tables differ in it.
+  ThrottleUnit throttle_unit = ThrottleUnit::unknown;
 };
 
 /// One motor from the tables of its bench runs.

@@ -78,9 +78,6 @@ struct TitledTable {
 /// a dash where it does not exist.
 [[nodiscard]] std::string significant(double value, int digits);
 
-/// Number of columns `text` takes on a terminal: UTF-8 characters, not bytes.
-[[nodiscard]] std::size_t display_width(const std::string& text);
-
 /// Breaks `text` at spaces into lines of at most `width` columns, each after `indent`.
 [[nodiscard]] std::string wrapped(const std::string& text, std::size_t width = 96,
                                   const std::string& indent = "");
