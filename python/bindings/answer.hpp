@@ -34,7 +34,14 @@ struct Answer {
   [[nodiscard]] Figure figure(const std::optional<std::string>& name) const;
 };
 
-/// Gives a class that has `answer()` the methods of an answer.
+[[nodiscard]] inline const Answer& answer_of(const Answer& answer) { return answer; }
+
+template <class Object>
+[[nodiscard]] decltype(auto) answer_of(const Object& object) {
+  return object.answer();
+}
+
+/// Gives an answer, or a class that has `answer()`, the methods of one.
 template <class Class>
 void add_answer_methods(Class& bound) {
   using Object = typename Class::type;
@@ -42,31 +49,31 @@ void add_answer_methods(Class& bound) {
       .def(
           "to_dict",
           [](const Object& object) {
-            return py::module_::import("copy").attr("deepcopy")(object.answer().dictionary());
+            return py::module_::import("copy").attr("deepcopy")(answer_of(object).dictionary());
           },
           "The answer under the keys of the command's --format json.")
       .def(
-          "to_csv", [](const Object& object) { return object.answer().csv(); },
+          "to_csv", [](const Object& object) { return answer_of(object).csv(); },
           "The answer as the command's --format csv.")
       .def(
           "figure",
           [](const Object& object, const std::optional<std::string>& name) {
-            return object.answer().figure(name);
+            return answer_of(object).figure(name);
           },
           py::arg("name") = py::none(), "The picture of that name, or the first of `figures`.")
       .def_property_readonly(
           "figures",
           [](const Object& object) {
             py::list names;
-            for (const AnswerFigure& figure : object.answer().figures) names.append(figure.name);
+            for (const AnswerFigure& figure : answer_of(object).figures) names.append(figure.name);
             return names;
           },
           "Names of the pictures that there are.")
-      .def("__str__", [](const Object& object) { return object.answer().text(); })
+      .def("__str__", [](const Object& object) { return answer_of(object).text(); })
       .def(
           "_repr_html_",
           [](const Object& object) {
-            const Answer& answer = object.answer();
+            const Answer& answer = answer_of(object);
             py::list svgs;
             for (const AnswerFigure& figure : answer.figures) {
               svgs.append(py::cast(figure.draw()).attr("svg"));

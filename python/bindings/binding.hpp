@@ -66,5 +66,7 @@ void bind_figures(py::module_& module);
 void bind_designs(py::module_& module);
 void bind_optima(py::module_& module);
 void bind_sweeps(py::module_& module);
+void bind_cables(py::module_& module);
+void bind_logs(py::module_& module);
 
 }  // namespace tethercalc::python

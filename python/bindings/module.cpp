@@ -35,4 +35,6 @@ PYBIND11_MODULE(_core, module) {
   bind_designs(module);
   bind_optima(module);
   bind_sweeps(module);
+  bind_cables(module);
+  bind_logs(module);
 }

@@ -182,12 +182,6 @@ struct FlightOptions {
   bool published_kinematics = false;
 };
 
-/// Where the part of the log begins or ends that `text`, as given to `option`, names: percent of
-/// the samples with a "%", else seconds; nothing for an empty text. Throws InputError for anything
-/// else.
-[[nodiscard]] std::optional<LogPosition> log_position(const std::string& option,
-                                                      const std::string& text);
-
 /// rad: given, from the trim log, or 0.
 [[nodiscard]] double pitch_offset(const FlightOptions& options);
 
