@@ -117,6 +117,10 @@ void bind_cables(py::module_& module) {
   bound.def("__getattr__", [](const Answer& answer, const std::string& name) {
     return py::module_::import("tethercalc._views").attr("member")(answer.dictionary(), name);
   });
+  bound.def("__repr__", [](const Answer& answer) {
+    const py::list keys(answer.dictionary());
+    return "<tethercalc.Answer with " + py::str(", ").attr("join")(keys).cast<std::string>() + ">";
+  });
   bound.def("__dir__", [](const py::object& self) {
     const py::object names = py::module_::import("builtins").attr("object").attr("__dir__")(self);
     return names + py::list(self.cast<const Answer&>().dictionary());

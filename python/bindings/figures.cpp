@@ -33,7 +33,10 @@ void bind_figures(py::module_& module) {
           py::arg("suffix"), py::arg("width_mm") = 170.0,
           "The content of a file of that suffix: .svg, .png, .pdf (both by the program gnuplot), "
           ".gp or .txt.")
-      .def("_repr_svg_", svg_of, "For notebooks.");
+      .def("_repr_svg_", svg_of, "For notebooks.")
+      .def("__repr__", [](const Figure& figure) {
+        return "<tethercalc.Figure " + py::repr(py::str(figure.title)).cast<std::string>() + ">";
+      });
 }
 
 }  // namespace tethercalc::python

@@ -336,6 +336,10 @@ void bind_logs(py::module_& module) {
            [](const Log& l, const std::string& name) {
              return l.log().contents().count(name) > 0;
            })
+      .def("__repr__",
+           [](const Log& l) {
+             return fmt::format("<tethercalc.Log of {} messages>", l.log().contents().messages);
+           })
       .def("texts", &Log::texts, py::arg("message"), py::arg("field"),
            "A field of all messages of that name as texts.");
   module.def("read_log", read_log, py::arg("path"),

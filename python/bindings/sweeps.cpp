@@ -137,6 +137,10 @@ void bind_sweeps(py::module_& module) {
           "A structured array with a record a design, whose fields are the columns of the "
           "command's CSV but for the reason. It shows the memory that the sweep was computed into; "
           "numbers that do not exist are NaN, words empty.")
+      .def("__repr__",
+           [](const Sweep& sweep) {
+             return fmt::format("<tethercalc.Sweep of {} designs>", sweep.array().size());
+           })
       .def("__len__", [](const Sweep& sweep) { return sweep.array().size(); })
       .def("__getitem__", [](const Sweep& sweep, const py::object& key) {
         return sweep.array().attr("__getitem__")(key);
