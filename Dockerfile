@@ -4,7 +4,7 @@ FROM debian:12-slim AS build
 COPY . /source
 WORKDIR /source
 RUN scripts/setup build package
-RUN cmake --preset release && cmake --build --preset release
+RUN cmake --preset release -D CMAKE_INSTALL_PREFIX=/usr && cmake --build --preset release
 RUN cd build/release && cpack -D CPACK_COMPONENTS_ALL=program && cp tethercalc_*.deb /tethercalc.deb
 
 FROM debian:12-slim

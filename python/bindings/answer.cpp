@@ -13,8 +13,8 @@ py::object Answer::dictionary() const {
 }
 
 Figure Answer::figure(const std::optional<std::string>& name) const {
-  const auto found = name ? std::ranges::find(figures, *name, &AnswerFigure::name)
-                          : figures.begin();
+  const auto found =
+      name ? std::ranges::find(figures, *name, &AnswerFigure::name) : figures.begin();
   if (found != figures.end()) return found->draw();
   std::vector<std::string> names;
   for (const AnswerFigure& figure : figures) names.push_back(figure.name);

@@ -20,8 +20,8 @@ using Texts = std::vector<std::string>;
 Answer evaluation(const py::object& spec, const Texts& areas_mm2) {
   const auto file = design_of(spec)->file();
   const auto areas = chosen_areas(parsed_areas(areas_mm2), file->design);
-  const std::vector<AreaPoints> table = interruptible(
-      [=](const StopFlag&) { return evaluate_areas(file->design, areas); });
+  const std::vector<AreaPoints> table =
+      interruptible([=](const StopFlag&) { return evaluate_areas(file->design, areas); });
   return {[=] { return evaluate_text(*file, table, {}); },
           [=] { return evaluate_json(*file, table); }, [=] { return evaluate_csv(table); }};
 }
@@ -29,8 +29,8 @@ Answer evaluation(const py::object& spec, const Texts& areas_mm2) {
 Answer comparison(const py::object& spec, const Texts& motors) {
   const auto file = design_of(spec)->file();
   const auto chosen = chosen_motors(motors, *file, files_in(""));
-  const auto ranking = interruptible(
-      [=](const StopFlag&) { return compare_motors(file->design, chosen); });
+  const auto ranking =
+      interruptible([=](const StopFlag&) { return compare_motors(file->design, chosen); });
   return {[=] { return compare_text(*file, ranking, {}); },
           [=] { return compare_json(*file, ranking); },
           [=] { return compare_csv(ranking); },
@@ -41,8 +41,8 @@ Answer whole_design(const py::object& spec, Texts free, const std::string& minim
                     Texts subject_to, const std::string& standard, Texts pareto,
                     std::uint64_t seed) {
   const auto file = design_of(spec)->file();
-  const DesignRequest request{std::move(free),   minimize,          std::move(subject_to),
-                              standard,          std::move(pareto), seed};
+  const DesignRequest request{std::move(free), minimize,          std::move(subject_to),
+                              standard,        std::move(pareto), seed};
   const DesignQuestion question = read_design_request(*file, request);
   const auto study = std::make_shared<const DesignStudy>(
       interruptible([=](const StopFlag&) { return study_design(question); }));
@@ -67,17 +67,16 @@ Answer shape(const py::object& spec, const CableOptions& options) {
   const auto study = std::make_shared<const ShapeStudy>(interruptible([=](const StopFlag&) {
     return study_cable_shape(asked->file.design, asked->area, asked->requests.front());
   }));
-  Answer answer{
-      [=] {
-        return cable_shape_text(asked->file, asked->area, asked->requests.front(), *study, {});
-      },
-      [=] { return cable_shape_json(asked->file, asked->area, *study); },
-      [=] { return cable_shape_csv(*study); }};
+  Answer answer{[=] {
+                  return cable_shape_text(asked->file, asked->area, asked->requests.front(), *study,
+                                          {});
+                },
+                [=] { return cable_shape_json(asked->file, asked->area, *study); },
+                [=] { return cable_shape_csv(*study); }};
   if (study->outcome == CableOutcome::hangs) {
-    answer.figures.push_back({"shape", [=] {
-                                return shape_figure(asked->file.name, asked->requests,
-                                                    std::vector{*study});
-                              }});
+    answer.figures.push_back(
+        {"shape",
+         [=] { return shape_figure(asked->file.name, asked->requests, std::vector{*study}); }});
   }
   return answer;
 }

@@ -155,7 +155,8 @@ void bind_designs(py::module_& module) {
       .def(
           "__getitem__",
           [](const DesignObject& design, std::string_view path) { return design.get(path); },
-          py::arg("path"), "The value in the field's own unit; None where an optional one is unset.")
+          py::arg("path"),
+          "The value in the field's own unit; None where an optional one is unset.")
       .def(
           "__setitem__",
           [](DesignObject& design, std::string_view path, const py::object& value) {

@@ -108,11 +108,11 @@ class Log {
 
 Log read_log(const py::object& path) {
   const auto name = py::module_::import("os").attr("fspath")(path).cast<std::string>();
-  return Log(interruptible(
-      [=](const StopFlag&) { return std::make_shared<const OpenLog>(name); }));
+  return Log(interruptible([=](const StopFlag&) { return std::make_shared<const OpenLog>(name); }));
 }
 
-/// The number where a field of a spec holds it, in SI; throws where it is out of that field's range.
+/// The number where a field of a spec holds it, in SI; throws where it is out of that field's
+/// range.
 double as_field(const char* path, const char* argument, double value) {
   Design design;
   const SpecField& field = *find_field(path);
@@ -241,8 +241,8 @@ Told diagnosed(const DesignFile& file, const DiagnosisArguments& asked, const St
   };
   put_first(told.study.flight, flight_notes);
   put_first(told.study.power, power_notes);
-  told.spec = read_design_document(spec_with(file, told.study.extended), file.file, file.load)
-                  .document;
+  told.spec =
+      read_design_document(spec_with(file, told.study.extended), file.file, file.load).document;
   return told;
 }
 
@@ -270,8 +270,7 @@ Answer diagnosis_answer(const std::shared_ptr<const Told>& told, const std::stri
   const auto draw = [&](const std::string& name, const std::string& log,
                         const std::optional<Diagnosis>& one) {
     if (!one || one->compared.empty()) return;
-    answer.figures.push_back(
-        {name, [told, log, &one] { return diagnosis_figure(log, *one); }});
+    answer.figures.push_back({name, [told, log, &one] { return diagnosis_figure(log, *one); }});
   };
   draw("flight", flight_name, study.flight);
   draw("power", power_name, study.power);
@@ -281,13 +280,22 @@ Answer diagnosis_answer(const std::shared_ptr<const Told>& told, const std::stri
 Answer diagnose(const py::object& spec, const Texts& flight_logs, const std::string& power_log,
                 const std::string& whole_log, const Texts& base, const Texts& effect_files,
                 const std::vector<int>& batteries, bool free_flight, std::optional<double> mass_g,
-                std::optional<double> air_density, double pitch_offset_deg,
-                const std::string& from, const std::string& to, int core) {
+                std::optional<double> air_density, double pitch_offset_deg, const std::string& from,
+                const std::string& to, int core) {
   const auto file = design_of(spec)->file();
-  DiagnosisArguments asked{flight_logs, power_log,   whole_log,   base,
-                           effect_files, batteries,  free_flight, flown_mass(mass_g),
-                           flown_air(air_density), pitch_offset_deg * unit::degree,
-                           log_position("--from", from), log_position("--to", to), core};
+  DiagnosisArguments asked{flight_logs,
+                           power_log,
+                           whole_log,
+                           base,
+                           effect_files,
+                           batteries,
+                           free_flight,
+                           flown_mass(mass_g),
+                           flown_air(air_density),
+                           pitch_offset_deg * unit::degree,
+                           log_position("--from", from),
+                           log_position("--to", to),
+                           core};
   if (!whole_log.empty()) {
     if (!flight_logs.empty() || !power_log.empty()) {
       throw InputError("log", "is both, flight and power; give it, or flight and power");
@@ -330,12 +338,9 @@ void bind_logs(py::module_& module) {
       .def("message", &Log::message, py::arg("name"), py::arg("instance") = py::none(),
            "The numbers of all messages of that name, or of one instance of it: an array a field, "
            "and \"time_s\" since the controller started.")
-      .def("__getitem__",
-           [](const Log& l, const std::string& name) { return l.message(name, {}); })
+      .def("__getitem__", [](const Log& l, const std::string& name) { return l.message(name, {}); })
       .def("__contains__",
-           [](const Log& l, const std::string& name) {
-             return l.log().contents().count(name) > 0;
-           })
+           [](const Log& l, const std::string& name) { return l.log().contents().count(name) > 0; })
       .def("__repr__",
            [](const Log& l) {
              return fmt::format("<tethercalc.Log of {} messages>", l.log().contents().messages);

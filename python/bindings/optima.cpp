@@ -67,10 +67,9 @@ void bind_operating_point(py::module_& module) {
       "What a design does in steady hover or forward flight, thrusts per motor. None stands for "
       "what does not exist.");
   for (const OperatingPointField& field : operating_point_fields()) {
-    point.def_property_readonly(
-        std::string(field.key).c_str(), [&field](const OperatingPoint& at) {
-          return existing(practical_value(at, field));
-        });
+    point.def_property_readonly(std::string(field.key).c_str(), [&field](const OperatingPoint& at) {
+      return existing(practical_value(at, field));
+    });
   }
   point.def(
       "to_dict",

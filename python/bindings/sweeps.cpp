@@ -34,7 +34,11 @@ struct Asked {
 /// lock. Ctrl-C ends it between two chunks.
 void computed(const Asked& asked, const RowWriter& write,
               const std::function<void(const SweepChunk&)>& consume) {
-  const SweepJob job{&asked.space, &asked.base->design, write, {0, asked.space.rows()}, 0,
+  const SweepJob job{&asked.space,
+                     &asked.base->design,
+                     write,
+                     {0, asked.space.rows()},
+                     0,
                      several_threads(asked.threads)};
   bool interrupted = false;
   {
@@ -142,12 +146,12 @@ void bind_sweeps(py::module_& module) {
              return fmt::format("<tethercalc.Sweep of {} designs>", sweep.array().size());
            })
       .def("__len__", [](const Sweep& sweep) { return sweep.array().size(); })
-      .def("__getitem__", [](const Sweep& sweep, const py::object& key) {
-        return sweep.array().attr("__getitem__")(key);
-      })
-      .def("__array__", [](const Sweep& sweep, const py::args& how) {
-        return sweep.array().attr("__array__")(*how);
-      })
+      .def("__getitem__",
+           [](const Sweep& sweep, const py::object& key) {
+             return sweep.array().attr("__getitem__")(key);
+           })
+      .def("__array__", [](const Sweep& sweep,
+                           const py::args& how) { return sweep.array().attr("__array__")(*how); })
       .def(
           "to_csv",
           [](const Sweep& sweep, const py::object& path) -> py::object {

@@ -259,10 +259,11 @@ SweepRecords::SweepRecords(std::span<const SweepAxis> axes) : axes_(axes.begin()
     limits.push_back(limit_name(static_cast<Limit>(i)));
   }
   RecordColumn* words = &columns_[axes_.size()];  // the first three results
-  words[0].characters = longest(std::array<std::string_view, 3>{"infeasible", "feasible", "optimal"});
+  words[0].characters =
+      longest(std::array<std::string_view, 3>{"infeasible", "feasible", "optimal"});
   words[1].characters = longest(limits);
-  words[2].characters = longest(std::array{condition_name(Condition::hover),
-                                           condition_name(Condition::forward)});
+  words[2].characters =
+      longest(std::array{condition_name(Condition::hover), condition_name(Condition::forward)});
   for (RecordColumn& column : columns_) {
     column.offset = size_;
     size_ += column.characters > 0 ? column.characters * sizeof(char32_t) : sizeof(double);
