@@ -414,8 +414,8 @@ int run_drag(const DragOptions& options, const Output& output) {
   const DragIdentification result = studied_drag("", options.logs, options.flight).identified;
   tell_assumptions(options.flight, result.options);
   if (options.into && options.into_file.empty()) {
-    for (const std::string& warning : drag_warnings(result.fit)) {
-      remark("drag: " + warning + "\n");
+    for (const Warning& warning : drag_warnings(result.fit)) {
+      remark("drag: " + warning.sentence + "\n");
     }
     emit(output, spec_text(spec_with_drag(*file, result.fit), options.spec.file, output.file));
     return done;
@@ -469,8 +469,8 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   if (study.power) {
     study.power->notes.insert(study.power->notes.begin(), power_notes.begin(), power_notes.end());
   }
-  if (auto drag = drag_estimate_sentence(file.design)) {
-    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
+  if (auto drag = drag_estimate_warning(file.design)) {
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(drag->sentence));
   }
   std::optional<NextFlight> next;
   if (!options.next_flight_file.empty()) {
@@ -498,6 +498,13 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
                      mission_text(*told.next_flight, target->home, target->format));
   }
   tell(told, planned ? options.next_flight_file : "", output);
+  std::vector<std::string> codes;
+  for (const auto* diagnosis :
+       {told.flight ? &*told.flight : nullptr, told.power ? &*told.power : nullptr}) {
+    if (diagnosis == nullptr) continue;
+    for (const Finding& finding : diagnosis->findings) codes.push_back(finding.effect);
+  }
+  point_to_explanations(codes, output);
   return told.next_flight && !planned && !told.next_flight->undecided.empty() ? answer_is_no : done;
 }
 

@@ -260,7 +260,9 @@ int run_sweep(const SweepOptions& options) {
   std::optional<SampleRequest> sample;
   if (options.sample) sample = {*options.sample, options.method, options.seed};
   const SweepSpace space = read_sweep_space(options.varied, base, sample);
-  if (const auto drag = drag_estimate_sentence(base.design)) remark("sweep: " + *drag + "\n");
+  if (const auto drag = drag_estimate_warning(base.design)) {
+    remark("sweep: " + drag->sentence + "\n");
+  }
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 
   const Sweep sweep{space, base.design, SweepRows(space.axes(), format),

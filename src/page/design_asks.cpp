@@ -10,6 +10,7 @@
 #include "page/asks.hpp"
 #include "page/page_json.hpp"
 #include "report/figure_json.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/report_page.hpp"
@@ -33,10 +34,14 @@ Optimised optimised(const Request& request) {
 ordered_json optimum_json(const Optimised& asked) {
   const auto& [file, study] = asked;
   Answer told = answer(file, study);
-  return {{"headline", std::move(told.headline)},      {"sentences", std::move(told.sentences)},
-          {"remedies", std::move(told.remedies)},      {"warnings", all_warnings(file)},
-          {"result", optimize_json(file, study)},      {"text", optimize_text(file, study, {})},
-          {"command", "tethercalc optimize spec.json"}};
+  ordered_json out = {{"headline", std::move(told.headline)},
+                      {"sentences", std::move(told.sentences)},
+                      {"remedies", std::move(told.remedies)}};
+  add_warnings(out, all_warnings(file));
+  out["result"] = optimize_json(file, study);
+  out["text"] = optimize_text(file, study, {});
+  out["command"] = "tethercalc optimize spec.json";
+  return out;
 }
 
 std::vector<MotorOptimum> ranked_motors(const Request& request, const DesignFile& file) {
