@@ -1,19 +1,24 @@
 include(CMakePackageConfigHelpers)
 
+# Two components, which are two packages: the program with its documents, and the library.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 install(TARGETS tethercalc tethercalc_core EXPORT tethercalcTargets)
-install(TARGETS tethercalc_command RUNTIME)
+install(TARGETS tethercalc_command RUNTIME COMPONENT program)
 if(TETHERCALC_WORDS)
-  install(FILES "${TETHERCALC_WORDS}/tethercalc.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES "${TETHERCALC_WORDS}/tethercalc.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1"
+    COMPONENT program)
   install(FILES "${TETHERCALC_WORDS}/tethercalc"
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT program)
   install(FILES "${TETHERCALC_WORDS}/_tethercalc"
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions" COMPONENT program)
   install(FILES "${TETHERCALC_WORDS}/tethercalc.fish"
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT program)
 endif()
 install(DIRECTORY include/tethercalc TYPE INCLUDE)
-install(FILES LICENSE README.md TYPE DOC)
-install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Laid out as here, so that the README's links and commands hold where they are installed.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff TYPE DOC COMPONENT program)
+install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+  PATTERN "Doxyfile" EXCLUDE PATTERN "*.dox" EXCLUDE)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/tethercalc")
 install(EXPORT tethercalcTargets NAMESPACE tethercalc:: DESTINATION "${package_folder}")

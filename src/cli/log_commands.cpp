@@ -15,6 +15,7 @@
 #include "files/output_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "io/log_options.hpp"
 #include "tethercalc/files/effect_file.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
@@ -106,54 +107,12 @@ std::vector<Effect> own_effects(const DiagnoseOptions& options) {
   return effects;
 }
 
-bool is_given(const DiagnoseOptions& options, LogKind kind) {
-  return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
-}
-
-/// The effects of --base that a log of `kind` can show. Every name must be one of a given log.
-std::vector<std::string> base_effects(const DiagnoseOptions& options, LogKind kind,
-                                      std::span<const Effect> own) {
-  std::vector<std::string> chosen;
-  for (const Effect* effect : effects_for(kind, own)) {
-    if (std::find(options.base.begin(), options.base.end(), effect->id) != options.base.end()) {
-      chosen.push_back(effect->id);
-    }
-  }
-  return chosen;
-}
-
-[[noreturn]] void fail_without_log(const char* option, const std::string& id, LogKind kind) {
-  const bool flight = kind == LogKind::flight;
-  throw InputError(option,
-                   fmt::format("\"{}\" is an effect of {} logs; give one with {}", id,
-                               flight ? "flight" : "power", flight ? "--flight" : "--power"));
-}
-
-/// What --base and --effects name must be of a log that is given.
-void check_effects(const DiagnoseOptions& options, std::span<const Effect> own) {
-  for (const Effect& effect : own) {
-    if (!is_given(options, effect.log)) fail_without_log("--effects", effect.id, effect.log);
-  }
-  std::vector<std::string> known;
-  for (const LogKind kind : {LogKind::flight, LogKind::power}) {
-    for (const Effect* effect : effects_for(kind, own)) {
-      if (is_given(options, kind)) known.push_back(effect->id);
-    }
-  }
-  for (const std::string& id : options.base) {
-    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    if (const Effect* effect = find_effect(id)) fail_without_log("--base", id, effect->log);
-    throw InputError("--base", fmt::format("\"{}\" is not an effect; allowed are {}{}", id,
-                                           fmt::join(known, ", "), did_you_mean(id, known)));
-  }
-}
-
 LoggedFlight read_flights(const DiagnoseOptions& options, std::span<const Effect> own,
                           std::vector<std::string>& notes) {
   LoggedFlight flight;
   flight.mass = flown_mass(options.flight);
   flight.air_density = air_density(options.flight);
-  flight.options.base = base_effects(options, LogKind::flight, own);
+  flight.options.base = base_effects(options.base, LogKind::flight, own);
   flight.options.pitch_offset = pitch_offset(options.flight);
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
@@ -304,21 +263,6 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
 }
 
 }  // namespace
-
-std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const std::string suffix = end;
-  if (end == text.c_str() || !std::isfinite(value) ||
-      !(suffix.empty() || suffix == "s" || suffix == "%")) {
-    throw InputError(option,
-                     "\"" + text +
-                         "\" is not a place in a log; allowed are seconds (120 or 120s) and "
-                         "percent of the samples (25%)");
-  }
-  return LogPosition{value, suffix == "%"};
-}
 
 double pitch_offset(const FlightOptions& options) {
   if (options.pitch_offset_deg && !options.trim_log.empty()) {
@@ -498,7 +442,8 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
   check_power_options(options);
   DiagnosisQuestion question{file.design};
   question.hypotheses = own_effects(options);
-  check_effects(options, question.hypotheses);
+  check_effects(options.base, question.hypotheses,
+                {!options.flight_logs.empty(), !options.power_log.empty()});
   std::vector<std::string> notes;
   std::vector<std::string> power_notes;
   if (!options.flight_logs.empty())
@@ -508,7 +453,7 @@ ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& fi
         options.power_log,
         {options.free_flight, battery_numbers(options.batteries), options.flight.core});
     question.power = {.log = std::move(reading.log),
-                      .base = base_effects(options, LogKind::power, question.hypotheses)};
+                      .base = base_effects(options.base, LogKind::power, question.hypotheses)};
     // Beside another log's flight these are that one's.
     if (options.flight_logs.empty() || !options.whole_log.empty()) {
       question.power->mass = flown_mass(options.flight);

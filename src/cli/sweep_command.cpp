@@ -105,13 +105,6 @@ RowFormat row_format(const std::string& format) {
       "--format", fmt::format("\"{}\" is no format of a sweep; allowed are csv and jsonl", format));
 }
 
-SampleMethod sample_method(const std::string& method) {
-  if (method.empty() || method == "sobol") return SampleMethod::sobol;
-  if (method == "lhs") return SampleMethod::latin_hypercube;
-  throw InputError("--method",
-                   fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
-}
-
 /// The part of the sweep to compute, counted from 1, and the number of parts.
 struct Shard {
   std::uint64_t part = 0;
@@ -154,22 +147,6 @@ void check_options(const SweepOptions& options, Problems& problems) {
   }
   if (!options.summary_file.empty() && !options.shard.empty()) {
     problems.add("--summary", "needs every draw, so it does not go with --shard");
-  }
-}
-
-SweepSpace make_space(const SweepOptions& options, const DesignFile& base) {
-  std::vector<SweepAxis> axes =
-      read_axes(options.varied, base, options.sample ? AxisUse::sampled : AxisUse::enumerated);
-  try {
-    SweepSpace space =
-        options.sample
-            ? SweepSpace(std::move(axes),
-                         SamplePlan{*options.sample, sample_method(options.method), options.seed})
-            : SweepSpace(std::move(axes));
-    check_sweep_rows(space, base);
-    return space;
-  } catch (const std::invalid_argument& error) {
-    throw InputError("--vary", error.what());
   }
 }
 
@@ -280,7 +257,9 @@ int run_sweep(const SweepOptions& options) {
   problems.succeeds([&] { [[maybe_unused]] const auto known = sample_method(options.method); });
   problems.succeeds([&] { base = read_spec(options.spec); });
   problems.throw_if_any();
-  const SweepSpace space = make_space(options, base);
+  std::optional<SampleRequest> sample;
+  if (options.sample) sample = {*options.sample, options.method, options.seed};
+  const SweepSpace space = read_sweep_space(options.varied, base, sample);
   if (const auto drag = drag_estimate_warning(base.design)) {
     remark("sweep: " + drag->sentence + "\n");
   }

@@ -408,4 +408,27 @@ void check_sweep_rows(const SweepSpace& space, const DesignFile& base, const std
   problems.throw_if_any();
 }
 
+SampleMethod sample_method(const std::string& method) {
+  if (method.empty() || method == "sobol") return SampleMethod::sobol;
+  if (method == "lhs") return SampleMethod::latin_hypercube;
+  throw InputError("--method",
+                   fmt::format("\"{}\" is no way of sampling; allowed are sobol and lhs", method));
+}
+
+SweepSpace read_sweep_space(std::span<const std::string> texts, const DesignFile& base,
+                            const std::optional<SampleRequest>& sample) {
+  std::vector<SweepAxis> axes =
+      read_axes(texts, base, sample ? AxisUse::sampled : AxisUse::enumerated);
+  try {
+    SweepSpace space =
+        sample ? SweepSpace(std::move(axes),
+                            SamplePlan{sample->draws, sample_method(sample->method), sample->seed})
+               : SweepSpace(std::move(axes));
+    check_sweep_rows(space, base);
+    return space;
+  } catch (const std::invalid_argument& error) {
+    throw InputError("--vary", error.what());
+  }
+}
+
 }  // namespace tethercalc

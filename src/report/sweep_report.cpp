@@ -3,8 +3,10 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
@@ -74,6 +76,92 @@ std::string reason_words(const SweepRow& row) {
   return row.outcome.given_area ? shortcoming(row.design, row.outcome.points) : "";
 }
 
+/// What stands in a row, in the order of its columns; `row` takes it as text or as bytes.
+template <class Row>
+void put_row(Row& row, std::span<const SweepAxis> axes, const SweepRow& swept) {
+  const SweepOutcome& outcome = swept.outcome;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (const auto* choices = std::get_if<NamedChoices>(&axes[i].values)) {
+      row.words(choices->names[static_cast<std::size_t>(swept.values[i])]);
+    } else {
+      row.number(swept.values[i]);
+    }
+  }
+  const bool limited = !(outcome.given_area && outcome.feasible);
+  row.words(!outcome.feasible ? "infeasible" : outcome.given_area ? "feasible" : "optimal");
+  row.words(limited ? limit_name(outcome.limited_by) : "");
+  row.words(limited ? condition_name(outcome.limiting_condition) : "");
+  row.number(outcome.area() / unit::square_millimetre);
+  row.points(outcome);
+  for (const auto& [name, value] : estimates_of(swept.design)) row.number(value.value_or(nan));
+}
+
+/// The names of what `put_row` puts.
+std::vector<std::string> row_columns(std::span<const SweepAxis> axes) {
+  std::vector<std::string> columns;
+  for (const SweepAxis& axis : axes) columns.push_back(axis.name);
+  for (NamedResult& result : optimum_results({})) columns.push_back(std::move(result.name));
+  for (const auto& [name, value] : estimates_of({})) columns.emplace_back(name);
+  return columns;
+}
+
+/// UTF-8 as the code points that a NumPy text holds.
+std::u32string code_points(std::string_view text) {
+  std::u32string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += char32_t{byte};
+    } else if (byte >= 0xc0) {  // the first of several: what is left of it after its length
+      out += static_cast<char32_t>(byte & (byte < 0xe0 ? 0x1f : byte < 0xf0 ? 0x0f : 0x07));
+    } else if (!out.empty()) {
+      out.back() = (out.back() << 6) | (byte & 0x3f);
+    }
+  }
+  return out;
+}
+
+/// The most characters of any of these words.
+template <class Words>
+std::size_t longest(const Words& words) {
+  std::size_t most = 1;
+  for (const std::string_view word : words) most = std::max(most, code_points(word).size());
+  return most;
+}
+
+/// Appends the bytes of one record.
+class RowBytes {
+ public:
+  RowBytes(std::string& bytes, const std::vector<RecordColumn>& columns)
+      : bytes_(bytes), column_(columns.data()) {}
+
+  void number(double value) {
+    const double finite = std::isfinite(value) ? value : nan;
+    bytes_.append(reinterpret_cast<const char*>(&finite), sizeof finite);
+    ++column_;
+  }
+
+  void words(std::string_view value) {
+    std::u32string padded = code_points(value);
+    padded.resize(column_->characters);
+    bytes_.append(reinterpret_cast<const char*>(padded.data()), padded.size() * sizeof(char32_t));
+    ++column_;
+  }
+
+  void points(const SweepOutcome& outcome) {
+    const bool exists = !std::isnan(outcome.area());
+    for (const OperatingPoint* point : {&outcome.points.hover, &outcome.points.forward}) {
+      for (const OperatingPointField& field : operating_point_fields()) {
+        number(exists ? practical_value(*point, field) : nan);
+      }
+    }
+  }
+
+ private:
+  std::string& bytes_;
+  const RecordColumn* column_;
+};
+
 constexpr std::array shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
 /// Half-width of a 95 % interval in standard errors of a normal distribution.
@@ -138,10 +226,7 @@ void add_spread(TextTable& table, const std::string& name, const Spread& spread,
 
 SweepRows::SweepRows(std::span<const SweepAxis> axes, RowFormat format)
     : axes_(axes.begin(), axes.end()), format_(format) {
-  std::vector<std::string> columns;
-  for (const SweepAxis& axis : axes_) columns.push_back(axis.name);
-  for (NamedResult& result : optimum_results({})) columns.push_back(std::move(result.name));
-  for (const auto& [name, value] : estimates_of({})) columns.emplace_back(name);
+  std::vector<std::string> columns = row_columns(axes_);
   columns.emplace_back("reason");
   for (const std::string& column : columns) {
     const bool first = openings_.empty();
@@ -156,24 +241,38 @@ SweepRows::SweepRows(std::span<const SweepAxis> axes, RowFormat format)
 }
 
 void SweepRows::append(std::string& text, const SweepRow& swept) const {
-  const SweepOutcome& outcome = swept.outcome;
   RowText row(text, format_, openings_);
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (const auto* choices = std::get_if<NamedChoices>(&axes_[i].values)) {
-      row.words(choices->names[static_cast<std::size_t>(swept.values[i])]);
-    } else {
-      row.number(swept.values[i]);
-    }
-  }
-  const bool limited = !(outcome.given_area && outcome.feasible);
-  row.words(!outcome.feasible ? "infeasible" : outcome.given_area ? "feasible" : "optimal");
-  row.words(limited ? limit_name(outcome.limited_by) : "");
-  row.words(limited ? condition_name(outcome.limiting_condition) : "");
-  row.number(outcome.area() / unit::square_millimetre);
-  row.points(outcome);
-  for (const auto& [name, value] : estimates_of(swept.design)) row.number(value.value_or(nan));
+  put_row(row, axes_, swept);
   row.words(reason_words(swept));
   row.end();
+}
+
+SweepRecords::SweepRecords(std::span<const SweepAxis> axes) : axes_(axes.begin(), axes.end()) {
+  for (const std::string& name : row_columns(axes)) columns_.push_back({name, 0, 0});
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (const auto* choices = std::get_if<NamedChoices>(&axes_[i].values)) {
+      columns_[i].characters = longest(choices->names);
+    }
+  }
+  std::vector<std::string_view> limits;
+  for (int i = 0; i <= static_cast<int>(Limit::tether_shape); ++i) {
+    limits.push_back(limit_name(static_cast<Limit>(i)));
+  }
+  RecordColumn* words = &columns_[axes_.size()];  // the first three results
+  words[0].characters =
+      longest(std::array<std::string_view, 3>{"infeasible", "feasible", "optimal"});
+  words[1].characters = longest(limits);
+  words[2].characters =
+      longest(std::array{condition_name(Condition::hover), condition_name(Condition::forward)});
+  for (RecordColumn& column : columns_) {
+    column.offset = size_;
+    size_ += column.characters > 0 ? column.characters * sizeof(char32_t) : sizeof(double);
+  }
+}
+
+void SweepRecords::append(std::string& bytes, const SweepRow& swept) const {
+  RowBytes row(bytes, columns_);
+  put_row(row, axes_, swept);
 }
 
 std::string summary_text(const SweepSummary& summary, const SweepSpace& space,

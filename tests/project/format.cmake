@@ -13,7 +13,7 @@ if(NOT version MATCHES "version 14\\.")
 endif()
 
 file(GLOB_RECURSE files "${ROOT}/include/*.hpp" "${ROOT}/src/*.[ch]pp" "${ROOT}/tests/*.[ch]pp"
-  "${ROOT}/fuzz/*.[ch]pp" "${ROOT}/bench/*.[ch]pp")
+  "${ROOT}/fuzz/*.[ch]pp" "${ROOT}/python/*.[ch]pp" "${ROOT}/bench/*.[ch]pp")
 execute_process(COMMAND "${clang_format}" --dry-run -Werror ${files}
   RESULT_VARIABLE code ERROR_VARIABLE differences)
 if(NOT code EQUAL 0)

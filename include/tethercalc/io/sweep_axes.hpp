@@ -1,6 +1,8 @@
 // The grammar PATH=VALUES: what a sweep varies and a search frees, as people write it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -45,5 +47,23 @@ enum class AxisUse {
 /// the axes are allowed together; otherwise it walks a sample's draws, about ten million a second.
 void check_sweep_rows(const SweepSpace& space, const DesignFile& base,
                       const std::string& option = "--vary");
+
+/// Designs to be drawn, as written.
+struct SampleRequest {
+  std::uint64_t draws = 0;       ///< how many
+  std::string method = "sobol";  ///< "sobol", which an empty one stands for, or "lhs"
+  std::uint64_t seed = 0;        ///< of the draws
+};
+
+/// The designs that the axes `texts` (see `read_axes`) make of `base`: every combination or, with
+/// `sample`, draws. Throws InputError as `read_axes` and `check_sweep_rows` do, for an unknown
+/// method, and where there are too many combinations.
+[[nodiscard]] SweepSpace read_sweep_space(std::span<const std::string> texts,
+                                          const DesignFile& base,
+                                          const std::optional<SampleRequest>& sample = {});
+
+/// The way of sampling that `method` names (see SampleRequest). Throws InputError where it names
+/// none.
+[[nodiscard]] SampleMethod sample_method(const std::string& method);
 
 }  // namespace tethercalc

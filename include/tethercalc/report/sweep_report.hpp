@@ -42,6 +42,36 @@ class SweepRows {
   std::vector<std::string> openings_;  ///< what stands in front of each column's value
 };
 
+/// One column of records.
+struct RecordColumn {
+  std::string name;            ///< as in the CSV
+  std::size_t characters = 0;  ///< of words: the most there can be; 0: a number
+  std::size_t offset = 0;      ///< bytes from the record's beginning
+};
+
+/// Turns outcomes into records of one size, for programs that compute with them: the columns of
+/// `SweepRows` but for `reason`. A number is a double, NaN where it does not exist; words are code
+/// points of 4 bytes, zeros behind the last. All in the machine's byte order, nothing between.
+class SweepRecords {
+ public:
+  /// For records that begin with a value of each of `axes`.
+  explicit SweepRecords(std::span<const SweepAxis> axes);
+
+  /// What stands in a record.
+  [[nodiscard]] const std::vector<RecordColumn>& columns() const { return columns_; }
+
+  /// Bytes of a record.
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// Appends one record.
+  void append(std::string& bytes, const SweepRow& row) const;
+
+ private:
+  std::vector<SweepAxis> axes_;
+  std::vector<RecordColumn> columns_;
+  std::size_t size_ = 0;
+};
+
 /// Tables for people.
 [[nodiscard]] std::string summary_text(const SweepSummary& summary, const SweepSpace& space,
                                        const TextStyle& style);

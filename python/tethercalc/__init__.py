@@ -1,0 +1,269 @@
+"""Design calculator for drones powered through a tether.
+
+    >>> import tethercalc
+    >>> design = tethercalc.load("examples/holybro-x500.json")
+    >>> design["supply.voltage_V"] = 60
+    >>> optimum = tethercalc.optimize(design)
+    >>> optimum.cross_section_mm2
+
+Wherever a design is asked for, a Design, a spec as a dictionary, or the path of a spec's file will
+do. Fields and numbers bear their units in their names, as in specs and in the program's JSON.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+
+from . import _core
+from ._core import (
+    Answer,
+    Design,
+    Figure,
+    Log,
+    OperatingPoint,
+    Optimum,
+    Sweep,
+    fields,
+    load,
+    optimize,
+    read_log,
+)
+from ._core import version as __version__
+from ._errors import InputError, Problem
+from ._types import Area, Areas, Path, Paths, Spec, Texts, Varied
+
+__all__ = [
+    "Answer",
+    "Design",
+    "Figure",
+    "InputError",
+    "Log",
+    "OperatingPoint",
+    "Optimum",
+    "Problem",
+    "Sweep",
+    "compare",
+    "design",
+    "diagnose",
+    "drag",
+    "envelope",
+    "evaluate",
+    "fields",
+    "load",
+    "optimize",
+    "read_log",
+    "shape",
+    "sweep",
+]
+
+
+def _word(value: object) -> str:
+    """A value as the grammar PATH=VALUES writes it."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(float(value))  # type: ignore[arg-type]
+
+
+def _texts(values: Texts | None) -> list[str]:
+    if values is None:
+        return []
+    return [values] if isinstance(values, str) else list(values)
+
+
+def _areas(areas: Areas) -> list[str]:
+    if areas is None:
+        return []
+    several = areas if isinstance(areas, Iterable) and not isinstance(areas, str) else [areas]
+    return [_word(area) for area in several]
+
+
+def _paths(paths: Paths | None) -> list[str]:
+    if paths is None:
+        return []
+    several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    return [os.fspath(path) for path in several]
+
+
+def _path(path: Path | None) -> str:
+    return "" if path is None else os.fspath(path)
+
+
+def _place(place: float | str | None) -> str:
+    """A place in a log: seconds, or a text such as "25%"."""
+    return "" if place is None else place if isinstance(place, str) else repr(float(place))
+
+
+def _varied(vary: Varied) -> list[str]:
+    """Axes as the grammar PATH=VALUES writes them."""
+    if isinstance(vary, str):
+        return [vary]
+    if not isinstance(vary, Mapping):
+        return list(vary)
+    texts = []
+    for path, values in vary.items():
+        words = values if isinstance(values, str) else ",".join(_word(value) for value in values)
+        texts.append(f"{path}={words}")
+    return texts
+
+
+def sweep(
+    spec: Spec,
+    vary: Varied,
+    *,
+    sample: int | None = None,
+    method: str = "sobol",
+    seed: int = 0,
+    jobs: int = 0,
+) -> Sweep:
+    """Computes many designs on all cores, or on `jobs` of them.
+
+    `vary` maps dot paths to lists of values or to texts such as "40:100:5", "10..60" and "75~1.5",
+    or lists "path=values" as --vary takes them. Every combination is computed or, with `sample`, as
+    many draws by `method`: "sobol" or "lhs". Ctrl-C ends it.
+    """
+    return _core._sweep(spec, _varied(vary), sample, method, seed, jobs)
+
+
+def evaluate(spec: Spec, area_mm2: Areas = None) -> Answer:
+    """What cables of these cross-sections do, in mm² or as "AWG18"; else the spec's own."""
+    return _core._evaluate(spec, _areas(area_mm2))
+
+
+def compare(spec: Spec, motors: Texts = "all") -> Answer:
+    """The optimum with each of several motors: "all", "alike", names or files."""
+    return _core._compare(spec, _texts(motors))
+
+
+def design(
+    spec: Spec,
+    free: Varied,
+    *,
+    minimize: str = "total_power_W",
+    subject_to: Texts | None = None,
+    standard: str = "",
+    pareto: Texts | None = None,
+    seed: int = 1,
+) -> Answer:
+    """The best whole design among those that the `free` fields allow, and what binds it.
+
+    `free` is written as for `sweep`: "40..400" is searched, a list is enumerated. `subject_to`
+    lists demands such as "tether_mass_g<=400".
+    """
+    return _core._design(
+        spec, _varied(free), minimize, _texts(subject_to), standard, _texts(pareto), seed
+    )
+
+
+def envelope(spec: Spec, area_mm2: Area = None) -> Answer:
+    """How high, heavy, fast and in how much wind a given cable flies."""
+    return _core._envelope(spec, _areas(area_mm2))
+
+
+def shape(
+    spec: Spec,
+    *,
+    area_mm2: Area = None,
+    height_m: float | None = None,
+    offset_m: float | None = None,
+    wind_m_s: float | None = None,
+    wind_from_deg: float = 0,
+    slack_percent: float | None = None,
+    length_m: float | None = None,
+    winch_tension_N: float | None = None,
+    stiffness_N: float | None = None,
+    station_height_m: float | None = None,
+    profile: str | None = None,
+    reference_height_m: float | None = None,
+    exponent: float | None = None,
+    roughness_m: float | None = None,
+) -> Answer:
+    """How the cable hangs, and what the drone feels of it. What is not given the spec says."""
+    return _core._shape(
+        spec,
+        _areas(area_mm2),
+        height_m,
+        offset_m,
+        _areas(wind_m_s),
+        wind_from_deg,
+        _areas(slack_percent),
+        length_m,
+        winch_tension_N,
+        stiffness_N,
+        station_height_m,
+        profile,
+        reference_height_m,
+        exponent,
+        roughness_m,
+    )
+
+
+def drag(
+    logs: Paths,
+    mass_g: float,
+    *,
+    air_density_kg_m3: float | None = None,
+    pitch_offset_deg: float = 0,
+    start: float | str | None = None,
+    end: float | str | None = None,
+    core: int = 0,
+    published_kinematics: bool = False,
+) -> Answer:
+    """The drag that flights of one drone show, with honest errors.
+
+    `start` and `end` are seconds of the log's clock or texts such as "25%" of its samples; without
+    them the part that moves is used. Without `air_density_kg_m3` it is 1.293 kg/m³.
+    """
+    return _core._drag(
+        _paths(logs),
+        mass_g,
+        air_density_kg_m3,
+        pitch_offset_deg,
+        _place(start),
+        _place(end),
+        core,
+        published_kinematics,
+    )
+
+
+def diagnose(
+    spec: Spec,
+    *,
+    flight: Paths | None = None,
+    power: Path | None = None,
+    log: Path | None = None,
+    base: Texts | None = None,
+    effects: Paths | None = None,
+    batteries: Sequence[int] = (),
+    free_flight: bool = False,
+    mass_g: float | None = None,
+    air_density_kg_m3: float | None = None,
+    pitch_offset_deg: float = 0,
+    start: float | str | None = None,
+    end: float | str | None = None,
+    core: int = 0,
+) -> Answer:
+    """What the simulation of measured flights gets wrong, why, and how far the design moves.
+
+    `flight` and `power` are logs of either kind, `log` is one that holds both. `base` names effects
+    that are taken for granted, `effects` files with further ones. `answer.extended.spec` is the
+    design with what was found in it.
+    """
+    return _core._diagnose(
+        spec,
+        _paths(flight),
+        _path(power),
+        _path(log),
+        _texts(base),
+        _paths(effects),
+        list(batteries),
+        free_flight,
+        mass_g,
+        air_density_kg_m3,
+        pitch_offset_deg,
+        _place(start),
+        _place(end),
+        core,
+    )
