@@ -544,7 +544,7 @@ class CommandLine {
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
           diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;
-          return run_diagnose(with_halves(diagnose_), output_);
+          return run_diagnose(with_both_halves(diagnose_), output_);
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,
@@ -616,7 +616,8 @@ class CommandLine {
                    "tethercalc plot sweep rows.csv --x supply.voltage_V"});
     add("report", "One page with everything about a design, to be mailed or printed",
         [this] {
-          return run_report(with_halves(diagnose_), rules_, shell_command(arguments_), output_);
+          return run_report(with_both_halves(diagnose_), rules_, shell_command(arguments_),
+                            output_);
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,

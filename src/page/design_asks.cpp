@@ -34,14 +34,14 @@ Optimised optimised(const Request& request) {
 ordered_json optimum_json(const Optimised& asked) {
   const auto& [file, study] = asked;
   Answer told = answer(file, study);
-  ordered_json out = {{"headline", std::move(told.headline)},
-                      {"sentences", std::move(told.sentences)},
-                      {"remedies", std::move(told.remedies)}};
-  add_warnings(out, all_warnings(file));
-  out["result"] = optimize_json(file, study);
-  out["text"] = optimize_text(file, study, {});
-  out["command"] = "tethercalc optimize spec.json";
-  return out;
+  const auto sentence = [](const Warning& warning) { return warning.sentence; };
+  return {{"headline", std::move(told.headline)},
+          {"sentences", std::move(told.sentences)},
+          {"remedies", std::move(told.remedies)},
+          {"warnings", json_list(all_warnings(file), sentence)},
+          {"result", optimize_json(file, study)},
+          {"text", optimize_text(file, study, {})},
+          {"command", "tethercalc optimize spec.json"}};
 }
 
 std::vector<MotorOptimum> ranked_motors(const Request& request, const DesignFile& file) {
