@@ -1,5 +1,6 @@
-# Writes OUTPUT: a C++ file with the bytes of every one of FILES, named relative to ROOT.
-set(body "#include \"io/embedded_files.hpp\"\n\n#include <array>\n\nnamespace tethercalc {\nnamespace {\n")
+# Writes OUTPUT: a C++ file with the bytes of every one of FILES, named relative to ROOT,
+# as entries of tethercalc::FUNCTION().
+set(body "#include \"io/embedded_files.hpp\"\n\n#include <array>\n\nnamespace tethercalc {\nstd::span<const EmbeddedFile> ${FUNCTION}();\nnamespace {\n")
 set(entries "")
 set(index 0)
 foreach(file IN LISTS FILES)
@@ -14,5 +15,5 @@ foreach(file IN LISTS FILES)
   math(EXPR index "${index} + 1")
 endforeach()
 string(APPEND body "constexpr std::array<EmbeddedFile, ${index}> files{{\n${entries}}};\n}  // namespace\n\n")
-string(APPEND body "std::span<const EmbeddedFile> embedded_files() { return files; }\n\n}  // namespace tethercalc\n")
+string(APPEND body "std::span<const EmbeddedFile> ${FUNCTION}() { return files; }\n\n}  // namespace tethercalc\n")
 file(WRITE "${OUTPUT}" "${body}")

@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "io/design_options.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
 #include "tethercalc/report/text_table.hpp"
-#include "tethercalc/study/cable_shape.hpp"
 #include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
 #include "tethercalc/study/next_flight.hpp"
@@ -95,12 +95,6 @@ int run_optimize(const SpecOptions& spec, const Output& output);
 int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
-/// The motors that `--motors` names: "all" (of the library, and the spec's own where that is none
-/// of them), "alike" (`alike_motors`), names of the library, or files. Throws InputError with every
-/// name that there is none of.
-[[nodiscard]] std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
-                                                    const DesignFile& file);
-
 int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
                 const Output& output);
 
@@ -110,33 +104,11 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
 int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output);
 
-/// The cable as typed: lengths in m, forces in N, speeds in m/s, angles in degrees.
-struct ShapeOptions {
+/// The cable of a spec, or cables of a file of cases.
+struct ShapeOptions : CableOptions {
   SpecOptions spec;
   std::string cases_file;  ///< empty: the spec's cable
-  std::vector<std::string> areas_mm2;
-  std::optional<double> height;  ///< this and the others: nothing where the spec says it
-  std::optional<double> offset;
-  std::vector<std::string> winds;
-  double wind_from = 0;
-  std::vector<std::string> slacks_percent;
-  std::optional<double> length;
-  std::optional<double> winch_tension;
-  std::optional<double> axial_stiffness;
-  std::optional<double> station_height;
-  std::optional<std::string> profile;
-  std::optional<double> reference_height;
-  std::optional<double> exponent;
-  std::optional<double> roughness_length;
 };
-
-/// A design's cable and what is asked of it: one request a wind and slack.
-struct AskedShapes {
-  DesignFile file;
-  double area = 0;  ///< m²
-  std::vector<ShapeRequest> requests;
-};
-[[nodiscard]] AskedShapes asked_shapes(const ShapeOptions& options);
 
 /// How the cable hangs; exit code 1 where it cannot, or would lie on the ground.
 int run_shape(const ShapeOptions& options, const Output& output);

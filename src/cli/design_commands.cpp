@@ -23,54 +23,6 @@
 namespace tethercalc::cli {
 namespace {
 
-/// The area of the standard size of that name, however its blank and letters are typed: "AWG 18",
-/// "awg18".
-std::optional<double> standard_area(std::string_view text) {
-  const auto plain = [](std::string_view name) {
-    std::string out;
-    for (const char c : name) {
-      if (c != ' ') out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    }
-    return out;
-  };
-  for (const WireSize& size : wire_sizes()) {
-    if (plain(size.name) == plain(text)) return size.area;
-  }
-  return std::nullopt;
-}
-
-/// The cross-sections that were typed in mm² or as names of standard sizes, in m².
-std::vector<double> parsed_areas(const std::vector<std::string>& texts) {
-  std::vector<double> areas;
-  Problems problems;
-  for (const std::string& text : texts) {
-    if (const auto area = standard_area(text)) {
-      areas.push_back(*area);
-      continue;
-    }
-    char* end = nullptr;
-    const double area = std::strtod(text.c_str(), &end);
-    // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
-    if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
-      problems.add("--area-mm2",
-                   "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm², nor a " +
-                       "standard size such as AWG18");
-    }
-    areas.push_back(area * unit::square_millimetre);
-  }
-  problems.throw_if_any();
-  return areas;
-}
-
-/// `areas`, or else the spec's own.
-std::vector<double> chosen_areas(std::vector<double> areas, const Design& design) {
-  if (!areas.empty()) return areas;
-  if (!design.tether.cross_section) {
-    throw InputError("--area-mm2", "is needed: the spec sets no tether.cross_section_mm2");
-  }
-  return {*design.tether.cross_section};
-}
-
 namespace fs = std::filesystem;
 
 constexpr std::string_view record_suffix = ".expected.json";
@@ -155,34 +107,6 @@ ReferenceCheck checked(const fs::path& spec) {
 
 DesignFile read_spec(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
 
-std::vector<MotorEntry> chosen_motors(const std::vector<std::string>& names,
-                                      const DesignFile& file) {
-  std::vector<MotorEntry> motors;
-  Problems problems;
-  for (const std::string& name : names) {
-    if (name == "all") {
-      const std::vector<MotorEntry> library = library_motors();
-      motors.insert(motors.end(), library.begin(), library.end());
-      if (std::ranges::find(library, file.motor.id, &MotorEntry::id) == library.end()) {
-        motors.push_back(file.motor);
-      }
-      continue;
-    }
-    if (name == "alike") {
-      const std::vector<MotorEntry> alike = alike_motors(library_motors(), file.motor);
-      motors.insert(motors.end(), alike.begin(), alike.end());
-      continue;
-    }
-    try {
-      motors.push_back(find_motor(name, files_in(""), "--motors"));
-    } catch (const InputError& error) {
-      problems.add(error.problems());
-    }
-  }
-  problems.throw_if_any();
-  return motors;
-}
-
 int run_optimize(const SpecOptions& spec, const Output& output) {
   const DesignFile file = read_spec(spec);
   const OptimumStudy answer = study_optimum(file.design, wire_sizes());
@@ -212,7 +136,7 @@ int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
                 const Output& output) {
   const DesignFile file = read_spec(spec);
   const std::vector<MotorOptimum> ranking =
-      compare_motors(file.design, chosen_motors(motors, file));
+      compare_motors(file.design, chosen_motors(motors, file, files_in("")));
   emit(
       output, [&] { return compare_text(file, ranking, style_for(output)); },
       [&] { return compare_json(file, ranking); }, [&] { return compare_csv(ranking); });
@@ -231,10 +155,8 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
 
 int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_mm2,
                  const Output& output) {
-  const std::vector<double> areas = parsed_areas(areas_mm2);
   DesignFile file = read_spec(spec);
-  if (areas.size() > 1) throw InputError("--area-mm2", "an envelope is that of one cross-section");
-  file.design.tether.cross_section = chosen_areas(areas, file.design).front();
+  file.design.tether.cross_section = one_area(areas_mm2, file.design, "an envelope");
   const EnvelopeStudy answer = study_envelope(file.design);
   emit(
       output, [&] { return envelope_text(file, answer, style_for(output)); },
@@ -243,118 +165,6 @@ int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_
 }
 
 namespace {
-
-WindProfile parsed_profile(const std::string& text) {
-  const std::vector<std::string> names{"uniform", "power-law", "logarithmic"};  // as in WindProfile
-  const auto found = std::ranges::find(names, text);
-  if (found != names.end()) return static_cast<WindProfile>(found - names.begin());
-  throw InputError("--profile", "\"" + text +
-                                    "\" is not a profile; allowed are uniform, power-law " +
-                                    "and logarithmic" + did_you_mean(text, names));
-}
-
-/// The number in its range; `least`, with the reason among the problems, outside.
-double checked(Problems& problems, const char* option, double value, double least, double most,
-               const char* unit) {
-  if (value >= least && value <= most) return value;
-  problems.add(option, fmt::format("{:g} is out of range; allowed is {:g} to {:g} {}", value, least,
-                                   most, unit));
-  return least;
-}
-
-/// The numbers of a list, each in its range.
-std::vector<double> checked(Problems& problems, const char* option,
-                            const std::vector<std::string>& texts, double least, double most,
-                            const char* unit) {
-  std::vector<double> numbers;
-  for (const std::string& text : texts) {
-    if (const auto number = parsed_number(text)) {
-      numbers.push_back(checked(problems, option, *number, least, most, unit));
-    } else {
-      problems.add(option, "\"" + text + "\" is not a number");
-    }
-  }
-  return numbers;
-}
-
-/// What decides how much cable is out; several where several slacks are asked for.
-std::vector<PaidOut> parsed_paid_out(const ShapeOptions& options, const Design& design,
-                                     const ShapeRequest& request, Problems& problems) {
-  const int given = int(!options.slacks_percent.empty()) + int(options.length.has_value()) +
-                    int(options.winch_tension.has_value());
-  if (given > 1) {
-    problems.add("--slack, --length, --winch-tension",
-                 "one of them decides how much cable is out; give no more");
-    return {};
-  }
-  if (options.length) {
-    return {{.length = checked(problems, "--length", *options.length, 1e-3, 1e6, "m"),
-             .winch_tension = {}}};
-  }
-  if (options.winch_tension) {
-    return {{.length = {},
-             .winch_tension =
-                 checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N")}};
-  }
-  if (given == 0) return {paid_out_to(design.tether, request.height, request.offset)};
-  std::vector<PaidOut> out;
-  for (const double percent :
-       checked(problems, "--slack", options.slacks_percent, 1e-6, 1000, "percent")) {
-    Tether tether = design.tether;
-    tether.winch_pull = 0;
-    tether.slack = percent / 100;
-    out.push_back(paid_out_to(tether, request.height, request.offset));
-  }
-  return out;
-}
-
-std::vector<ShapeRequest> parsed_requests(const ShapeOptions& options, const Design& design) {
-  Problems problems;
-  ShapeRequest request;
-  request.height =
-      checked(problems, "--height", options.height.value_or(design.tether.length), 0.01, 1e5, "m");
-  const Flight& flight = design.flight;
-  request.offset =
-      checked(problems, "--offset", options.offset.value_or(flight.horizontal_offset), 0, 1e5, "m");
-  request.wind_from =
-      checked(problems, "--wind-from", options.wind_from, -360, 360, "degrees") * unit::degree;
-  request.station_height =
-      checked(problems, "--station-height", options.station_height.value_or(flight.station_height),
-              0, 1e5, "m");
-  request.profile = flight.wind_profile;
-  if (options.profile) {
-    problems.succeeds([&] { request.profile = parsed_profile(*options.profile); });
-  }
-  request.reference_height = checked(
-      problems, "--reference-height",
-      options.reference_height.value_or(flight.wind_reference_height.value_or(10)), 0.1, 1e4, "m");
-  request.exponent =
-      checked(problems, "--exponent", options.exponent.value_or(flight.wind_exponent), 0, 1, "");
-  request.roughness_length =
-      checked(problems, "--roughness", options.roughness_length.value_or(flight.roughness_length),
-              1e-6, 10, "m");
-  if (request.roughness_length >= request.reference_height) {
-    problems.add("--roughness", "has to be less than --reference-height");
-  }
-  request.axial_stiffness = design.tether.axial_stiffness;
-  if (options.axial_stiffness) {
-    request.axial_stiffness =
-        checked(problems, "--stiffness", *options.axial_stiffness, 1, 1e12, "N");
-  }
-  std::vector<double> winds = checked(problems, "--wind", options.winds, 0, 200, "m/s");
-  if (options.winds.empty()) winds = {std::abs(design.flight.airspeed)};
-  const std::vector<PaidOut> lengths = parsed_paid_out(options, design, request, problems);
-  problems.throw_if_any();
-  std::vector<ShapeRequest> requests;
-  for (const double wind : winds) {
-    for (const PaidOut& paid_out : lengths) {
-      requests.push_back(request);
-      requests.back().wind = wind;
-      requests.back().paid_out = paid_out;
-    }
-  }
-  return requests;
-}
 
 int run_cable_cases(const ShapeOptions& options, const Output& output) {
   const LoadedText file = read_text_file(options.cases_file);
@@ -365,15 +175,6 @@ int run_cable_cases(const ShapeOptions& options, const Output& output) {
 
 }  // namespace
 
-AskedShapes asked_shapes(const ShapeOptions& options) {
-  const std::vector<double> areas = parsed_areas(options.areas_mm2);
-  AskedShapes out{read_spec(options.spec), 0, {}};
-  if (areas.size() > 1) throw InputError("--area-mm2", "a shape is that of one cross-section");
-  out.area = chosen_areas(areas, out.file.design).front();
-  out.requests = parsed_requests(options, out.file.design);
-  return out;
-}
-
 int run_shape(const ShapeOptions& options, const Output& output) {
   if (!options.cases_file.empty()) {
     if (!options.spec.file.empty()) {
@@ -382,7 +183,7 @@ int run_shape(const ShapeOptions& options, const Output& output) {
     return run_cable_cases(options, output);
   }
   if (options.spec.file.empty()) throw InputError("SPEC", "is needed, or --cases FILE");
-  const AskedShapes asked = asked_shapes(options);
+  const AskedShapes asked = asked_shapes(options, read_spec(options.spec));
   if (asked.requests.size() > 1) {
     throw InputError("--wind, --slack", "a shape is that of one of each; plot shape draws several");
   }

@@ -46,7 +46,8 @@ Drawn optimum(const PlotOptions& options) {
 
 Drawn motors(const PlotOptions& options) {
   const DesignFile file = titled_spec(options);
-  const auto ranking = compare_motors(file.design, chosen_motors(options.motors, file));
+  const auto ranking =
+      compare_motors(file.design, chosen_motors(options.motors, file, files_in("")));
   const bool any = !ranking.empty() && ranking.front().result.feasible;
   return {motors_figure(file, ranking), any ? done : answer_is_no};
 }
@@ -109,7 +110,7 @@ Drawn sweep(const PlotOptions& options) {
 Drawn shape(const PlotOptions& options) {
   ShapeOptions how = options.shape;
   how.spec = {options.files.front(), options.made_of.spec.overrides};
-  const AskedShapes asked = asked_shapes(how);
+  const AskedShapes asked = asked_shapes(how, read_spec(how.spec));
   std::vector<ShapeStudy> studies;
   for (const ShapeRequest& request : asked.requests) {
     studies.push_back(study_cable_shape(asked.file.design, asked.area, request));
@@ -234,8 +235,7 @@ int run_plot(const PlotOptions& options, const Output& output) {
 
 int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {
   const DesignFile file = read_spec(options.spec);
-  PageContent content;
-  content.file = file;
+  PageContent content = content_of_design(file, chosen_motors({"alike"}, file, files_in("")));
   content.command = command;
   if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
   if (!options.flight_logs.empty() || !options.power_log.empty()) {
@@ -243,12 +243,6 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
     if (told.flight)
       content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
-  }
-  content.motors = compare_motors(file.design, chosen_motors({"alike"}, file));
-  content.optimum = study_optimum(file.design, wire_sizes());
-  content.curve = area_curve(content.optimum);
-  if (content.optimum.result.feasible) {
-    content.cable = shapes_in_flight(file.design, content.optimum.result.area);
   }
   emit(output, report_page(content));
   return content.optimum.result.feasible ? done : answer_is_no;

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "io/closest_name.hpp"
+#include "io/decimal_number.hpp"
 
 namespace tethercalc {
 namespace {
@@ -208,7 +208,7 @@ std::string meant_in_thousands(const SpecField& field, double value) {
 std::optional<double> parsed_number(std::string_view text) {
   double value = 0;
   const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  const auto [stopped, error] = read_number(text.data(), end, value);
   if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
   return value;
 }

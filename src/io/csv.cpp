@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <system_error>
@@ -12,6 +11,7 @@
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "io/decimal_number.hpp"
 
 namespace tethercalc {
 namespace {
@@ -120,7 +120,7 @@ void take_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
     problems.add(line, fmt::format("{} is {}, expected {}", column.name, found, expected));
   };
   double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const auto [end, error] = read_number(cell.data(), cell.data() + cell.size(), value);
   if (end != cell.data() + cell.size() || error == std::errc::invalid_argument) {
     return reject("a number such as -1.25");
   }

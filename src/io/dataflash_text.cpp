@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "io/dataflash_walk.hpp"
+#include "io/decimal_number.hpp"
 #include "io/letters.hpp"
 
 namespace tethercalc {
@@ -32,7 +32,7 @@ template <class T>
 std::optional<T> number_in(std::string_view text) {
   T value{};
   const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const auto [stop, error] = read_number(text.data(), end, value);
   if (error != std::errc() || stop != end) return std::nullopt;
   return value;
 }

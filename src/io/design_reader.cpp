@@ -12,6 +12,7 @@
 #include "io/embedded_files.hpp"
 #include "io/entry_readers.hpp"
 #include "io/json_document.hpp"
+#include "io/spec_paths.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 
 namespace tethercalc {
@@ -20,39 +21,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // --- `--set path=value`: a spec edited from the command line -----------------------------------
-
-bool is_at_or_below(std::string_view pointer, std::string_view top) {
-  return pointer == top || is_below(pointer, top);
-}
-
-std::string pointer_of(std::string_view dotted) {
-  if (dotted.starts_with('/')) return std::string(dotted);
-  std::string pointer = "/" + std::string(dotted);
-  std::ranges::replace(pointer, '.', '/');
-  return pointer;
-}
-
-bool is_list(FieldKind kind) {
-  return kind == FieldKind::motor_points || kind == FieldKind::efficiency ||
-         kind == FieldKind::converter_masses;
-}
-
-std::string_view without_index(std::string_view rest) {
-  const std::size_t end = std::min(rest.find('/', 1), rest.size());
-  const bool is_index = rest.substr(1, end - 1).find_first_not_of("0123456789") == rest.npos;
-  return is_index ? rest.substr(end) : rest;
-}
-
-/// True where some spec may have a value at `pointer`.
-bool may_exist(std::string_view pointer, std::span<const SpecField> fields) {
-  return std::ranges::any_of(fields, [&](const SpecField& field) {
-    if (is_at_or_below(field.pointer, pointer)) return true;
-    if (!is_at_or_below(pointer, field.pointer)) return false;
-    std::string_view rest = pointer.substr(field.pointer.size());
-    if (is_list(field.kind)) rest = without_index(rest);
-    return rest.empty() || may_exist(rest, object_fields(field.kind));
-  });
-}
 
 /// The value at `key` of `parent`, made where an object lacks it; null where there can be none.
 Json* member_of(Json& parent, const std::string& key) {
@@ -96,7 +64,7 @@ void apply_override(JsonDocument& document, const std::string& override_text, Pr
   }
   const std::string path = override_text.substr(0, equals);
   const std::string pointer = pointer_of(path);
-  if (!may_exist(pointer, spec_fields())) return problems.add(option, no_such_field(path));
+  if (!may_be_in_spec(pointer)) return problems.add(option, no_such_field(path));
   Json new_value;
   const bool read =
       problems.succeeds([&] { new_value = value_of(override_text.substr(equals + 1), option); });

@@ -304,6 +304,18 @@ std::string head(const std::string& title) {
 
 }  // namespace
 
+PageContent content_of_design(DesignFile file, std::vector<MotorEntry> motors) {
+  PageContent content;
+  content.motors = compare_motors(file.design, std::move(motors));
+  content.optimum = study_optimum(file.design, wire_sizes());
+  content.curve = area_curve(content.optimum);
+  if (content.optimum.result.feasible) {
+    content.cable = shapes_in_flight(file.design, content.optimum.result.area);
+  }
+  content.file = std::move(file);
+  return content;
+}
+
 std::string report_page(const PageContent& content) {
   std::vector<Section> sections{answer_section(content), cross_sections(content)};
   if (!content.cable.empty()) sections.push_back(cable_section(content));

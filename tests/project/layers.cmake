@@ -1,11 +1,11 @@
 # Holds the rooms of ROOT apart: a room includes only rooms below it (model at the bottom, cli on
-# top), JSON stays at the edge, CLI11 in one file, only the rooms files and cli need an operating
+# top; nothing includes page, which knows neither files nor cli), JSON stays at the edge, CLI11 in one file, only the rooms files and cli need an operating
 # system, and a public header needs no library that the installed package does not bring.
 #
 # cmake -DROOT=… -P layers.cmake
 cmake_minimum_required(VERSION 3.25)
-set(rooms model solve identify diagnose study io report files cli)
-set(json_rooms io report files cli)
+set(rooms model solve identify diagnose study io report page files cli)
+set(json_rooms io report page files cli)
 # Files, processes, threads and signals; <iostream> and <cstdio> bring the standard streams.
 set(host_rooms files cli)
 string(JOIN "|" host_headers filesystem fstream iostream cstdio thread mutex shared_mutex
@@ -37,6 +37,9 @@ foreach(file IN LISTS files)
       list(FIND rooms ${CMAKE_MATCH_2} included_height)
       if(included_height GREATER height)
         list(APPEND problems "${file} (room ${room}) includes ${included}, a room above it")
+      endif()
+      if(CMAKE_MATCH_2 STREQUAL "page" AND NOT room STREQUAL "page")
+        list(APPEND problems "${file} includes ${included}: the page is a home of its own")
       endif()
       if(room STREQUAL "report" AND CMAKE_MATCH_2 STREQUAL "solve")
         list(APPEND problems "${file} includes ${included}: report words what studies answer")

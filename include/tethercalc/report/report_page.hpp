@@ -27,6 +27,10 @@ struct PageContent {
   std::string command;                  ///< by which the page can be made again, for a shell
 };
 
+/// The content of a page on the design alone: its optimum, the ranking of `motors` in it, and its
+/// cable where that hangs; what logs say is for the caller to add.
+[[nodiscard]] PageContent content_of_design(DesignFile file, std::vector<MotorEntry> motors);
+
 /// The page: the answer, what to mind, figures and tables, what the logs say, the spec as used, and
 /// how it was computed. Sentences, tables and numbers are those of the commands `optimize`,
 /// `compare`, `drag` and `diagnose`.
