@@ -57,7 +57,7 @@ export function showAnswer(answer, pinned) {
   });
   list(byId('sentences'), answer.sentences.filter((sentence) => sentence !== answer.headline));
   list(byId('remedies'), answer.remedies);
-  byId('remedies-part').hidden = answer.remedies.length === 0;
+  byId('remedies').hidden = answer.remedies.length === 0;
   const warnings = answer.warnings.filter((warning) => !answer.sentences.includes(warning));
   list(byId('warnings'), warnings);
   byId('warnings').hidden = warnings.length === 0;

@@ -25,7 +25,7 @@ function rangeWords(field) {
  * `committed`, once it stays. Returns `show(spec, problems)`, which puts a parsed spec (null: unreadable) and
  * its problems into them and returns the problems that belong to none.
  */
-export function buildControls(place, about, { change, editMotor }) {
+export function buildControls(place, about, { change, edit }) {
   const controls = [];
   const known = about.fields.map((field) => ({ ...field, open: field['open ends'] }));
   for (const [id, title] of sections) {
@@ -62,7 +62,7 @@ export function buildControls(place, about, { change, editMotor }) {
     const label = labelOf(field);
     // Names such as "material" say what they are only together with their group.
     const shownLabel = field.common && group && !label.includes(group.split(', ').at(-1)) && group !== 'converter'
-      ? `${group.split(', ').at(-1)} ${label}` : label;
+      ? `${group.split(', ').at(-1)}, ${label}` : label;
     const made = numeric.has(field.kind) ? number() : choice() ?? text();
     const about_ = el('button', { class: 'about', type: 'button', 'aria-expanded': 'false', 'aria-controls': help.id,
       'aria-label': `About ${shownLabel}`, onclick() {
@@ -94,10 +94,8 @@ export function buildControls(place, about, { change, editMotor }) {
           anchored = false; // the next answer puts the window around the new value
           change(field.path, valueOf(window_, Number(slider.value), field), true);
         } });
-      const curve = el('span', { class: 'curve', hidden: true }, 'curve, see the spec');
-      return { node: input, slider, below: curve, show(value) {
+      return { node: input, slider, below: field.fields.length ? editButton() : null, show(value) {
         const list = Array.isArray(value);
-        curve.hidden = !list;
         slider.disabled = list;
         input.disabled = list;
         if (document.activeElement !== input) input.value = list || value === undefined || value === null ? '' : String(value);
@@ -126,8 +124,7 @@ export function buildControls(place, about, { change, editMotor }) {
         change(field.path, select.value === '' ? null
           : field.kind === 'flag' ? select.value === 'true' : select.value, true);
       } }, unset, names.map(([value, name]) => el('option', { value }, name)), custom);
-      const below = field.kind === 'motor'
-        ? el('button', { type: 'button', class: 'quiet', onclick: editMotor }, 'edit its table') : null;
+      const below = library ? editButton() : null;
       return { node: select, below, wide: true, show(value) {
         const text = value === undefined || value === null ? '' : typeof value === 'object' ? own : String(value);
         const known = names.some(([name]) => name === text) || text === '';
@@ -138,19 +135,20 @@ export function buildControls(place, about, { change, editMotor }) {
     }
 
     function text() {
-      const structured = field.kind !== 'text';
-      const input = el('input', { id, type: 'text', autocomplete: 'off', 'aria-describedby': described,
-        placeholder: structured ? 'JSON' : '',
-        onchange() {
-          if (input.value.trim() === '') return change(field.path, null, true);
-          let value = input.value;
-          if (structured) try { value = JSON.parse(value); } catch { /* the program says what is wrong with a text */ }
-          change(field.path, value, true);
-        } });
-      return { node: input, wide: true, show(value) {
+      const list = field.fields.length > 0; // a table, which is read here and edited in its dialog
+      const input = el('input', { id, type: 'text', autocomplete: 'off', 'aria-describedby': described, readonly: list,
+        placeholder: list ? 'none' : '', onchange: () => change(field.path, input.value.trim() === '' ? null : input.value, true) });
+      return { node: input, wide: true, below: list ? editButton() : null, show(value) {
         if (document.activeElement === input) return;
-        input.value = value === undefined || value === null ? '' : typeof value === 'object' ? JSON.stringify(value) : String(value);
+        input.value = value === undefined || value === null || (list && !value.length) ? ''
+          : Array.isArray(value) ? `${value.length} rows` : String(value);
       } };
+    }
+
+    /** For what is more than a number or a name. */
+    function editButton() {
+      const what = { motor: 'edit its table', efficiency: 'give a curve', converter_masses: 'edit the table' }[field.kind] ?? 'own values';
+      return el('button', { type: 'button', class: 'quiet', 'aria-label': `${shownLabel}: ${what}`, onclick: () => edit(field) }, what);
     }
 
     function defaultWords() {

@@ -179,7 +179,7 @@ function uplotAxis(axis, side, which) {
   const steps = { 1: 1, 2: 2, 5: 5 };
   return {
     scale: which, side, stroke: () => palette.quiet, font: '11px system-ui, sans-serif',
-    label: side === 0 ? undefined : axis.label, labelFont: '12px system-ui, sans-serif', labelSize: 18, labelGap: 2,
+    label: side === 0 ? undefined : axis.label || undefined, labelFont: '12px system-ui, sans-serif', labelSize: 18, labelGap: 2,
     size: side === 3 ? 46 : side === 0 ? 20 : 26, gap: 4,
     grid: { show: side !== 0, stroke: () => palette.line, width: 0.6 },
     ticks: { stroke: () => palette.line, width: 1, size: 4 },
@@ -218,9 +218,12 @@ function uplotAxis(axis, side, which) {
 
 /** A panel on the page. `ghost` is the same panel of the pinned design, drawn pale beneath. */
 class DrawnPanel {
-  constructor(panel, height) {
+  constructor(panel, height, toScale) {
     this.height = height;
-    this.title = el('h4', {});
+    this.toScale = toScale;
+    this.titleWords = el('span');
+    this.top = el('span', { class: 'top' });
+    this.title = el('h4', {}, this.titleWords, this.top);
     this.holder = el('div', { class: 'canvas', tabindex: '0', role: 'group' });
     this.legend = el('ul', { class: 'legend' });
     this.at = el('span', { class: 'at' }, '');
@@ -230,11 +233,12 @@ class DrawnPanel {
   }
 
   set(panel, ghost) {
-    const key = JSON.stringify([panel.x.label, panel.y.label, panel.x.logarithmic, panel.y.logarithmic, panel.top?.label,
+    const key = JSON.stringify([Boolean(panel.title), panel.x.label, panel.y.label, panel.x.logarithmic, panel.y.logarithmic, panel.top?.label,
       panel.x.numbers, panel.y.numbers, Boolean(panel.top), Boolean(panel.x.ticks?.length), Boolean(panel.y.ticks?.length)]);
     this.panel = panel;
     this.ghost = ghost;
-    setText(this.title, panel.title || panel.y.label);
+    setText(this.titleWords, panel.title || panel.y.label);
+    setText(this.top, panel.top?.label ? `along the top: ${panel.top.label}` : panel.remark ?? '');
     this.holder.setAttribute('aria-label', `${panel.title || panel.y.label}, over ${panel.x.label}. Arrow keys read the curves; the values are in the table below.`);
     this.setLegend();
     if (key !== this.key_ || !this.plot) {
@@ -258,6 +262,13 @@ class DrawnPanel {
   /** What both designs need, so that the pinned one stays in sight. */
   ranges() {
     const { x, y } = this.panel;
+    if (this.toScale) {
+      // One scale for both axes: what would be stretched is widened around its middle.
+      const [width, height] = [Math.max(50, this.holder.clientWidth - 66), this.height - 58];
+      const perPixel = Math.max((x.range.hi - x.range.lo) / width, (y.range.hi - y.range.lo) / height);
+      const widened = ({ lo, hi }, pixels) => ({ lo: (lo + hi - perPixel * pixels) / 2, hi: (lo + hi + perPixel * pixels) / 2 });
+      return { x: widened(x.range, width), y: widened(y.range, height) };
+    }
     if (!this.ghost || this.ghost.x.logarithmic !== x.logarithmic) return { x: x.range, y: y.range };
     const both = (a, b) => ({ lo: Math.min(a.lo, b.lo), hi: Math.max(a.hi, b.hi) });
     return { x: both(x.range, this.ghost.x.range), y: both(y.range, this.ghost.y.range) };
@@ -267,7 +278,7 @@ class DrawnPanel {
     const width = this.holder.clientWidth;
     if (!width) return; // hidden; `resize` comes when it is not
     const { panel } = this;
-    const axes = [uplotAxis(panel.x, 2, 'x'), uplotAxis(panel.y, 3, 'y')];
+    const axes = [uplotAxis(panel.x, 2, 'x'), uplotAxis(panel.title ? panel.y : { ...panel.y, label: '' }, 3, 'y')];
     // The ticks of the upper edge are those of the panel at hand, which changes while a slider moves.
     axes[0].label = panel.x.label;
     if (panel.top) axes.push(uplotAxis({ get ticks() { return []; }, ...panel.top, label: panel.top.label }, 0, 'x'));
@@ -279,7 +290,8 @@ class DrawnPanel {
         y: { distr: panel.y.logarithmic ? 3 : 1, range: range('y') } },
       axes: axes.map((axis, i) => this.live(axis, i)),
       series: [{}, { show: true, points: { show: false } }],
-      cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
+      cursor: { drag: { x: false, y: false }, y: false, points: { show: false },
+        sync: { key: panel.x.label, scales: ['x', null] } },
       hooks: { draw: [(u) => this.paint(u)], setCursor: [(u) => this.read(u)] },
     }, [[x.lo, x.hi], [y.lo, y.hi]].map((ends, i) => (i ? [null, null] : ends)), this.holder);
   }
@@ -373,9 +385,9 @@ function panelTable(panel) {
 
 /** A figure on the page, which follows its data: `show(figure, pinned)` as often as wanted. */
 export class DrawnFigure {
-  constructor({ height = 250, heading = 'h3' } = {}) {
+  constructor({ height = 250, heading = 'h3', unseen = false } = {}) {
     this.height = height;
-    this.heading = el(heading, {});
+    this.heading = el(heading, { class: unseen ? 'unseen' : null });
     this.panels = [];
     this.place = el('div', { class: 'panels' });
     this.rest = el('div', { class: 'rest' });
@@ -395,7 +407,7 @@ export class DrawnFigure {
     panels.forEach((panel, i) => {
       const ghost = pinnedPanels[i] ?? null;
       if (!this.panels[i]) {
-        this.panels.push(new DrawnPanel(panel, this.height));
+        this.panels.push(new DrawnPanel(panel, figure.toScale ? this.height * 1.5 : this.height, figure.toScale));
         this.place.append(this.panels[i].node);
       }
       this.panels[i].set(panel, ghost);

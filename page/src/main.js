@@ -7,7 +7,7 @@ import { DrawnFigure, takeColours } from './figure.js';
 import { figuresOf } from './figure_data.js';
 import { makeHistory } from './history.js';
 import { buildLearn } from './learn.js';
-import { openMotorTable } from './motor_table.js';
+import { editObject, editTable } from './value_dialog.js';
 import { problemWords } from './problems.js';
 import workerSource from 'worker-source';
 
@@ -22,7 +22,7 @@ let shownAnswer = null; // the last one without problems
 let pinnedAnswer = null;
 let controls;
 let learn;
-const main = new DrawnFigure({ heading: 'h2' });
+const main = new DrawnFigure({ heading: 'h2', unseen: true });
 const side = []; // figures of the view at hand
 const places = new Map(); // of views that keep what is in them
 
@@ -352,21 +352,46 @@ function useMotorFile(name, text) {
   change('drone.motor', name, true);
 }
 
-function editMotor() {
-  const present = valueAt(parsedSpec(state.spec), 'drone.motor');
-  const points = (motor) => (motor.points ?? []).map((point) => (Array.isArray(point) ? point
-    : [point.thrust_g, point.power_W ?? point.thrust_g / point.efficiency_g_per_W])).filter((point) => point.every(Number.isFinite));
+/** Opens the dialog of a field that is more than a number or a name. */
+function edit(field) {
+  const present = valueAt(parsedSpec(state.spec), field.path);
+  const put = (value) => change(field.path, value, true);
+  if (field.kind === 'motor') editMotor(present, put);
+  else if (field.kind === 'efficiency' || field.kind === 'converter_masses') {
+    const columns = field.fields.map(({ path }) => path);
+    editTable({ title: field.help, words: 'Paste the columns from a spreadsheet into any cell, or type them. Without rows there is no table.',
+      heads: field.fields.map(({ path }) => path.replaceAll('_', ' ')),
+      rows: Array.isArray(present) ? present.map((row) => columns.map((name) => row[name])) : [],
+      use: (rows) => put(rows.length ? rows.map((row) => Object.fromEntries(columns.map((name, i) => [name, row[i]]))) : null) });
+  } else editMaterial(field, present, put);
+}
+
+function editMotor(present, put) {
   const known = typeof present === 'object' && present !== null ? present : about.motors.find(({ id }) => id === present) ?? {};
-  openMotorTable({ name: known.name ?? String(present ?? ''), points: points(known) }, {
-    use: (motor) => change('drone.motor', motor, true),
-    useFile: useMotorFile,
-  });
+  const points = (known.points ?? []).map((point) => (Array.isArray(point) ? [point[0], Number(point[1].toPrecision(6))]
+    : [point.thrust_g, point.power_W ?? point.thrust_g / point.efficiency_g_per_W]));
+  editTable({ title: 'The motor’s table', name: known.name ?? String(present ?? ''),
+    words: 'Static thrust and electrical power of one motor with its propeller. Paste two columns from a spreadsheet into any cell, or a whole table with its heads.',
+    heads: ['thrust g', 'power W'], rows: points,
+    use: (rows, name) => put({ name: name || 'own motor', points: rows.map(([thrust, power]) => ({ thrust_g: thrust, power_W: power })) }),
+    useFile: useMotorFile });
+}
+
+function editMaterial(field, present, put) {
+  const fields = field.fields.filter(({ path }) => path !== 'id' && path !== 'source');
+  const entries = field.kind === 'conductor' ? about.conductors : about.insulations;
+  const entry = entries.find(({ id }) => id === present);
+  // The library's list abbreviates units in its names; the first word tells the quantities apart.
+  const first = (name) => name.split('_')[0];
+  const known = entry ? Object.fromEntries(Object.entries(entry).map(([name, value]) => [fields.find(({ path }) => first(path) === first(name))?.path ?? name, value]))
+    : typeof present === 'object' && present !== null ? present : {};
+  editObject({ title: field.help, words: entry ? `The values are those of ${entry.name}, to begin with.` : 'A material of your own.', fields, values: known, use: put });
 }
 
 const themes = ['auto', 'light', 'dark'];
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
-  setText(byId('theme'), { auto: 'Auto', light: 'Light', dark: 'Dark' }[theme]);
+  setText(byId('theme'), { auto: '◐ Auto', light: '☀ Light', dark: '☾ Dark' }[theme]);
   try { localStorage.setItem('theme', theme); } catch { /* some browsers keep nothing for files */ }
   takeColours();
   main.recolour();
@@ -391,6 +416,8 @@ function wire() {
   byId('theme').onclick = () => setTheme(themes[(themes.indexOf(document.documentElement.dataset.theme) + 1) % themes.length]);
   byId('find').oninput = ({ target }) => controls.filter(target.value);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => setTheme(document.documentElement.dataset.theme));
+  // On a phone the answer is told again at the upper edge once its headline is out of sight.
+  new IntersectionObserver(([entry]) => { byId('glance').hidden = entry.isIntersecting; }).observe(byId('tiles'));
   let depth = 0;
   const carriesFiles = (event) => [...(event.dataTransfer?.types ?? [])].includes('Files');
   const dropping = (change_) => { depth = Math.max(0, depth + change_); byId('dropping').hidden = depth === 0; };
@@ -425,7 +452,7 @@ async function start() {
   byId('curves').append(main.node);
   buildAnswer();
   buildTabs();
-  controls = buildControls(byId('fields'), about, { change, editMotor });
+  controls = buildControls(byId('fields'), about, { change, edit });
   const learnPlace = el('div');
   places.set('learn', learnPlace);
   learn = buildLearn(learnPlace, { startWorker: () => startWorker(program), spec: () => state.spec,

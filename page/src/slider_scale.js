@@ -8,8 +8,9 @@ const decade = 4; // times and parts of the present value that a window of a wid
 export function windowAround(field, value) {
   const least = field.least ?? -Infinity;
   const greatest = field.greatest ?? Infinity;
+  // A range is shown whole where the value is not lost at its lower end.
   const narrow = Number.isFinite(least) && Number.isFinite(greatest) &&
-    (least > 0 ? greatest / least <= 100 : greatest - least <= 100);
+    (least > 0 ? greatest / least <= 100 : greatest - least <= 100 && !(value > 0 && value < greatest / 20));
   if (narrow) return { lo: least, hi: greatest, law: 'linear' };
   if (!(value > 0)) {
     // From nothing through all powers of ten: the fourth power makes small values easy to reach.
