@@ -2,10 +2,10 @@
 //
 //   node page/bundle.mjs --program FILE.wasm --loader FILE.mjs --output FILE.html
 //
-// The loader's default export makes (compiled module) → promise of call(request, files).
+// The loader defines loadCalculator(compiled module) → promise of call(request, files).
 import { createHash } from 'node:crypto';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { dirname, join, resolve } from 'node:path';
+import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { gzipSync } from 'node:zlib';
@@ -18,18 +18,18 @@ for (const name of ['program', 'loader', 'output']) {
   if (!options[name]) { console.error(`bundle: --${name} is needed`); process.exit(2); }
 }
 
-const settings = { bundle: true, minify: true, format: 'iife', target: 'es2022', write: false, charset: 'utf8',
-  legalComments: 'inline', alias: { 'tethercalc-program': resolve(options.loader) } };
-const text = async (entry, plugins = []) =>
-  (await build({ ...settings, plugins, entryPoints: [join(here, 'src', entry)] })).outputFiles[0].text;
+/** A module of that name with these contents, for imports that are no file here. */
+const module = (name, contents, loader) => ({ name, setup(builder) {
+  builder.onResolve({ filter: new RegExp(`^${name}$`) }, ({ path }) => ({ path, namespace: name }));
+  builder.onLoad({ filter: /.*/, namespace: name }, () => ({ contents, loader }));
+} });
+const program = module('tethercalc-program', `${readFileSync(options.loader, 'utf8')}\nexport default loadCalculator;`, 'js');
+const text = async (entry, plugins = []) => (await build({ bundle: true, minify: true, format: 'iife', target: 'es2022',
+  write: false, charset: 'utf8', legalComments: 'inline', logLevel: 'error', platform: 'browser', external: ['fs', 'path', 'crypto'],
+  plugins: [program, ...plugins], entryPoints: [join(here, 'src', entry)] })).outputFiles[0].text;
 
 const worker = await text('worker.js');
-const script = inlined(await text('main.js', [{
-  name: 'worker-source',
-  setup(builder) {
-    builder.onResolve({ filter: /^worker-source$/ }, ({ path }) => ({ path, namespace: 'worker-source' }));
-    builder.onLoad({ filter: /.*/, namespace: 'worker-source' }, () => ({ contents: worker, loader: 'text' }));
-  } }]));
+const script = inlined(await text('main.js', [module('worker-source', worker, 'text')]));
 const css = (await build({ stdin: { contents: readFileSync(join(here, 'node_modules/uplot/dist/uPlot.min.css'), 'utf8') +
   readFileSync(join(here, 'styles.css'), 'utf8'), loader: 'css' }, minify: true, write: false })).outputFiles[0].text;
 

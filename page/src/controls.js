@@ -39,13 +39,14 @@ export function buildControls(place, about, { change, edit }) {
       const more = el('details', { class: 'more' },
         el('summary', {}, common.length ? `more of the ${title.toLowerCase()}` : `${title.toLowerCase()}: all fields`,
           el('span', { class: 'count' }, ` ${rest.length}`)));
-      let group = '';
+      let group = null;
       for (const field of rest) {
-        if (groupOf(field) !== group) {
-          group = groupOf(field);
-          if (group) more.append(el('h3', {}, group));
+        const name = groupOf(field);
+        if (!group || group.name !== name) {
+          group = { name, node: el('div', { class: 'group' }, name ? el('h3', {}, name) : null) };
+          more.append(group.node);
         }
-        more.append(control(field));
+        group.node.append(control(field));
       }
       section.append(more);
     }
@@ -211,7 +212,7 @@ export function buildControls(place, about, { change, edit }) {
         const found = more.querySelector('.field:not([hidden])') !== null;
         more.hidden = !found;
         if (wanted.length) more.open = found;
-        for (const head of more.querySelectorAll('h3')) head.hidden = wanted.length > 0;
+        for (const group of more.querySelectorAll('.group')) group.hidden = !group.querySelector('.field:not([hidden])');
       }
     },
   };

@@ -218,12 +218,12 @@ function uplotAxis(axis, side, which) {
 
 /** A panel on the page. `ghost` is the same panel of the pinned design, drawn pale beneath. */
 class DrawnPanel {
-  constructor(panel, height, toScale) {
+  constructor(panel, height, toScale, heading) {
     this.height = height;
     this.toScale = toScale;
     this.titleWords = el('span');
     this.top = el('span', { class: 'top' });
-    this.title = el('h4', {}, this.titleWords, this.top);
+    this.title = el(heading, {}, this.titleWords, this.top);
     this.holder = el('div', { class: 'canvas', tabindex: '0', role: 'group' });
     this.legend = el('ul', { class: 'legend' });
     this.at = el('span', { class: 'at' }, '');
@@ -387,6 +387,7 @@ function panelTable(panel) {
 export class DrawnFigure {
   constructor({ height = 250, heading = 'h3', unseen = false } = {}) {
     this.height = height;
+    this.below = `h${Number(heading[1]) + 1}`; // headings of its parts
     this.heading = el(heading, { class: unseen ? 'unseen' : null });
     this.panels = [];
     this.place = el('div', { class: 'panels' });
@@ -407,13 +408,13 @@ export class DrawnFigure {
     panels.forEach((panel, i) => {
       const ghost = pinnedPanels[i] ?? null;
       if (!this.panels[i]) {
-        this.panels.push(new DrawnPanel(panel, figure.toScale ? this.height * 1.5 : this.height, figure.toScale));
+        this.panels.push(new DrawnPanel(panel, figure.toScale ? this.height * 1.5 : this.height, figure.toScale, this.below));
         this.place.append(this.panels[i].node);
       }
       this.panels[i].set(panel, ghost);
     });
     const others = figure.parts.filter(({ kind }) => kind !== 'panel');
-    this.rest.replaceChildren(...others.map((part) => el('div', {}, part.title ? el('h4', {}, part.title) : null,
+    this.rest.replaceChildren(...others.map((part) => el('div', {}, part.title ? el(this.below, {}, part.title) : null,
       part.kind === 'bars' ? el('ul', { class: 'bars' }, part.bars.map((bar) => el('li', {},
         el('span', {}, bar.words), el('meter', { min: 0, max: 1, value: Math.min(1, Math.max(0, bar.share)), 'aria-label': bar.words }), el('span', { class: 'n' }, bar.number))))
         : el('ul', {}, part.texts.map((text) => el('li', {}, text))))));

@@ -359,7 +359,7 @@ function edit(field) {
   if (field.kind === 'motor') editMotor(present, put);
   else if (field.kind === 'efficiency' || field.kind === 'converter_masses') {
     const columns = field.fields.map(({ path }) => path);
-    editTable({ title: field.help, words: 'Paste the columns from a spreadsheet into any cell, or type them. Without rows there is no table.',
+    editTable({ title: field.kind === 'efficiency' ? 'The converter’s efficiency' : 'Converters', words: 'Paste the columns from a spreadsheet into any cell, or type them. Without rows there is no table.',
       heads: field.fields.map(({ path }) => path.replaceAll('_', ' ')),
       rows: Array.isArray(present) ? present.map((row) => columns.map((name) => row[name])) : [],
       use: (rows) => put(rows.length ? rows.map((row) => Object.fromEntries(columns.map((name, i) => [name, row[i]]))) : null) });
@@ -368,7 +368,7 @@ function edit(field) {
 
 function editMotor(present, put) {
   const known = typeof present === 'object' && present !== null ? present : about.motors.find(({ id }) => id === present) ?? {};
-  const points = (known.points ?? []).map((point) => (Array.isArray(point) ? [point[0], Number(point[1].toPrecision(6))]
+  const points = (known.points ?? []).map((point) => (Array.isArray(point) ? point.map((value) => Number(value.toPrecision(12)))
     : [point.thrust_g, point.power_W ?? point.thrust_g / point.efficiency_g_per_W]));
   editTable({ title: 'The motor’s table', name: known.name ?? String(present ?? ''),
     words: 'Static thrust and electrical power of one motor with its propeller. Paste two columns from a spreadsheet into any cell, or a whole table with its heads.',
@@ -385,13 +385,15 @@ function editMaterial(field, present, put) {
   const first = (name) => name.split('_')[0];
   const known = entry ? Object.fromEntries(Object.entries(entry).map(([name, value]) => [fields.find(({ path }) => first(path) === first(name))?.path ?? name, value]))
     : typeof present === 'object' && present !== null ? present : {};
-  editObject({ title: field.help, words: entry ? `The values are those of ${entry.name}, to begin with.` : 'A material of your own.', fields, values: known, use: put });
+  editObject({ title: field.kind === 'conductor' ? 'A conductor of your own' : 'An insulation of your own',
+    words: entry ? `To begin with, the values are those of ${entry.name}.` : 'Its values, as the spec holds them.', fields, values: known,
+    use: (values) => put({ id: entry ? `${entry.id}, edited` : known.id, ...values }) });
 }
 
 const themes = ['auto', 'light', 'dark'];
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
-  setText(byId('theme'), { auto: '◐ Auto', light: '☀ Light', dark: '☾ Dark' }[theme]);
+  setText(byId('theme-name'), { auto: '◐ Auto', light: '☀ Light', dark: '☾ Dark' }[theme]);
   try { localStorage.setItem('theme', theme); } catch { /* some browsers keep nothing for files */ }
   takeColours();
   main.recolour();
