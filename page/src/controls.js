@@ -73,7 +73,7 @@ export function buildControls(place, about, { change, edit }) {
     const row = el('div', { class: 'field', 'data-path': field.path },
       el('label', { for: id, title: field.help }, shownLabel), about_, made.node,
       el('span', { class: 'unit' }, field.unit), made.slider ?? null, made.below ?? null, help, problem);
-    controls.push({ field, row, problem, ...made });
+    controls.push({ field, row, problem, shown: undefined, known: false, ...made });
     return row;
 
     function number() {
@@ -92,14 +92,18 @@ export function buildControls(place, about, { change, edit }) {
           change(field.path, value, false);
         },
         onchange() {
-          anchored = false; // the next answer puts the window around the new value
-          change(field.path, valueOf(window_, Number(slider.value), field), true);
+          // At rest the window lies around the new value again.
+          const value = valueOf(window_, Number(slider.value), field);
+          window_ = windowAround(field, value);
+          slider.value = String(placeOf(window_, value));
+          change(field.path, value, true);
         } });
       return { node: input, slider, below: field.fields.length ? editButton() : null, show(value) {
         const list = Array.isArray(value);
         slider.disabled = list;
         input.disabled = list;
-        if (document.activeElement !== input) input.value = list || value === undefined || value === null ? '' : String(value);
+        const plain = list ? null : value ?? null;
+        if (parsed(input.value) !== plain) input.value = plain === null ? '' : String(plain); // "30.0" stays as it is typed
         if (document.activeElement === slider && anchored) return;
         const present = typeof value === 'number' ? value : field.default;
         if (!anchored || !(typeof present === 'number' && within(window_, present))) {
@@ -140,7 +144,6 @@ export function buildControls(place, about, { change, edit }) {
       const input = el('input', { id, type: 'text', autocomplete: 'off', 'aria-describedby': described, readonly: list,
         placeholder: list ? 'none' : '', onchange: () => change(field.path, input.value.trim() === '' ? null : input.value, true) });
       return { node: input, wide: true, below: list ? editButton() : null, show(value) {
-        if (document.activeElement === input) return;
         input.value = value === undefined || value === null || (list && !value.length) ? ''
           : Array.isArray(value) ? `${value.length} rows` : String(value);
       } };
@@ -177,7 +180,13 @@ export function buildControls(place, about, { change, edit }) {
   return {
     show(spec, problems) {
       for (const control of controls) {
-        if (spec) control.show(valueAt(spec, control.field.path));
+        if (!spec) continue;
+        const value = valueAt(spec, control.field.path);
+        // While a slider moves, one field of eighty changes; objects are new ones after every reading.
+        if (control.shown === value && control.known) continue;
+        control.show(value);
+        control.shown = value;
+        control.known = true;
       }
       const told = new Map();
       const rest = [];
