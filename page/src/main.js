@@ -299,12 +299,29 @@ function fileName(ending) {
   return `${name || 'design'}${ending}`;
 }
 
-const saves = {
-  spec: () => download('spec.json', state.spec, 'application/json'),
-  report: () => save('report', {}, 'html', '.html', 'text/html'),
-  csv: () => save('csv', { of: { motors: 'compare', envelope: 'envelope', cable: 'shape' }[state.view] ?? 'optimize' }, 'csv', '.csv', 'text/csv'),
-  svg: () => save('svg', { kind: { motors: 'motors', cable: 'shape' }[state.view] ?? 'optimum' }, 'svg', '.svg', 'image/svg+xml'),
-};
+const saves = [
+  ['Spec (JSON)', () => {
+    download('spec.json', state.spec, 'application/json');
+    // A motor's table that the spec names goes with it.
+    for (const [name, text] of Object.entries(state.files)) {
+      if (valueAt(parsedSpec(state.spec), 'drone.motor') === name) download(name, text, 'text/csv');
+    }
+  }],
+  ['Report (HTML)', () => save('report', {}, 'html', '.html', 'text/html')],
+  ['Table (CSV)', () => save('csv', { of: { motors: 'compare', envelope: 'envelope', cable: 'shape' }[state.view] ?? 'optimize',
+    ...(state.view === 'motors' ? { motors: [motorsAsked] } : {}) }, 'csv', '.csv', 'text/csv')],
+  ['Figure (SVG)', () => save('svg', { kind: { motors: 'motors', cable: 'shape' }[state.view] ?? 'optimum',
+    ...(state.view === 'motors' ? { motors: [motorsAsked] } : {}) }, 'svg', '.svg', 'image/svg+xml')],
+];
+
+/** Buttons that open below a summary, and close when one is pressed or something else is done. */
+function menu(node, items) {
+  const close = () => { node.open = false; };
+  node.lastElementChild.replaceChildren(...items.map(([name, act]) => el('button', { type: 'button', onclick() { close(); act(); } }, name)));
+  node.addEventListener('keydown', (event) => { if (event.key === 'Escape') { close(); node.firstElementChild.focus(); } });
+  node.addEventListener('focusout', (event) => { if (event.relatedTarget && !node.contains(event.relatedTarget)) close(); });
+  addEventListener('pointerdown', (event) => { if (!node.contains(event.target)) close(); });
+}
 
 function save(what, request, member, ending, type) {
   const { answer, problems } = ask(what, { spec: state.spec, ...request });
@@ -402,14 +419,9 @@ function setTheme(theme) {
 }
 
 function wire() {
-  byId('examples').append(...about.examples.map(({ name, title }) => el('option', { value: name }, title || name)));
-  byId('examples').onchange = ({ target }) => {
-    const example = about.examples.find(({ name }) => name === target.value);
-    target.value = '';
-    if (example) setSpec(example.spec);
-  };
+  menu(byId('examples'), about.examples.map(({ name, title, spec }) => [title || name, () => setSpec(spec)]));
+  menu(byId('save'), saves);
   byId('open-spec').onchange = ({ target }) => { takeFiles([...target.files]).finally(() => { target.value = ''; }); };
-  byId('save').onchange = ({ target }) => { const what = target.value; target.value = ''; saves[what]?.(); };
   byId('undo').onclick = () => history.back();
   byId('redo').onclick = () => history.forward();
   byId('copy-link').onclick = async () => { await history_.settled(); copy(location.href, 'The link holds this design; it is copied.'); };

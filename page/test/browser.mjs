@@ -56,8 +56,9 @@ export async function typeSpec(page, text) {
   await page.locator('#headline').click(); // leaves the box
 }
 
-/** What "Save" gives, as a text. */
+/** What the item of "Save" gives, as a text. */
 export async function saved(page, what) {
-  const [file] = await Promise.all([page.waitForEvent('download'), page.selectOption('#save', what)]);
+  await page.locator('#save summary').click();
+  const [file] = await Promise.all([page.waitForEvent('download'), page.locator('#save').getByRole('button', { name: what }).click()]);
   return readFileSync(await file.path(), 'utf8');
 }

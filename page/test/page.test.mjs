@@ -43,13 +43,13 @@ test('the page is one file of at most 500 kB with gzip', { skip }, () => {
 
 onPage('the published design stands on the page as soon as it opens', async (page) => {
   assert.equal(await page.locator('#headline').textContent(), 'Fly 1.089 mm² of aluminium.');
-  assertDigits(cells(await saved(page, 'csv')), cells(programSays(['optimize', '--format', 'csv', '-'], example('holybro-x500.json'))));
+  assertDigits(cells(await saved(page, 'Table')), cells(programSays(['optimize', '--format', 'csv', '-'], example('holybro-x500.json'))));
 });
 
 for (const name of ['hexacopter-400v.json', 'headroom-range.json']) {
   onPage(`${name} has the program's digits when typed as a spec`, async (page) => {
     await typeSpec(page, example(name));
-    assertDigits(cells(await saved(page, 'csv')), cells(programSays(['optimize', '--format', 'csv', '-'], example(name))));
+    assertDigits(cells(await saved(page, 'Table')), cells(programSays(['optimize', '--format', 'csv', '-'], example(name))));
   });
 }
 
@@ -62,7 +62,7 @@ onPage("fields typed one by one give the program's digits for the same --set", a
   await page.selectOption('#f-tether-conductor', 'copper');
   const options = [...Object.entries(set), ['tether.conductor', 'copper']].flatMap(([path, value]) => ['--set', `${path}=${value}`]);
   const expected = programSays(['optimize', '--format', 'csv', '-', ...options], example('holybro-x500.json'));
-  assertDigits(cells(await saved(page, 'csv')), cells(expected));
+  assertDigits(cells(await saved(page, 'Table')), cells(expected));
 });
 
 onPage('an answer of no names what would help', async (page) => {
@@ -187,14 +187,14 @@ onPage('a motor table pasted from a spreadsheet is what is flown', async (page) 
   }, points.map((row) => row.join('\t')).join('\n'));
   await page.locator('#value-name').fill('pasted');
   await page.getByRole('button', { name: 'use these values' }).click();
-  const spec = JSON.parse(await saved(page, 'spec'));
+  const spec = JSON.parse(await saved(page, 'Spec'));
   assert.deepEqual(spec.drone.motor.points.map((point) => [point.thrust_g, point.power_W]), points);
-  assertDigits(cells(await saved(page, 'csv')), cells(programSays(['optimize', '--format', 'csv', '-'], JSON.stringify(spec))));
+  assertDigits(cells(await saved(page, 'Table')), cells(programSays(['optimize', '--format', 'csv', '-'], JSON.stringify(spec))));
 });
 
 onPage('the report and the figure are saved whole', async (page) => {
-  assert.match(await saved(page, 'report'), /^<!doctype html>[\s\S]*<\/html>\s*$/i);
-  assert.match(await saved(page, 'svg'), /<svg[\s\S]*<\/svg>\s*$/);
+  assert.match(await saved(page, 'Report'), /^<!doctype html>[\s\S]*<\/html>\s*$/i);
+  assert.match(await saved(page, 'Figure'), /<svg[\s\S]*<\/svg>\s*$/);
 });
 
 /** The numbers of the first table of drag: front, top, linear, wind. */
@@ -211,7 +211,7 @@ onPage('a log dropped on the page gives the drag that the program finds', async 
   const found = dragRows(await page.locator('.learned pre').textContent());
   assert.deepEqual(found, dragRows(programSays(['drag', log, '--mass-g', '1549'], '')));
   await page.getByRole('button', { name: 'Use in this design' }).click();
-  const { drag } = JSON.parse(await saved(page, 'spec')).drone;
+  const { drag } = JSON.parse(await saved(page, 'Spec')).drone;
   assert.ok(drag.front_area_m2 > 0.0135 && drag.front_area_m2 < 0.0136, drag.front_area_m2);
 });
 
