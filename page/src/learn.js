@@ -51,6 +51,7 @@ export function buildLearn(place, { startWorker, spec, take }) {
 
   async function add(files) {
     result.replaceChildren();
+    let added = '';
     for (const file of files) {
       if (file.size > most) {
         tell(`${file.name} has ${(file.size / 1e6).toFixed(0)} MB: more than a page can hold. The program on the command line reads it.`);
@@ -59,12 +60,23 @@ export function buildLearn(place, { startWorker, spec, take }) {
       try {
         const { name, bytes } = await unpacked(file.name, new Uint8Array(await file.arrayBuffer()));
         logs.set(name, bytes);
+        added = name;
+        chosen(isPower(bytes) ? power : flight, name);
       } catch (error) {
         tell(`${file.name} cannot be read: ${error.message || 'it is damaged'}.`);
       }
     }
     showLogs();
-    if (files.length === 1 && logs.size) ask('log');
+    // A CSV holds what its heads say; what an autopilot's log holds is worth telling at once.
+    if (files.length === 1 && logs.has(added) && !added.toLowerCase().endsWith('.csv')) ask('log');
+  }
+
+  /** A power log of this project's kind names its supply in its head (docs/diagnosis-power.md). */
+  const isPower = (bytes) => /supply_(voltage_V|current_A)/.test(new TextDecoder().decode(bytes.subarray(0, 4096)));
+
+  function chosen(select, name) {
+    showLogs();
+    select.value = name;
   }
 
   function showLogs() {
@@ -79,7 +91,6 @@ export function buildLearn(place, { startWorker, spec, take }) {
       if (names.includes(before)) select.value = before;
     };
     fill(flight, 'none');
-    if (!flight.value && names.length) flight.value = names.at(-1);
     fill(power, 'none');
   }
 
@@ -98,13 +109,14 @@ export function buildLearn(place, { startWorker, spec, take }) {
 
   function ask(what) {
     const options = Object.fromEntries([mass, pitch].map(({ name, value }) => [name, value]).filter(([, value]) => value !== null));
-    const names = what === 'diagnose' ? [flight.value, power.value].filter(Boolean) : [flight.value || power.value].filter(Boolean);
+    const names = what === 'diagnose' ? [...new Set([flight.value, power.value])].filter(Boolean) : [flight.value || power.value].filter(Boolean);
     result.replaceChildren();
     drawn.length = 0;
     if (!names.length) return tell('No log is chosen.');
     const request = what === 'log' ? { ask: 'log', file: names[0] }
       : what === 'drag' ? { ask: 'drag', file: names[0], spec: spec(), ...options }
-        : { ask: 'diagnose', spec: spec(), ...(flight.value ? { flights: [flight.value] } : {}), ...(power.value ? { power: power.value } : {}), ...options };
+        : { ask: 'diagnose', spec: spec(), ...options, ...(flight.value && flight.value === power.value ? { log: flight.value }
+          : { ...(flight.value ? { flights: [flight.value] } : {}), ...(power.value ? { power: power.value } : {}) }) };
     const began = performance.now();
     const verb = { log: 'Reading the log', drag: 'Fitting the drag', diagnose: 'Judging every effect on data held out' }[what];
     busy.hidden = false;
@@ -135,6 +147,7 @@ export function buildLearn(place, { startWorker, spec, take }) {
     if (answer.spec) {
       result.append(el('p', {}, el('button', { type: 'button', class: 'primary', onclick() { take(answer.spec); } }, 'Use in this design')));
     }
+    if (answer.notes?.length) result.append(el('ul', { class: 'note plain' }, answer.notes.map((note) => el('li', {}, note))));
     result.append(el('pre', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': title }, answer.text));
     for (const figure of figuresOf(answer.figures ?? [])) {
       const picture = new DrawnFigure({ heading: 'h4' });
@@ -142,6 +155,7 @@ export function buildLearn(place, { startWorker, spec, take }) {
       result.append(picture.node);
       picture.show(figure);
     }
+    if (answer.command) result.append(el('p', { class: 'command-line' }, el('code', {}, answer.command)));
   }
 
   return { add, recolour: () => drawn.forEach((picture) => picture.recolour()) };
