@@ -526,7 +526,7 @@ class CommandLine {
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
           diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;
-          return run_diagnose(with_halves(diagnose_), output_);
+          return run_diagnose(with_both_halves(diagnose_), output_);
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,
@@ -597,7 +597,9 @@ class CommandLine {
         .examples({"tethercalc plot optimum my.json --output optimum.svg",
                    "tethercalc plot sweep rows.csv --x supply.voltage_V"});
     add("report", "One page with everything about a design, to be mailed or printed",
-        [this] { return run_report(with_halves(diagnose_), shell_command(arguments_), output_); })
+        [this] {
+          return run_report(with_both_halves(diagnose_), shell_command(arguments_), output_);
+        })
         .spec(diagnose_.spec)
         .logs(diagnose_,
               "With what this flight log says: ArduPilot (.bin, .log), PX4 (.ulg) or CSV",

@@ -13,12 +13,10 @@
 #include <vector>
 
 #include "io/design_options.hpp"
-#include "tethercalc/identify/observations.hpp"
+#include "report/told_diagnosis.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
 #include "tethercalc/report/text_table.hpp"
-#include "tethercalc/study/diagnosis.hpp"
-#include "tethercalc/study/drag.hpp"
 #include "tethercalc/study/next_flight.hpp"
 
 namespace tethercalc::cli {
@@ -167,53 +165,14 @@ int run_motor(const MotorOptions& options, Output output);
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
 
-/// Which part of which flight log is looked at, and what is known about the flight; what is empty
-/// was not given.
-struct FlightOptions {
-  int core = 0;
-  std::string from;  ///< "25%" of the samples, or seconds of the log's clock
-  std::string to;
-  std::string trim_log;  ///< a hover flight whose mean pitch is the offset
-  std::optional<double> pitch_offset_deg;
-  std::optional<double> mass_g;
-  std::optional<double> air_density_kg_m3;
-  std::optional<double> pressure_hPa;
-  std::optional<double> temperature_C;
-  bool published_kinematics = false;
-};
+/// Reads logs from files, compressed or not.
+[[nodiscard]] LogReaders logs_in_files();
 
-/// Where the part of the log begins or ends that `text`, as given to `option`, names: percent of
-/// the samples with a "%", else seconds; nothing for an empty text. Throws InputError for anything
-/// else.
-[[nodiscard]] std::optional<LogPosition> log_position(const std::string& option,
-                                                      const std::string& text);
-
-/// rad: given, from the trim log, or 0.
-[[nodiscard]] double pitch_offset(const FlightOptions& options);
-
-/// The mass in kg that was given, if any. Throws InputError where it is out of range.
-[[nodiscard]] std::optional<double> flown_mass(const FlightOptions& options);
-
-/// kg/m³: given, or from pressure and temperature; nothing where neither was. Throws InputError for
-/// impossible values, half a pair, or both.
-[[nodiscard]] std::optional<double> air_density(const FlightOptions& options);
-
-/// The numbers of battery monitors as typed for --battery. Throws InputError for what is none.
-[[nodiscard]] std::vector<int> battery_numbers(const std::vector<std::string>& typed);
+/// Says it on standard error.
+void note_on_error(const std::string& note);
 
 /// What an autopilot's log holds, or all messages of one name as CSV.
 int run_log(const std::string& file, const std::string& message, const Output& output);
-
-/// What the options say about the flight, checked; the mass must be given.
-[[nodiscard]] DragIdentificationOptions identification_options(const FlightOptions& flight);
-
-/// The logs of these names; what was amiss with them is told on standard error.
-[[nodiscard]] std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
-                                                      int core);
-
-/// The drag of these logs, `name` their heading. Throws InputError where they show none.
-[[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
-                                     const FlightOptions& flight);
 
 struct DragOptions {
   std::vector<std::string> logs;  ///< flights of one drone
@@ -226,38 +185,29 @@ struct DragOptions {
 
 int run_drag(const DragOptions& options, const Output& output);
 
-struct DiagnoseOptions {
+struct DiagnoseOptions : LogsAsked {
   SpecOptions spec;
-  std::vector<std::string> flight_logs;  ///< flights of one drone
-  std::string power_log;
-  std::string whole_log;                  ///< or: both halves in one log, see with_halves
-  std::vector<std::string> batteries;     ///< see battery_numbers
-  bool free_flight = false;               ///< the power was logged without the tether
-  std::vector<std::string> base;          ///< ids of effects that are part of the base model
   std::vector<std::string> effect_files;  ///< effects to try beside those of the catalogue
-  FlightOptions flight;
-  bool into = false;             ///< print the extended spec instead of the diagnosis
-  std::string into_file;         ///< write it there instead, beside the diagnosis
-  std::string next_flight_file;  ///< write the mission of a further flight there
-  std::string home;              ///< where it begins: "LAT,LON" in degrees
+  bool into = false;                      ///< print the extended spec instead of the diagnosis
+  std::string into_file;                  ///< write it there instead, beside the diagnosis
+  std::string next_flight_file;           ///< write the mission of a further flight there
+  std::string home;                       ///< where it begins: "LAT,LON" in degrees
   std::optional<double> height_m;
   std::optional<double> reach_m;
 };
 
-/// The options with a log of both halves as the log of each. Throws InputError where another log
-/// stands beside it.
-[[nodiscard]] DiagnoseOptions with_halves(DiagnoseOptions options);
+/// See with_halves.
+[[nodiscard]] DiagnoseOptions with_both_halves(DiagnoseOptions options);
 
-/// What the logs say; either may be absent.
-struct ToldDiagnosis : DiagnosisStudy {
-  nlohmann::ordered_json spec;              ///< of the extended design
+/// What the logs say, and which further flight would say more.
+struct AnsweredDiagnosis : ToldDiagnosis {
   std::optional<NextFlight> next_flight{};  ///< where it was asked for
 };
 
-/// Compares each log that `options` name with the spec as it stands; what both together do to the
-/// design stands in the last of them. Drag that a flight shows directly outranks what the power at
-/// the motors says of it. Throws InputError for bad input.
-[[nodiscard]] ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file);
+/// Compares the logs that `options` name with the spec, see told_diagnosis; progress is shown on a
+/// terminal. Throws InputError for bad input.
+[[nodiscard]] AnsweredDiagnosis diagnose_logs(const DiagnoseOptions& options,
+                                              const DesignFile& file);
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output);
 

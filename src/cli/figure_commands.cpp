@@ -57,9 +57,10 @@ Drawn log(const PlotOptions& options) {
   FlightOptions flight = options.made_of.flight;
   if (!flight.mass_g) flight.mass_g = 1000;  // accelerations do not depend on it
   try {
-    return {log_figure(heading(options, base_name(file)),
-                       observe_part(read_flight_logs({file}, flight.core).front(),
-                                    identification_options(flight)))};
+    return {log_figure(
+        heading(options, base_name(file)),
+        observe_part(read_flight_logs({file}, flight.core, logs_in_files(), note_on_error).front(),
+                     identification_options(flight, logs_in_files())))};
   } catch (const UnsuitableFlight& error) {
     throw InputError(file, error.what());
   }
@@ -79,19 +80,19 @@ Drawn drag(const PlotOptions& options) {
                                  options.view, did_you_mean(options.view, views)));
   }
   const std::string name = name_of_flights(options.files);
-  const DragStudy fitted =
-      studied_drag(heading(options, name), options.files, options.made_of.flight);
+  const DragStudy fitted = studied_drag(heading(options, name), options.files,
+                                        options.made_of.flight, logs_in_files(), note_on_error);
   return {surface ? drag_surface_figure(fitted) : drag_figure(fitted)};
 }
 
 Drawn diagnosis(const PlotOptions& options) {
-  const DiagnoseOptions how = with_halves(options.made_of);
+  const DiagnoseOptions how = with_both_halves(options.made_of);
   if (how.flight_logs.empty() == how.power_log.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }
   const std::string log =
       how.power_log.empty() ? name_of_flights(how.flight_logs) : base_name(how.power_log);
-  const ToldDiagnosis told = diagnose_logs(how, titled_spec(options));
+  const AnsweredDiagnosis told = diagnose_logs(how, titled_spec(options));
   try {
     return {diagnosis_figure(heading(options, log), told.flight ? *told.flight : *told.power)};
   } catch (const std::invalid_argument& error) {
@@ -179,10 +180,8 @@ void check_options(const PlotOptions& options) {
 
 /// The drag that the flight shows, mass and air as the spec has them where the options do not say.
 DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
-  FlightOptions flight = options.flight;
-  if (!flight.mass_g) flight.mass_g = design.drone.mass / unit::gram;
-  if (!air_density(flight)) flight.air_density_kg_m3 = design.flight.air_density;
-  return studied_drag(name_of_flights(options.flight_logs), options.flight_logs, flight);
+  return studied_drag(name_of_flights(options.flight_logs), options.flight_logs,
+                      flown_as(options.flight, design), logs_in_files(), note_on_error);
 }
 
 std::string shell_word(std::string_view word) {
@@ -239,7 +238,7 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
   content.command = command;
   if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
   if (!options.flight_logs.empty() || !options.power_log.empty()) {
-    const ToldDiagnosis told = diagnose_logs(options, file);
+    const AnsweredDiagnosis told = diagnose_logs(options, file);
     if (told.flight)
       content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});

@@ -39,15 +39,6 @@ std::string spec_text(nlohmann::ordered_json spec, const std::string& read_at,
       spec_for_folder(std::move(spec), read_at, std::filesystem::path(written).parent_path()));
 }
 
-/// The spec with its drag replaced, checked as if a person had edited it.
-nlohmann::ordered_json spec_with_drag(const DesignFile& file, const DragFit& fit) {
-  Design design = file.design;
-  const double asymmetry = design.drone.drag.fore_aft_asymmetry;
-  design.drone.drag = fit.drag();
-  design.drone.drag.fore_aft_asymmetry = asymmetry;
-  return read_design_document(spec_with(file, design), file.file, file.load).document;
-}
-
 /// The autopilot whose parameters `--parameters` asks for, if any.
 std::optional<Autopilot> parameters_of(const std::string& name) {
   if (name.empty()) return std::nullopt;
@@ -61,23 +52,9 @@ std::optional<Autopilot> parameters_of(const std::string& name) {
 
 /// What was not said and moves the answer, on standard error so that no format hides it.
 void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptions& taken) {
-  if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
-    remark(fmt::format(
-        "drag: no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
-        "--temperature-C)\n",
-        taken.conditions.air_density));
+  for (const std::string& assumed : assumptions_of(flight, taken)) {
+    remark("drag: " + assumed + "\n");
   }
-  if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
-    remark(
-        "drag: no pitch offset given, 0° taken; what it misses ends up in the wind "
-        "(--trim-log or --pitch-offset-deg)\n");
-  }
-}
-
-void check_range(const char* option, double value, double least, double most, const char* unit) {
-  if (value >= least && value <= most) return;
-  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
-                                       most, unit));
 }
 
 /// One line that is written over, on a terminal only.
@@ -106,128 +83,37 @@ std::vector<Effect> own_effects(const DiagnoseOptions& options) {
   return effects;
 }
 
-bool is_given(const DiagnoseOptions& options, LogKind kind) {
-  return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
-}
-
-/// The effects of --base that a log of `kind` can show. Every name must be one of a given log.
-std::vector<std::string> base_effects(const DiagnoseOptions& options, LogKind kind,
-                                      std::span<const Effect> own) {
-  std::vector<std::string> chosen;
-  for (const Effect* effect : effects_for(kind, own)) {
-    if (std::find(options.base.begin(), options.base.end(), effect->id) != options.base.end()) {
-      chosen.push_back(effect->id);
-    }
-  }
-  return chosen;
-}
-
-[[noreturn]] void fail_without_log(const char* option, const std::string& id, LogKind kind) {
-  const bool flight = kind == LogKind::flight;
-  throw InputError(option,
-                   fmt::format("\"{}\" is an effect of {} logs; give one with {}", id,
-                               flight ? "flight" : "power", flight ? "--flight" : "--power"));
-}
-
-/// What --base and --effects name must be of a log that is given.
-void check_effects(const DiagnoseOptions& options, std::span<const Effect> own) {
-  for (const Effect& effect : own) {
-    if (!is_given(options, effect.log)) fail_without_log("--effects", effect.id, effect.log);
-  }
-  std::vector<std::string> known;
-  for (const LogKind kind : {LogKind::flight, LogKind::power}) {
-    for (const Effect* effect : effects_for(kind, own)) {
-      if (is_given(options, kind)) known.push_back(effect->id);
-    }
-  }
-  for (const std::string& id : options.base) {
-    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    if (const Effect* effect = find_effect(id)) fail_without_log("--base", id, effect->log);
-    throw InputError("--base", fmt::format("\"{}\" is not an effect; allowed are {}{}", id,
-                                           fmt::join(known, ", "), did_you_mean(id, known)));
-  }
-}
-
-LoggedFlight read_flights(const DiagnoseOptions& options, std::span<const Effect> own,
-                          std::vector<std::string>& notes) {
-  LoggedFlight flight;
-  flight.mass = flown_mass(options.flight);
-  flight.air_density = air_density(options.flight);
-  flight.options.base = base_effects(options, LogKind::flight, own);
-  flight.options.pitch_offset = pitch_offset(options.flight);
-  const auto from = log_position("--from", options.flight.from);
-  const auto to = log_position("--to", options.flight.to);
-  for (const std::string& name : options.flight_logs) {
-    FlightLogReading reading =
-        read_flight_log(name, {.core = options.flight.core, .level_where_missing = true});
-    const bool several = options.flight_logs.size() > 1;
-    if (several) {
-      notes.push_back(fmt::format("flight {} is {}", flight.flights.size() + 1, name));
-    }
-    for (const std::string& note : reading.notes) {
-      notes.push_back(several ? fmt::format("flight {}: {}", flight.flights.size() + 1, note)
-                              : note);
-    }
-    MeasuredFlight& measured =
-        flight.flights.emplace_back(MeasuredFlight{std::move(reading.log), {}});
-    try {
-      if (from || to) measured.range = select_range(measured.log, from, to);
-    } catch (const std::invalid_argument& error) {
-      throw InputError(name, error.what());
-    }
-  }
-  return flight;
-}
-
-/// What is said of a power log needs one.
-void check_power_options(const DiagnoseOptions& options) {
-  if (!options.power_log.empty()) return;
-  if (options.free_flight) {
-    throw InputError("--free-flight", "is of the power; give --power LOG, or --log LOG");
-  }
-  if (!options.batteries.empty()) {
-    throw InputError("--battery", "is of the power; give --power LOG, or --log LOG");
-  }
-}
-
-DiagnosisStudy studied(const DiagnoseOptions& options, const DiagnosisQuestion& question) {
+ToldDiagnosis studied(const AskedDiagnosis& asked, const DiagnoseOptions& options,
+                      const DesignFile& file) {
   try {
-    DiagnosisStudy study = study_diagnosis(question, progress_line());
+    ToldDiagnosis told = told_diagnosis(asked, options, file, progress_line());
     clear_progress();
-    return study;
-  } catch (const UnsuitableLog& error) {
+    return told;
+  } catch (const InputError&) {
     clear_progress();
-    throw InputError(error.kind() == LogKind::flight
-                         ? fmt::format("{}", fmt::join(options.flight_logs, ", "))
-                         : options.power_log,
-                     error.what());
+    throw;
   }
 }
 
 /// `mission` is where the next flight was written, if anywhere.
-void tell(const ToldDiagnosis& told, const std::string& mission, const Output& output) {
-  const Diagnosis& only = told.power ? *told.power : *told.flight;
-  const bool both = told.flight && told.power;
+void tell(const AnsweredDiagnosis& told, const std::string& mission, const Output& output) {
   emit(
       output,
       [&] {
-        std::string text = both ? joint_diagnosis_text(*told.flight, *told.power, style_for(output))
-                                : diagnosis_text(only, style_for(output));
+        std::string text = told_text(told, style_for(output));
         if (told.next_flight) {
           text += next_flight_text(*told.next_flight, mission, style_for(output));
         }
         return text;
       },
       [&] {
-        nlohmann::ordered_json json =
-            both ? joint_diagnosis_json(*told.flight, *told.power, told.spec)
-                 : diagnosis_json(only, told.spec);
+        nlohmann::ordered_json json = told_json(told);
         if (told.next_flight) json["next_flight"] = next_flight_json(*told.next_flight, mission);
         return json;
       },
       [&] {
-        std::vector<Finding> findings = told.flight ? told.flight->findings : only.findings;
-        if (both) {
+        std::vector<Finding> findings = told.flight ? told.flight->findings : told.power->findings;
+        if (told.flight && told.power) {
           findings.insert(findings.end(), told.power->findings.begin(), told.power->findings.end());
         }
         return diagnosis_csv(findings);
@@ -305,96 +191,20 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
 
 }  // namespace
 
-std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const std::string suffix = end;
-  if (end == text.c_str() || !std::isfinite(value) ||
-      !(suffix.empty() || suffix == "s" || suffix == "%")) {
-    throw InputError(option,
-                     "\"" + text +
-                         "\" is not a place in a log; allowed are seconds (120 or 120s) and "
-                         "percent of the samples (25%)");
-  }
-  return LogPosition{value, suffix == "%"};
+LogReaders logs_in_files() {
+  return {[](const std::string& name, const FlightLogOptions& how) {
+            return read_flight_log(name, how);
+          },
+          [](const std::string& name, const PowerLogOptions& how) {
+            return read_power_log(name, how);
+          }};
 }
 
-double pitch_offset(const FlightOptions& options) {
-  if (options.pitch_offset_deg && !options.trim_log.empty()) {
-    throw InputError("--trim-log",
-                     "and --pitch-offset-deg both give the pitch offset; only one can be right");
-  }
-  if (options.pitch_offset_deg) {
-    const double degrees = *options.pitch_offset_deg;
-    check_range("--pitch-offset-deg", degrees, -45, 45, "degrees");
-    return degrees * unit::degree;
-  }
-  if (options.trim_log.empty()) return 0;
-  try {
-    return pitch_offset_from_hover(read_flight_log(options.trim_log, {options.core}).log);
-  } catch (const UnsuitableFlight& error) {
-    throw InputError(options.trim_log, error.what());
-  }
-}
+void note_on_error(const std::string& note) { remark(note + "\n"); }
 
-std::vector<int> battery_numbers(const std::vector<std::string>& typed) {
-  std::vector<int> numbers;
-  for (const std::string& text : typed) {
-    const auto number = parsed_number(text);
-    constexpr double most = 255;
-    if (!number || !(*number >= 0 && *number <= most) || *number != std::floor(*number)) {
-      throw InputError("--battery",
-                       fmt::format("\"{}\" is no number of a battery monitor; allowed are whole "
-                                   "numbers from 0 to {:g}, separated by commas",
-                                   text, most));
-    }
-    numbers.push_back(static_cast<int>(*number));
-  }
-  return numbers;
-}
-
-DiagnoseOptions with_halves(DiagnoseOptions options) {
-  if (options.whole_log.empty()) return options;
-  if (!options.flight_logs.empty() || !options.power_log.empty()) {
-    throw InputError("--log", "is both, flight and power; give it, or --flight and --power");
-  }
-  options.flight_logs = {options.whole_log};
-  options.power_log = options.whole_log;
+DiagnoseOptions with_both_halves(DiagnoseOptions options) {
+  static_cast<LogsAsked&>(options) = with_halves(options);
   return options;
-}
-
-std::optional<double> flown_mass(const FlightOptions& options) {
-  if (!options.mass_g) return std::nullopt;
-  const SpecField& field = *find_field("drone.mass_g");
-  if (!field.range.contains(*options.mass_g)) {
-    throw InputError(
-        "--mass-g", fmt::format("{:g} is out of range; allowed is {}{}", *options.mass_g,
-                                describe_range(field), meant_in_thousands(field, *options.mass_g)));
-  }
-  return *options.mass_g * unit::gram;
-}
-
-std::optional<double> air_density(const FlightOptions& options) {
-  const bool by_weather = options.pressure_hPa || options.temperature_C;
-  if (options.air_density_kg_m3) {
-    if (by_weather) {
-      throw InputError("--air-density",
-                       "goes without --pressure-hPa and --temperature-C: they give it too");
-    }
-    check_range("--air-density", *options.air_density_kg_m3, 0.1, 2, "kg/m³");
-    return options.air_density_kg_m3;
-  }
-  if (!by_weather) return std::nullopt;
-  if (!options.pressure_hPa || !options.temperature_C) {
-    throw InputError("--pressure-hPa",
-                     "and --temperature-C give the air density together, not alone");
-  }
-  check_range("--pressure-hPa", *options.pressure_hPa, 100, 1200, "hPa");
-  check_range("--temperature-C", *options.temperature_C, -80, 80, "°C");
-  constexpr double pascal_per_hPa = 100;
-  return dry_air_density(*options.pressure_hPa * pascal_per_hPa,
-                         *options.temperature_C + zero_celsius_K);
 }
 
 int run_log(const std::string& file, const std::string& message, const Output& output) {
@@ -409,46 +219,6 @@ int run_log(const std::string& file, const std::string& message, const Output& o
       output, [&] { return log_text(summary, file, style_for(output)); },
       [&] { return log_json(summary, file); }, [&] { return log_csv(summary); });
   return done;
-}
-
-DragIdentificationOptions identification_options(const FlightOptions& flight) {
-  DragIdentificationOptions options;
-  const auto mass = flown_mass(flight);
-  if (!mass) {
-    throw InputError("--mass-g", "is needed: drag is force, the log knows only accelerations");
-  }
-  options.conditions.mass = *mass;
-  if (const auto density = air_density(flight)) options.conditions.air_density = *density;
-  options.from = log_position("--from", flight.from);
-  options.to = log_position("--to", flight.to);
-  options.pitch_offset = pitch_offset(flight);
-  if (flight.published_kinematics) options.kinematics = Kinematics::published;
-  return options;
-}
-
-std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, int core) {
-  std::vector<FlightLog> logs;
-  for (const std::string& name : names) {
-    FlightLogReading reading = read_flight_log(name, {core});
-    for (const std::string& note : reading.notes) {
-      remark(fmt::format("{}: {}\n", name, note));
-    }
-    if (!reading.log.north_wind.empty()) {
-      remark(name + ": the measured wind is not used: a steady one is fitted\n");
-    }
-    logs.push_back(std::move(reading.log));
-  }
-  return logs;
-}
-
-DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
-                       const FlightOptions& flight) {
-  const DragIdentificationOptions how = identification_options(flight);
-  try {
-    return study_drag(name, read_flight_logs(logs, flight.core), how);
-  } catch (const UnsuitableFlight& error) {
-    throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
-  }
 }
 
 int run_drag(const DragOptions& options, const Output& output) {
@@ -467,7 +237,8 @@ int run_drag(const DragOptions& options, const Output& output) {
   if (file && !options.into) {
     throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
   }
-  const DragIdentification result = studied_drag("", options.logs, options.flight).identified;
+  const DragIdentification result =
+      studied_drag("", options.logs, options.flight, logs_in_files(), note_on_error).identified;
   tell_assumptions(options.flight, result.options);
   if (options.into && options.into_file.empty()) {
     for (const std::string& warning : drag_warnings(result.fit)) {
@@ -490,56 +261,20 @@ int run_drag(const DragOptions& options, const Output& output) {
   return done;
 }
 
-ToldDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
-  if (options.flight_logs.empty() && options.power_log.empty()) {
-    throw InputError("diagnose",
-                     "needs a measured log: --flight LOG, --power LOG, or --log LOG for both");
-  }
-  check_power_options(options);
-  DiagnosisQuestion question{file.design};
-  question.hypotheses = own_effects(options);
-  check_effects(options, question.hypotheses);
-  std::vector<std::string> notes;
-  std::vector<std::string> power_notes;
-  if (!options.flight_logs.empty())
-    question.flight = read_flights(options, question.hypotheses, notes);
-  if (!options.power_log.empty()) {
-    PowerLogReading reading = read_power_log(
-        options.power_log,
-        {options.free_flight, battery_numbers(options.batteries), options.flight.core});
-    question.power = {.log = std::move(reading.log),
-                      .base = base_effects(options, LogKind::power, question.hypotheses)};
-    // Beside another log's flight these are that one's.
-    if (options.flight_logs.empty() || !options.whole_log.empty()) {
-      question.power->mass = flown_mass(options.flight);
-      question.power->air_density = air_density(options.flight);
-    }
-    power_notes = std::move(reading.notes);
-  }
-  question.one_flight = !options.whole_log.empty();
-  DiagnosisStudy study = studied(options, question);
-  if (study.flight) {
-    study.flight->notes.insert(study.flight->notes.begin(), notes.begin(), notes.end());
-  }
-  if (study.power) {
-    study.power->notes.insert(study.power->notes.begin(), power_notes.begin(), power_notes.end());
-  }
-  if (auto drag = drag_estimate_sentence(file.design)) {
-    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
-  }
-  std::optional<NextFlight> next;
+AnsweredDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
+  AskedDiagnosis asked =
+      diagnosis_question(options, file.design, own_effects(options), logs_in_files());
+  AnsweredDiagnosis told{studied(asked, options, file)};
   if (!options.next_flight_file.empty()) {
-    next = study_next_flight(
-        {std::move(question), study.flight.value(), options.height_m, options.reach_m});
+    told.next_flight = study_next_flight(
+        {std::move(asked.question), told.flight.value(), options.height_m, options.reach_m});
   }
-  // Checked as if a person had written it.
-  DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);
-  return {std::move(study), std::move(extended.document), std::move(next)};
+  return told;
 }
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   const std::optional<MissionTarget> target = mission_target(options);
-  const ToldDiagnosis told = diagnose_logs(options, read_spec(options.spec));
+  const AnsweredDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
     emit(output, spec_text(told.spec, options.spec.file, output.file));
     return done;

@@ -327,7 +327,8 @@ struct Walk {
 
 Walk walk_through(const AutopilotLog& log) {
   Walk walk;
-  auto& [clock, events] = walk;
+  Clock& clock = walk.clock;
+  FlyingByEvents& events = walk.events;
   std::map<const LogMessageType*, FieldsInUse> fields_of;
   const LogMessageType* last_type = nullptr;
   FieldsInUse* last_fields = nullptr;

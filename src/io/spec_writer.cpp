@@ -159,4 +159,12 @@ Json spec_with(const DesignFile& file, const Design& design,
   return document;
 }
 
+nlohmann::ordered_json spec_with_drag(const DesignFile& file, const DragFit& fit) {
+  Design design = file.design;
+  const double asymmetry = design.drone.drag.fore_aft_asymmetry;
+  design.drone.drag = fit.drag();
+  design.drone.drag.fore_aft_asymmetry = asymmetry;
+  return read_design_document(spec_with(file, design), file.file, file.load).document;
+}
+
 }  // namespace tethercalc

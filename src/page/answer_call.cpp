@@ -36,7 +36,8 @@ ordered_json problem_json(const InputProblem& problem) {
     out["pointer"] = as_utf8(std::string(rest.substr(slash + 1)));
     rest = rest.substr(0, slash);
   }
-  if (const std::size_t colon = rest.rfind(':'); colon != rest.npos) {
+  const bool is_option = rest.starts_with("--");
+  if (const std::size_t colon = rest.rfind(':'); colon != rest.npos && !is_option) {
     std::size_t line = 0;
     const char* const end = rest.data() + rest.size();
     const auto [stop, error] = std::from_chars(rest.data() + colon + 1, end, line);

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "tethercalc/identify/drag_fit.hpp"
 #include "tethercalc/io/design_reader.hpp"
 
 namespace tethercalc {
@@ -21,5 +22,9 @@ namespace tethercalc {
 [[nodiscard]] nlohmann::ordered_json spec_with(
     const DesignFile& file, const Design& design,
     const std::map<std::string, std::string>& references = {});
+
+/// The document of `file` with the drag that flights show in place of its own, checked as if a
+/// person had edited it; the asymmetry, which `fit` knows nothing of, stays.
+[[nodiscard]] nlohmann::ordered_json spec_with_drag(const DesignFile& file, const DragFit& fit);
 
 }  // namespace tethercalc

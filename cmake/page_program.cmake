@@ -1,0 +1,71 @@
+# The page's program for browsers, with Emscripten: page_program.wasm and the module that loads it.
+# scripts/build-page configures this; nothing here asks for the libraries of the host but headers.
+set(headers "${PROJECT_BINARY_DIR}/headers")
+file(MAKE_DIRECTORY "${headers}")
+# These folders alone: the host's own C library must not be found beside them.
+foreach(library fmt nlohmann boost eigen3)
+  if(NOT EXISTS "/usr/include/${library}")
+    message(FATAL_ERROR "/usr/include/${library} is missing: scripts/setup page installs it")
+  endif()
+  file(CREATE_LINK "/usr/include/${library}" "${headers}/${library}" SYMBOLIC)
+endforeach()
+
+include(cmake/embed_data.cmake)
+set(source "${PROJECT_SOURCE_DIR}/src")
+set(calculation_globs "")
+foreach(room model solve identify diagnose study)
+  list(APPEND calculation_globs "${source}/${room}/*.cpp")
+endforeach()
+file(GLOB calculation_sources CONFIGURE_DEPENDS ${calculation_globs})
+# The search for a whole design is NLopt's, which is a library of the host.
+list(FILTER calculation_sources EXCLUDE REGEX "/(constrained_minimum|design_search|design)\\.cpp$")
+list(APPEND calculation_sources "${source}/model/design.cpp")
+file(GLOB word_sources CONFIGURE_DEPENDS
+  "${source}/io/*.cpp" "${source}/report/*.cpp" "${source}/page/*.cpp")
+# What only commands ask, and gnuplot draws.
+list(FILTER word_sources EXCLUDE REGEX "/browser_program\\.cpp$")
+file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
+list(FILTER data_files EXCLUDE REGEX "/schema/")
+list(SORT data_files)
+
+# A room is compiled as one file, as in src/CMakeLists.txt.
+function(compile_for_page target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(file IN LISTS sources)
+    get_filename_component(folder "${file}" DIRECTORY)
+    get_filename_component(room "${folder}" NAME)
+    if(folder STREQUAL "${source}/${room}")
+      set_source_files_properties("${file}" PROPERTIES UNITY_GROUP ${room})
+    endif()
+  endforeach()
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/include" "${source}")
+  target_include_directories(${target} SYSTEM PRIVATE "${headers}" "${headers}/eigen3")
+  target_compile_definitions(${target} PRIVATE TETHERCALC_VERSION="${PROJECT_VERSION}"
+    FMT_HEADER_ONLY TETHERCALC_WITHOUT_DESIGN_SEARCH)
+  target_compile_options(${target} PRIVATE -fexceptions -Wno-defaulted-function-deleted
+    "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp")
+endfunction()
+
+add_library(page_calculation STATIC ${calculation_sources})
+compile_for_page(page_calculation)
+target_compile_options(page_calculation PRIVATE -O2 -fno-math-errno)
+
+add_library(page_words STATIC ${word_sources})
+embed_data(page_words ${data_files})
+include(src/page/example_specs.cmake)
+embed_files(page_words example_specs "${PROJECT_SOURCE_DIR}/examples" ${example_specs})
+compile_for_page(page_words)
+target_compile_options(page_words PRIVATE -Oz)
+
+add_executable(page_program "${source}/page/browser_program.cpp")
+compile_for_page(page_program)
+target_link_libraries(page_program PRIVATE page_words page_calculation page_words)
+set_target_properties(page_program PROPERTIES SUFFIX .js LINK_DEPENDS "${source}/page/call.js")
+target_link_options(page_program PRIVATE -Oz -fexceptions --no-entry
+  "SHELL:--extern-post-js ${source}/page/call.js"
+  -sMODULARIZE=1 -sEXPORT_NAME=createProgram -sENVIRONMENT=web,worker,node -sFILESYSTEM=0
+  -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sINITIAL_MEMORY=16MB -sTOTAL_STACK=1MB
+  -sALLOW_TABLE_GROWTH=0 -sDYNAMIC_EXECUTION=0 -sSUPPORT_ERRNO=0
+  -sEXPORTED_FUNCTIONS=_malloc,_free,_name_file,_call_page,_answer_text,_answer_size,_forget
+  -sEXPORTED_RUNTIME_METHODS=HEAPU8)

@@ -1,0 +1,300 @@
+#include "io/log_questions.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+#include "io/checked_values.hpp"
+#include "io/closest_name.hpp"
+#include "tethercalc/diagnose/hypothesis.hpp"
+#include "tethercalc/io/input_error.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/model/units.hpp"
+
+namespace tethercalc {
+
+void check_range(const char* option, double value, double least, double most, const char* unit) {
+  if (value >= least && value <= most) return;
+  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
+                                       most, unit));
+}
+
+namespace {
+
+bool is_given(const LogsAsked& options, LogKind kind) {
+  return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
+}
+
+/// The effects of --base that a log of `kind` can show. Every name must be one of a given log.
+std::vector<std::string> base_effects(const LogsAsked& options, LogKind kind,
+                                      std::span<const Effect> own) {
+  std::vector<std::string> chosen;
+  for (const Effect* effect : effects_for(kind, own)) {
+    if (std::find(options.base.begin(), options.base.end(), effect->id) != options.base.end()) {
+      chosen.push_back(effect->id);
+    }
+  }
+  return chosen;
+}
+
+[[noreturn]] void fail_without_log(const char* option, const std::string& id, LogKind kind) {
+  const bool flight = kind == LogKind::flight;
+  throw InputError(option,
+                   fmt::format("\"{}\" is an effect of {} logs; give one with {}", id,
+                               flight ? "flight" : "power", flight ? "--flight" : "--power"));
+}
+
+/// What --base and --effects name must be of a log that is given.
+void check_effects(const LogsAsked& options, std::span<const Effect> own) {
+  for (const Effect& effect : own) {
+    if (!is_given(options, effect.log)) fail_without_log("--effects", effect.id, effect.log);
+  }
+  std::vector<std::string> known;
+  for (const LogKind kind : {LogKind::flight, LogKind::power}) {
+    for (const Effect* effect : effects_for(kind, own)) {
+      if (is_given(options, kind)) known.push_back(effect->id);
+    }
+  }
+  for (const std::string& id : options.base) {
+    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
+    if (const Effect* effect = find_effect(id)) fail_without_log("--base", id, effect->log);
+    throw InputError("--base", fmt::format("\"{}\" is not an effect; allowed are {}{}", id,
+                                           fmt::join(known, ", "), did_you_mean(id, known)));
+  }
+}
+
+LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
+                          const LogReaders& read, std::vector<std::string>& notes) {
+  LoggedFlight flight;
+  flight.mass = flown_mass(options.flight);
+  flight.air_density = air_density(options.flight);
+  flight.options.base = base_effects(options, LogKind::flight, own);
+  flight.options.pitch_offset = pitch_offset(options.flight, read);
+  const auto from = log_position("--from", options.flight.from);
+  const auto to = log_position("--to", options.flight.to);
+  for (const std::string& name : options.flight_logs) {
+    FlightLogReading reading =
+        read.flight(name, {.core = options.flight.core, .level_where_missing = true});
+    const bool several = options.flight_logs.size() > 1;
+    if (several) {
+      notes.push_back(fmt::format("flight {} is {}", flight.flights.size() + 1, name));
+    }
+    for (const std::string& note : reading.notes) {
+      notes.push_back(several ? fmt::format("flight {}: {}", flight.flights.size() + 1, note)
+                              : note);
+    }
+    MeasuredFlight& measured =
+        flight.flights.emplace_back(MeasuredFlight{std::move(reading.log), {}});
+    try {
+      if (from || to) measured.range = select_range(measured.log, from, to);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(name, error.what());
+    }
+  }
+  return flight;
+}
+
+/// What is said of a power log needs one.
+void check_power_options(const LogsAsked& options) {
+  if (!options.power_log.empty()) return;
+  if (options.free_flight) {
+    throw InputError("--free-flight", "is of the power; give --power LOG, or --log LOG");
+  }
+  if (!options.batteries.empty()) {
+    throw InputError("--battery", "is of the power; give --power LOG, or --log LOG");
+  }
+}
+
+}  // namespace
+
+std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const std::string suffix = end;
+  if (end == text.c_str() || !std::isfinite(value) ||
+      !(suffix.empty() || suffix == "s" || suffix == "%")) {
+    throw InputError(option,
+                     "\"" + text +
+                         "\" is not a place in a log; allowed are seconds (120 or 120s) and "
+                         "percent of the samples (25%)");
+  }
+  return LogPosition{value, suffix == "%"};
+}
+
+double pitch_offset(const FlightOptions& options, const LogReaders& read) {
+  if (options.pitch_offset_deg && !options.trim_log.empty()) {
+    throw InputError("--trim-log",
+                     "and --pitch-offset-deg both give the pitch offset; only one can be right");
+  }
+  if (options.pitch_offset_deg) {
+    const double degrees = *options.pitch_offset_deg;
+    check_range("--pitch-offset-deg", degrees, -45, 45, "degrees");
+    return degrees * unit::degree;
+  }
+  if (options.trim_log.empty()) return 0;
+  try {
+    return pitch_offset_from_hover(read.flight(options.trim_log, {options.core}).log);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(options.trim_log, error.what());
+  }
+}
+
+std::vector<int> battery_numbers(const std::vector<std::string>& typed) {
+  std::vector<int> numbers;
+  for (const std::string& text : typed) {
+    const auto number = parsed_number(text);
+    constexpr double most = 255;
+    if (!number || !(*number >= 0 && *number <= most) || *number != std::floor(*number)) {
+      throw InputError("--battery",
+                       fmt::format("\"{}\" is no number of a battery monitor; allowed are whole "
+                                   "numbers from 0 to {:g}, separated by commas",
+                                   text, most));
+    }
+    numbers.push_back(static_cast<int>(*number));
+  }
+  return numbers;
+}
+
+LogsAsked with_halves(LogsAsked options) {
+  if (options.whole_log.empty()) return options;
+  if (!options.flight_logs.empty() || !options.power_log.empty()) {
+    throw InputError("--log", "is both, flight and power; give it, or --flight and --power");
+  }
+  options.flight_logs = {options.whole_log};
+  options.power_log = options.whole_log;
+  return options;
+}
+
+std::optional<double> flown_mass(const FlightOptions& options) {
+  if (!options.mass_g) return std::nullopt;
+  const SpecField& field = *find_field("drone.mass_g");
+  if (!field.range.contains(*options.mass_g)) {
+    throw InputError(
+        "--mass-g", fmt::format("{:g} is out of range; allowed is {}{}", *options.mass_g,
+                                describe_range(field), meant_in_thousands(field, *options.mass_g)));
+  }
+  return *options.mass_g * unit::gram;
+}
+
+std::optional<double> air_density(const FlightOptions& options) {
+  const bool by_weather = options.pressure_hPa || options.temperature_C;
+  if (options.air_density_kg_m3) {
+    if (by_weather) {
+      throw InputError("--air-density",
+                       "goes without --pressure-hPa and --temperature-C: they give it too");
+    }
+    check_range("--air-density", *options.air_density_kg_m3, 0.1, 2, "kg/m³");
+    return options.air_density_kg_m3;
+  }
+  if (!by_weather) return std::nullopt;
+  if (!options.pressure_hPa || !options.temperature_C) {
+    throw InputError("--pressure-hPa",
+                     "and --temperature-C give the air density together, not alone");
+  }
+  check_range("--pressure-hPa", *options.pressure_hPa, 100, 1200, "hPa");
+  check_range("--temperature-C", *options.temperature_C, -80, 80, "°C");
+  constexpr double pascal_per_hPa = 100;
+  return dry_air_density(*options.pressure_hPa * pascal_per_hPa,
+                         *options.temperature_C + zero_celsius_K);
+}
+
+FlightOptions flown_as(FlightOptions options, const Design& design) {
+  if (!options.mass_g) options.mass_g = design.drone.mass / unit::gram;
+  if (!air_density(options)) options.air_density_kg_m3 = design.flight.air_density;
+  return options;
+}
+
+DragIdentificationOptions identification_options(const FlightOptions& flight,
+                                                 const LogReaders& read) {
+  DragIdentificationOptions options;
+  const auto mass = flown_mass(flight);
+  if (!mass) {
+    throw InputError("--mass-g", "is needed: drag is force, the log knows only accelerations");
+  }
+  options.conditions.mass = *mass;
+  if (const auto density = air_density(flight)) options.conditions.air_density = *density;
+  options.from = log_position("--from", flight.from);
+  options.to = log_position("--to", flight.to);
+  options.pitch_offset = pitch_offset(flight, read);
+  if (flight.published_kinematics) options.kinematics = Kinematics::published;
+  return options;
+}
+
+std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, int core,
+                                        const LogReaders& read, const NoteTaker& note) {
+  std::vector<FlightLog> logs;
+  for (const std::string& name : names) {
+    FlightLogReading reading = read.flight(name, {core});
+    for (const std::string& amiss : reading.notes) note(fmt::format("{}: {}", name, amiss));
+    if (!reading.log.north_wind.empty()) {
+      note(name + ": the measured wind is not used: a steady one is fitted");
+    }
+    logs.push_back(std::move(reading.log));
+  }
+  return logs;
+}
+
+DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
+                       const FlightOptions& flight, const LogReaders& read, const NoteTaker& note) {
+  const DragIdentificationOptions how = identification_options(flight, read);
+  try {
+    return study_drag(name, read_flight_logs(logs, flight.core, read, note), how);
+  } catch (const UnsuitableFlight& error) {
+    throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
+  }
+}
+
+std::vector<std::string> assumptions_of(const FlightOptions& flight,
+                                        const DragIdentificationOptions& taken) {
+  std::vector<std::string> out;
+  if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
+    out.push_back(
+        fmt::format("no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
+                    "--temperature-C)",
+                    taken.conditions.air_density));
+  }
+  if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
+    out.emplace_back(
+        "no pitch offset given, 0° taken; what it misses ends up in the wind "
+        "(--trim-log or --pitch-offset-deg)");
+  }
+  return out;
+}
+
+AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design,
+                                  std::vector<Effect> own, const LogReaders& read) {
+  if (options.flight_logs.empty() && options.power_log.empty()) {
+    throw InputError("diagnose",
+                     "needs a measured log: --flight LOG, --power LOG, or --log LOG for both");
+  }
+  check_power_options(options);
+  AskedDiagnosis asked{{design}, {}, {}};
+  DiagnosisQuestion& question = asked.question;
+  question.hypotheses = std::move(own);
+  check_effects(options, question.hypotheses);
+  if (!options.flight_logs.empty())
+    question.flight = read_flights(options, question.hypotheses, read, asked.flight_notes);
+  if (!options.power_log.empty()) {
+    PowerLogReading reading =
+        read.power(options.power_log,
+                   {options.free_flight, battery_numbers(options.batteries), options.flight.core});
+    question.power = {.log = std::move(reading.log),
+                      .base = base_effects(options, LogKind::power, question.hypotheses)};
+    // Beside another log's flight these are that one's.
+    if (options.flight_logs.empty() || !options.whole_log.empty()) {
+      question.power->mass = flown_mass(options.flight);
+      question.power->air_density = air_density(options.flight);
+    }
+    asked.power_notes = std::move(reading.notes);
+  }
+  question.one_flight = !options.whole_log.empty();
+  return asked;
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,45 @@
+// The page's program: answer_call for JavaScript, which puts texts and files into its memory.
+// call.js is the other side.
+#include <emscripten.h>
+
+#include <cstddef>
+#include <string>
+
+#include "page/answer_call.hpp"
+
+namespace {
+
+tethercalc::page::NamedFiles& named_files() {
+  static tethercalc::page::NamedFiles files;
+  return files;
+}
+
+std::string& answer() {
+  static std::string text;
+  return text;
+}
+
+}  // namespace
+
+extern "C" {
+
+/// A file that the next call may name; its bytes stay where they are until `forget`.
+EMSCRIPTEN_KEEPALIVE void name_file(const char* name, std::size_t name_size, const std::byte* bytes,
+                                    std::size_t size) {
+  named_files()[std::string(name, name_size)] = {bytes, size};
+}
+
+/// Answers a request; `answer_text` and `answer_size` then tell where the answer is.
+EMSCRIPTEN_KEEPALIVE void call_page(const char* request, std::size_t size) {
+  answer() = tethercalc::page::answer_call({request, size}, named_files());
+}
+
+EMSCRIPTEN_KEEPALIVE const char* answer_text() { return answer().data(); }
+EMSCRIPTEN_KEEPALIVE std::size_t answer_size() { return answer().size(); }
+
+/// Of files and answer nothing is kept.
+EMSCRIPTEN_KEEPALIVE void forget() {
+  named_files().clear();
+  answer() = {};
+}
+}

@@ -1,0 +1,44 @@
+// The calculator for JavaScript: `const call = await loadCalculator(bytes)`, then
+// `call(request, files)` is the answer to a JSON text as a JSON text. `bytes` are those of
+// page_program.wasm, or a WebAssembly.Module of it; `files` maps names to Uint8Arrays.
+async function loadCalculator(bytes) {
+  const instance = (imports, receive) => {
+    const module = bytes instanceof WebAssembly.Module ? Promise.resolve(bytes) : WebAssembly.compile(bytes);
+    module.then((compiled) => WebAssembly.instantiate(compiled, imports).then((made) => receive(made, compiled)));
+    return {};
+  };
+  const program = await createProgram({ instantiateWasm: instance });
+  const encoder = new TextEncoder();
+  const decoder = new TextDecoder();
+  // Memory may grow with every allocation, which moves HEAPU8.
+  const put = (data) => {
+    const place = program._malloc(data.length || 1);
+    if (place === 0) throw new RangeError("the memory does not suffice for a file of " + data.length + " bytes");
+    program.HEAPU8.set(data, place);
+    return place;
+  };
+  return function call(request, files = {}) {
+    const places = [];
+    const keep = (data) => {
+      const place = put(data);
+      places.push(place);
+      return place;
+    };
+    try {
+      for (const [name, data] of Object.entries(files)) {
+        const text = encoder.encode(name);
+        program._name_file(keep(text), text.length, keep(data), data.length);
+      }
+      const text = encoder.encode(request);
+      program._call_page(keep(text), text.length);
+      const begin = program._answer_text();
+      return decoder.decode(program.HEAPU8.subarray(begin, begin + program._answer_size()));
+    } catch (error) {
+      const message = error instanceof RangeError ? error.message : "the calculation broke off: " + error;
+      return JSON.stringify({ problems: [{ pointer: null, line: null, where: "memory", message }] });
+    } finally {
+      program._forget();
+      places.forEach((place) => program._free(place));
+    }
+  };
+}

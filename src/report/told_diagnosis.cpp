@@ -1,0 +1,63 @@
+#include "report/told_diagnosis.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "tethercalc/io/spec_writer.hpp"
+#include "tethercalc/report/design_report.hpp"
+#include "tethercalc/report/diagnosis_report.hpp"
+
+namespace tethercalc {
+namespace {
+
+DiagnosisStudy studied(const AskedDiagnosis& asked, const LogsAsked& options,
+                       const SelectionProgress& progress) {
+  try {
+    return study_diagnosis(asked.question, progress);
+  } catch (const UnsuitableLog& error) {
+    throw InputError(error.kind() == LogKind::flight
+                         ? fmt::format("{}", fmt::join(options.flight_logs, ", "))
+                         : options.power_log,
+                     error.what());
+  }
+}
+
+/// Of one log alone.
+const Diagnosis& only_one(const ToldDiagnosis& told) {
+  return told.power ? *told.power : *told.flight;
+}
+
+}  // namespace
+
+ToldDiagnosis told_diagnosis(const AskedDiagnosis& asked, const LogsAsked& options,
+                             const DesignFile& file, const SelectionProgress& progress) {
+  DiagnosisStudy study = studied(asked, options, progress);
+  if (study.flight) {
+    study.flight->notes.insert(study.flight->notes.begin(), asked.flight_notes.begin(),
+                               asked.flight_notes.end());
+  }
+  if (study.power) {
+    study.power->notes.insert(study.power->notes.begin(), asked.power_notes.begin(),
+                              asked.power_notes.end());
+  }
+  if (auto drag = drag_estimate_sentence(file.design)) {
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
+  }
+  // Checked as if a person had written it.
+  DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);
+  return {std::move(study), std::move(extended.document)};
+}
+
+std::string told_text(const ToldDiagnosis& told, const TextStyle& style) {
+  return told.flight && told.power ? joint_diagnosis_text(*told.flight, *told.power, style)
+                                   : diagnosis_text(only_one(told), style);
+}
+
+nlohmann::ordered_json told_json(const ToldDiagnosis& told) {
+  return told.flight && told.power ? joint_diagnosis_json(*told.flight, *told.power, told.spec)
+                                   : diagnosis_json(only_one(told), told.spec);
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,148 @@
+// The page's program, as WebAssembly in Node, against the program of the command line: the same
+// answers to 12 digits.
+//
+//   node program_in_node.mjs LOADER.mjs PROGRAM.wasm TETHERCALC PROJECT SHARED
+//
+// SHARED is the folder of reference data; without it only the project's own examples are compared.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { basename, join } from 'node:path';
+
+const [loader, wasm, tethercalc, project, shared] = process.argv.slice(2);
+const load = new Function(`${readFileSync(loader, 'utf8')}\nreturn loadCalculator;`)();
+const begun = performance.now();
+const call = await load(readFileSync(wasm));
+console.log(`loaded in ${(performance.now() - begun).toFixed(0)} ms`);
+const folder = mkdtempSync(join(tmpdir(), 'tethercalc-page-'));
+
+const ask = (request, files) => {
+  const reply = JSON.parse(call(JSON.stringify(request), files));
+  assert.ok(reply.answer, JSON.stringify(reply.problems));
+  return reply.answer;
+};
+const command = (...args) => {
+  try {
+    return execFileSync(tethercalc, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 28 });
+  } catch (error) {
+    if (error.status === 1) return error.stdout;
+    throw error;
+  }
+};
+
+let numbers = 0;
+let greatest = 0;
+/** Every number equal to `digits`, everything else exactly. */
+function same(found, expected, where, digits = 12) {
+  if (typeof expected === 'number' && typeof found === 'number') {
+    const off = Math.abs(found - expected) / Math.max(Math.abs(expected), 1e-9);
+    numbers += 1;
+    greatest = Math.max(greatest, off);
+    assert.ok(off < 10 ** -digits, `${where}: ${found} instead of ${expected}`);
+  } else if (expected !== null && typeof expected === 'object') {
+    assert.deepEqual(Object.keys(found), Object.keys(expected), where);
+    for (const key of Object.keys(expected)) same(found[key], expected[key], `${where}/${key}`, digits);
+  } else {
+    assert.equal(found, expected, where);
+  }
+}
+
+/** The spec of a golden design, whose motors and materials are numbers of its own. */
+function goldenSpec(inputs, motors) {
+  const points = Object.entries(motors[inputs.motor]).filter(([throttle]) => throttle !== 'name')
+    .map(([throttle, [grams, efficiency]]) => ({ throttle_percent: Number(throttle), thrust_g: grams, efficiency_g_per_W: efficiency }))
+    .sort((a, b) => a.throttle_percent - b.throttle_percent);
+  const copper = inputs.conductor === 'copper';
+  return {
+    name: 'golden',
+    drone: { mass_g: inputs.drone_mass_g, motor_count: inputs.motor_count, motor: { points }, auxiliary_power_W: inputs.payload_power_W,
+      drag: { front_area_m2: inputs.drag_front_area_m2, top_area_m2: inputs.drag_top_area_m2, linear_m_s: inputs.drag_linear_m_s } },
+    tether: { length_m: inputs.tether_length_m,
+      conductor: { resistivity_ohm_mm2_m: copper ? 0.0178 : 0.0278, density_g_cm3: copper ? 8.9 : 2.7 },
+      insulation: { material: { density_g_cm3: inputs.insulation_density_g_cm3 }, thickness_mm: inputs.insulation_thickness_mm } },
+    supply: { voltage_V: inputs.supply_voltage_V,
+      converter: { efficiency: inputs.converter_efficiency, min_input_voltage_V: inputs.converter_min_input_voltage_V } },
+    flight: { airspeed_m_s: inputs.airspeed_m_s, air_density_kg_m3: inputs.air_density_kg_m3 },
+    requirements: { thrust_headroom: inputs.thrust_headroom },
+    gravity_m_s2: inputs.gravity_m_s2,
+  };
+}
+
+function compareDesign(name, spec) {
+  const file = join(folder, 'spec.json');
+  writeFileSync(file, spec);
+  const expected = command('optimize', file, '--format', 'json');
+  const answer = ask({ ask: 'optimize', spec });
+  same(answer.result, JSON.parse(expected), name);
+  assert.equal(answer.text, command('optimize', file), name);
+}
+
+try {
+  const example = (name) => readFileSync(join(project, 'examples', name), 'utf8');
+  for (const name of ['holybro-x500', 'headroom-range', 'hexacopter-400v', 'reference/hanging-offset',
+    'reference/infeasible-power-hover', 'reference/every-effect']) compareDesign(name, example(`${name}.json`));
+  const spec = example('holybro-x500.json');
+
+  const golden = shared && join(shared, 'data/golden/reference-designs.json');
+  if (golden && existsSync(golden)) {
+    const data = JSON.parse(readFileSync(golden, 'utf8'));
+    const designs = data.designs ?? data.cases;
+    designs.forEach((design, i) => compareDesign(`golden ${i}`, JSON.stringify(goldenSpec(design.inputs ?? design, data.motors), null, 1)));
+    console.log(`${designs.length} golden designs`);
+  } else {
+    console.log('the golden designs are not there');
+  }
+
+  const compareDrag = (log, ...options) => {
+    const bytes = readFileSync(log);
+    const given = Object.fromEntries(options.map(([name, , value]) => [name, value]));
+    const found = ask({ ask: 'drag', file: basename(log), ...given }, { [basename(log)]: bytes });
+    // The fit ends where steps no longer matter, not at the same last digits.
+    same(found.result, JSON.parse(command('drag', log, '--format', 'json', ...options.flatMap(([, name, value]) => [name, String(value)]))),
+      basename(log), 6);
+  };
+  compareDrag(join(project, 'examples/simulated-flight.csv'), ['mass_g', '--mass-g', 1550]);
+  const flight = shared && join(shared, 'data/x500-flight.bin');
+  if (flight && existsSync(flight)) {
+    compareDrag(flight, ['mass_g', '--mass-g', 1549], ['pitch_offset_deg', '--pitch-offset-deg', 1.4955439766569403],
+      ['from', '--from', '25%'], ['to', '--to', '90%']);
+  }
+
+  const compareDiagnosis = (specFile, kind, log) => {
+    const text = readFileSync(specFile, 'utf8');
+    const name = basename(log);
+    const began = performance.now();
+    const found = ask({ ask: 'diagnose', spec: text, ...(kind === 'flight' ? { flights: [name] } : { power: name }) }, { [name]: readFileSync(log) });
+    const took = performance.now() - began;
+    const expected = JSON.parse(command('diagnose', specFile, `--${kind}`, log, '--format', 'json'));
+    assert.deepEqual(found.result.findings.map(({ effect }) => effect), expected.findings.map(({ effect }) => effect));
+    same(found.result.findings, expected.findings, name, 5);
+    console.log(`diagnosis of ${name}: ${found.result.findings.map(({ effect }) => effect).join(', ') || 'nothing found'} in ${took.toFixed(0)} ms`);
+  };
+  compareDiagnosis(join(project, 'examples/holybro-x500.json'), 'flight', join(project, 'examples/simulated-flight.csv'));
+
+  const slider = { ask: 'optimize_and_figures', spec, kinds: ['optimum'] };
+  const times = [];
+  for (let i = 0; i < 200; ++i) {
+    const changed = ask({ ask: 'set', spec, path: 'supply.voltage_V', value: 60 + i / 10 }).spec;
+    const from = performance.now();
+    call(JSON.stringify({ ...slider, spec: changed }));
+    times.push(performance.now() - from);
+  }
+  times.sort((a, b) => a - b);
+  console.log(`optimize_and_figures: median ${times[100].toFixed(2)} ms, of 200 the longest ${times[199].toFixed(2)} ms`);
+
+  // Nothing of what was given is kept.
+  const big = new Uint8Array(1 << 27).fill(120);
+  for (let i = 0; i < 20; ++i) {
+    assert.ok(JSON.parse(call('{"ask":"log","file":"big.bin"}', { 'big.bin': big })).problems);
+  }
+  for (const hostile of ['', '{', '\u0000', '[['.repeat(5000), JSON.stringify({ ask: 'optimize', spec: '{'.repeat(100000) })]) {
+    assert.ok(JSON.parse(call(hostile)).problems);
+  }
+  assert.equal(ask({ ask: 'optimize', spec }).headline, 'Fly 1.089 mm² of aluminium.');
+  console.log(`${numbers} numbers compared, the greatest difference ${greatest.toExponential(1)}`);
+} finally {
+  rmSync(folder, { recursive: true });
+}
