@@ -44,7 +44,7 @@ const painters = {
     for (let i = x.length - 1; i >= 0; --i) ctx.lineTo(u.valToPos(x[i], 'x', true), u.valToPos(lower[i], 'y', true));
     ctx.fill();
   },
-  curve(ctx, u, { x, y, colour: name, dash, width }) {
+  curve(ctx, u, { x, y, colour: name, dash, width, label }) {
     ctx.strokeStyle = colour(name);
     ctx.lineWidth = (0.6 + 0.9 * (width ?? 1)) * devicePixelRatio;
     ctx.setLineDash((dash ?? []).map((length) => length * 1.3 * devicePixelRatio));
@@ -57,6 +57,12 @@ const painters = {
       down = true;
     }
     ctx.stroke();
+    if (!label) return;
+    const last = x.findLastIndex((at, i) => finite(at) && finite(y[i]));
+    const end = u.valToPos(x[last], 'x', true);
+    const right = end > u.bbox.left + u.bbox.width - 60 * devicePixelRatio;
+    write(ctx, label, end + (right ? -3 : 3) * devicePixelRatio,
+      Math.max(u.valToPos(y[last], 'y', true), u.bbox.top + 14 * devicePixelRatio), right ? 'right' : 'left');
   },
   reference(ctx, u, { at, vertical, colour: name, dash, words }) {
     ctx.strokeStyle = colour(name);

@@ -46,7 +46,9 @@ export function figuresOf(parts) {
   for (const figure of figures) {
     numbered(figure.parts);
     for (const part of figure.parts) {
-      if (part.part === 0 && part.title.includes(figure.heading)) part.title = '';
+      if (part.part !== 0 || !part.title.includes(figure.heading)) continue;
+      figure.heading = part.title; // the figure's, which stands above its first panel
+      part.title = '';
     }
   }
   return figures;
