@@ -244,7 +244,7 @@ class DrawnPanel {
     this.panel = panel;
     this.ghost = ghost;
     setText(this.titleWords, panel.title || panel.y.label);
-    setText(this.top, panel.top?.label ? `along the top: ${panel.top.label}` : panel.remark ?? '');
+    setText(this.top, panel.top?.label ? `top: ${panel.top.label}` : panel.remark ?? '');
     this.holder.setAttribute('aria-label', `${panel.title || panel.y.label}, over ${panel.x.label}. Arrow keys read the curves; the values are in the table below.`);
     this.setLegend();
     if (key !== this.key_ || !this.plot) {
