@@ -260,8 +260,10 @@ class RadiiSearch {
 
   /// The radius between two at which the margin passes 0, to 1e-12, by secants in a bracket.
   [[nodiscard]] double crossing(End a, End b) const {
-    // The error of a secant through two radii is about the product of theirs.
+    // The error of a secant through two radii is about the product of theirs: of the last step, and
+    // of the distance between them, which is long where one was left behind at the bracket's end.
     constexpr double last_step = 1e-9;
+    constexpr double last_error = 1e-15;
     double lo = a.at.radius;
     double hi = b.at.radius;
     const bool enters = b.met();
@@ -269,11 +271,14 @@ class RadiiSearch {
     End now = b;
     if (std::abs(a.margin.value) < std::abs(b.margin.value)) std::swap(before, now);
     for (int step = 1; step < 200 && now.margin.value != 0; ++step) {
-      const double change =
-          now.excess() * (now.at.radius - before.at.radius) / (now.excess() - before.excess());
+      const double apart = now.at.radius - before.at.radius;
+      const double change = now.excess() * apart / (now.excess() - before.excess());
       double next = now.at.radius - change;
       const bool inside = next > lo && next < hi && step % 6 != 0;
-      if (inside && step > 2 && std::abs(change) <= last_step * next) return next;
+      if (inside && step > 2 && std::abs(change) <= last_step * next &&
+          std::abs(change * apart) <= last_error * next * next) {
+        return next;
+      }
       if (!inside) next = 0.5 * (lo + hi);
       if (!(lo < next && next < hi)) return enters ? hi : lo;
       before = now;

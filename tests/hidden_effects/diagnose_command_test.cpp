@@ -448,7 +448,9 @@ TEST_CASE("the practice logs are answered correctly at the command line") {
   if (!answers_file) return;
   const std::filesystem::path folder = answers_file->parent_path();
   const ordered_json answers = ordered_json::parse(file_text(*answers_file))["answers"];
+  std::size_t logs = 0;
   for (const auto& [name, answer] : answers.items()) {
+    if (logs++ % stride() != 0) continue;
     std::vector<std::string> arguments{"diagnose", (folder / "x500-tethered.spec.json").string()};
     const std::string log = (folder / name).string();
     if (answer.contains("given")) {
