@@ -1,10 +1,10 @@
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { createRequire } from 'node:module';
-import { example, field, launch, missing, open, pageFile, programSays, ready, root, saved, typeSpec } from './browser.mjs';
+import { example, field, launch, missing, open, pageFile, programSays, root, saved, typeSpec } from './browser.mjs';
 
 const skip = missing();
 let browser;
@@ -12,10 +12,10 @@ before(async () => { if (!skip) browser = await launch(); });
 after(() => browser?.close());
 
 /** A test on a page of its own, which must have logged no error and asked for nothing. */
-const onPage = (name, body, options = {}) => test(name, { skip, timeout: 120_000 }, async (t) => {
+const onPage = (name, body, options = {}) => test(name, { skip, timeout: 120_000 }, async () => {
   const opened = await open(browser, options);
   try {
-    await body(opened.page, t, opened);
+    await body(opened.page);
     assert.deepEqual(opened.errors, []);
     assert.deepEqual(opened.requests, []);
   } finally {
@@ -131,7 +131,7 @@ onPage('the link holds the design, and the pinned one, for another page', async 
   await other.close();
 });
 
-onPage('half a link is told, and the page lives on', async (page, t, opened) => {
+onPage('half a link is told, and the page lives on', async (page) => {
   await field(page, 'tether.length_m').fill('45');
   await field(page, 'tether.length_m').press('Tab');
   await page.waitForTimeout(200);
@@ -224,13 +224,41 @@ onPage('what a log of an autopilot holds is told as it is dropped, packed or not
   assert.match(text, /134729 bytes, 4806 messages/);
 });
 
-onPage('a file that is no log is told in words, and a cancelled reading leaves the page as it was', async (page) => {
+onPage('a file that is no log is told in words', async (page) => {
   await page.getByRole('tab', { name: 'Learn from a log' }).click();
   await page.locator('#log-files').setInputFiles({ name: 'holiday.jpg', mimeType: 'image/jpeg', buffer: Buffer.from('no log at all') });
   await page.locator('.learned .bad').waitFor();
-  assert.ok((await page.locator('.learned .bad').textContent()).length > 20);
-  await page.locator('#log-files').setInputFiles(join(root, 'examples/simulated-flight.csv'));
+  assert.match(await page.locator('.learned .bad').textContent(), /holiday\.jpg: .*log/);
   assert.equal(await page.locator('#headline').textContent(), 'Fly 1.089 mm² of aluminium.');
+});
+
+const flown = () => JSON.stringify({ ...JSON.parse(example('holybro-x500.json')),
+  tether: { ...JSON.parse(example('holybro-x500.json')).tether, cross_section_mm2: 1.0886 } });
+
+onPage("a power log dropped on the page gives the program's diagnosis", async (page) => {
+  const log = join(root, 'examples/simulated-power.csv');
+  await typeSpec(page, flown());
+  await page.getByRole('tab', { name: 'Learn from a log' }).click();
+  await page.locator('#log-files').setInputFiles(log);
+  await page.getByRole('button', { name: 'Diagnose', exact: true }).click();
+  await page.locator('.learned pre').waitFor({ timeout: 100_000 });
+  // The table of what is ruled out has the most numbers.
+  const ruledOut = (text) => text.slice(text.indexOf('Ruled out'), text.indexOf('What this log can never show')).trim();
+  const printed = programSays(['diagnose', '-', '--power', log], flown());
+  assert.ok(ruledOut(printed).length > 500);
+  assert.equal(ruledOut(await page.locator('.learned pre').textContent()), ruledOut(printed));
+});
+
+onPage('a cancelled calculation leaves the page as it was', async (page) => {
+  await typeSpec(page, flown());
+  const headline = await page.locator('#headline').textContent();
+  await page.getByRole('tab', { name: 'Learn from a log' }).click();
+  await page.locator('#log-files').setInputFiles(join(root, 'examples/simulated-power.csv'));
+  await page.getByRole('button', { name: 'Diagnose', exact: true }).click();
+  await page.getByRole('button', { name: 'cancel' }).click();
+  assert.match(await page.locator('.learned').textContent(), /Stopped/);
+  assert.equal(await page.locator('#headline').textContent(), headline);
+  await page.getByRole('button', { name: 'Diagnose', exact: true }).isEnabled();
 });
 
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
