@@ -12,17 +12,14 @@ endforeach()
 
 include(cmake/embed_data.cmake)
 set(source "${PROJECT_SOURCE_DIR}/src")
-set(calculation_globs "")
-foreach(room model solve identify diagnose study)
-  list(APPEND calculation_globs "${source}/${room}/*.cpp")
-endforeach()
-file(GLOB calculation_sources CONFIGURE_DEPENDS ${calculation_globs})
+file(GLOB physics_sources CONFIGURE_DEPENDS
+  "${source}/model/*.cpp" "${source}/solve/*.cpp" "${source}/study/*.cpp")
 # The search for a whole design is NLopt's, which is a library of the host.
-list(FILTER calculation_sources EXCLUDE REGEX "/(constrained_minimum|design_search|design)\\.cpp$")
-list(APPEND calculation_sources "${source}/model/design.cpp")
+list(FILTER physics_sources EXCLUDE REGEX
+  "/(solve/constrained_minimum|study/design_search|study/design)\\.cpp$")
+file(GLOB fit_sources CONFIGURE_DEPENDS "${source}/identify/*.cpp" "${source}/diagnose/*.cpp")
 file(GLOB word_sources CONFIGURE_DEPENDS
   "${source}/io/*.cpp" "${source}/report/*.cpp" "${source}/page/*.cpp")
-# What only commands ask, and gnuplot draws.
 list(FILTER word_sources EXCLUDE REGEX "/browser_program\\.cpp$")
 file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
 list(FILTER data_files EXCLUDE REGEX "/schema/")
@@ -43,13 +40,18 @@ function(compile_for_page target)
   target_include_directories(${target} SYSTEM PRIVATE "${headers}" "${headers}/eigen3")
   target_compile_definitions(${target} PRIVATE TETHERCALC_VERSION="${PROJECT_VERSION}"
     FMT_HEADER_ONLY TETHERCALC_WITHOUT_DESIGN_SEARCH)
-  target_compile_options(${target} PRIVATE -fexceptions -Wno-defaulted-function-deleted
+  target_compile_options(${target} PRIVATE -fwasm-exceptions -Wno-defaulted-function-deleted
     "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp")
 endfunction()
 
-add_library(page_calculation STATIC ${calculation_sources})
-compile_for_page(page_calculation)
-target_compile_options(page_calculation PRIVATE -O2 -fno-math-errno)
+# What sliders wait for is optimised for speed, the rest for its size.
+add_library(page_physics STATIC ${physics_sources})
+compile_for_page(page_physics)
+target_compile_options(page_physics PRIVATE -O2 -fno-math-errno)
+
+add_library(page_fits STATIC ${fit_sources})
+compile_for_page(page_fits)
+target_compile_options(page_fits PRIVATE -Os -fno-math-errno)
 
 add_library(page_words STATIC ${word_sources})
 embed_data(page_words ${data_files})
@@ -60,11 +62,11 @@ target_compile_options(page_words PRIVATE -Oz)
 
 add_executable(page_program "${source}/page/browser_program.cpp")
 compile_for_page(page_program)
-target_link_libraries(page_program PRIVATE page_words page_calculation page_words)
+target_link_libraries(page_program PRIVATE page_words page_physics page_fits page_physics)
 set_target_properties(page_program PROPERTIES SUFFIX .js LINK_DEPENDS "${source}/page/call.js")
-target_link_options(page_program PRIVATE -Oz -fexceptions --no-entry
+target_link_options(page_program PRIVATE -Oz -fwasm-exceptions --no-entry
   "SHELL:--extern-post-js ${source}/page/call.js"
-  -sMODULARIZE=1 -sEXPORT_NAME=createProgram -sENVIRONMENT=web,worker,node -sFILESYSTEM=0
+  -sMODULARIZE=1 -sEXPORT_NAME=createProgram -sENVIRONMENT=web,worker -sFILESYSTEM=0
   -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sINITIAL_MEMORY=16MB -sTOTAL_STACK=1MB
   -sALLOW_TABLE_GROWTH=0 -sDYNAMIC_EXECUTION=0 -sSUPPORT_ERRNO=0
   -sEXPORTED_FUNCTIONS=_malloc,_free,_name_file,_call_page,_answer_text,_answer_size,_forget

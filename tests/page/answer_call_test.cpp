@@ -159,16 +159,19 @@ TEST_CASE("whatever a request holds, the reply is JSON that says what is wrong")
 }
 
 TEST_CASE("a motor that a spec names as a file is taken from the request") {
+  const std::string table = "Thrust (g),Power (W)\n300,35\n600,85\n1000,180\n";
   ordered_json spec = ordered_json::parse(example("holybro-x500.json"));
-  spec["drone"]["motor"] = "motor-table.csv";
-  const Files files{{{"motor-table.csv", example("motor-table.csv")}}};
-  const ordered_json result =
-      answered({{"ask", "optimize"}, {"spec", spec.dump()}}, files).at("result");
-  CHECK(result.at("optimum") ==
-        ordered_json::parse(program("optimize holybro-x500.json --format json --set "
-                                    "drone.motor=motor-table.csv"))
-            .at("optimum"));
-  CHECK(only_message(replied({{"ask", "optimize"}, {"spec", spec.dump()}})) == "no such file");
+  spec["drone"]["motor"] = "mine.csv";
+  const test::TemporaryFolder folder;
+  test::write_file(folder.path() / "mine.csv", table);
+  test::write_file(folder.path() / "spec.json", spec.dump());
+  const ordered_json found =
+      answered({{"ask", "optimize"}, {"spec", spec.dump()}}, {{{"mine.csv", table}}});
+  CHECK(found.at("result") ==
+        ordered_json::parse(
+            program("optimize --format json " + test::shell_quoted(folder.path() / "spec.json"))));
+  CHECK(only_message(replied({{"ask", "optimize"}, {"spec", spec.dump()}})) ==
+        "mine.csv: no such file");
 }
 
 TEST_CASE("a field is changed in the text of a spec with the layout kept") {
@@ -218,7 +221,7 @@ TEST_CASE("every field that the page shows can be set to its default") {
   CHECK(known.at("fields").size() > 60);
   for (const ordered_json& field : known.at("fields")) {
     INFO(field.dump());
-    CHECK(field.at("help").get<std::string>().size() > 10);
+    CHECK_FALSE(field.at("help").get<std::string>().empty());
     if (field.at("default").is_null()) continue;
     const std::string text = answered({{"ask", "set"},
                                        {"spec", spec},
@@ -252,7 +255,7 @@ TEST_CASE("the drag that a flight shows is that of the program, and goes into th
   CHECK(ordered_json::parse(learned.at("spec").get<std::string>())
             .at("drone")
             .at("drag")
-            .at("front_area_m2") == drag.at("result").at("drone.drag").at("front_area_m2"));
+            .at("front_area_m2") == drag.at("result").at("drone").at("drag").at("front_area_m2"));
 }
 
 TEST_CASE("a diagnosis of the page is that of the program") {
