@@ -8,6 +8,7 @@
 
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/report/explanation.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc::cli {
@@ -64,6 +65,8 @@ std::vector<std::string> words_for(const OptionHelp& option,
     for (const MotorEntry& motor : library_motors()) words.push_back(motor.id);
   } else if (value == "[COMMAND]") {
     for (const CommandHelp& command : commands) words.push_back(command.name);
+  } else if (value == "[CODE]") {
+    for (const Explanation& page : explanations()) words.push_back(page.code);
   } else if (value.find('|') != std::string::npos) {
     for (std::size_t begin = 0; begin <= value.size();) {
       const std::size_t end = std::min(value.find('|', begin), value.size());

@@ -468,6 +468,14 @@ class CommandLine {
                 "Solve the bare cables of this file (JSON) instead")
         .output(output_)
         .examples({"tethercalc shape my.json --area-mm2 1.1 --wind 8 --offset 5"});
+    add("rules", "What published rules ask of a tethered drone, and how its figures stand to them",
+        [this] { return run_rules(spec_, rules_, output_); })
+        .spec(spec_)
+        .option(
+            "--rules BOOK", rules_,
+            "Which rules, required: eu-c3 (European Union, class C3), uk, us, or electrical alone")
+        .output(output_)
+        .examples({"tethercalc rules my.json --rules eu-c3"});
     add("validate", "Check specs without computing anything",
         [this] { return run_validate(files_, spec_.overrides, output_); })
         .argument("SPEC", files_, "Design specs (JSON), - for standard input")
@@ -598,14 +606,18 @@ class CommandLine {
                    "tethercalc plot sweep rows.csv --x supply.voltage_V"});
     add("report", "One page with everything about a design, to be mailed or printed",
         [this] {
-          return run_report(with_both_halves(diagnose_), shell_command(arguments_), output_);
+          return run_report(with_both_halves(diagnose_), rules_, shell_command(arguments_),
+                            output_);
         })
         .spec(diagnose_.spec)
         .logs(diagnose_,
               "With what this flight log says: ArduPilot (.bin, .log), PX4 (.ulg) or CSV",
               "With what this power log says: the same, with voltage and current")
+        .group("Rules")
+        .option("--rules BOOK", rules_, "With what published rules ask: eu-c3, uk or us")
         .output_file(output_)
-        .examples({"tethercalc report my.json --flight flight.bin --output report.html"});
+        .examples({"tethercalc report my.json --flight flight.bin --output report.html",
+                   "tethercalc report my.json --rules eu-c3 --output report.html"});
   }
 
   void add_words_about_itself() {
@@ -632,6 +644,17 @@ class CommandLine {
         })
         .output_file(output_)
         .examples({"tethercalc man | man -l -"});
+    add("explain", "What a code of an answer means, why it comes about, and what to do",
+        [this] { return run_explain(what_, explanation_form_, output_); })
+        .optional_argument(
+            "CODE", what_,
+            "As answers print it: a limit, a warning, a verdict, an effect (default: "
+            "all codes, a line each)")
+        .group("Output")
+        .choice("--format text|json|markdown", explanation_form_,
+                "Form of the page (default: text)")
+        .output_file(output_)
+        .examples({"tethercalc explain available_power", "tethercalc explain propwash"});
     add("help", "What a command does, and its options", [this] { return print_help(what_); })
         .optional_argument("COMMAND", what_, "One of the commands (default: all, briefly)")
         .examples({"tethercalc help optimize"});
@@ -762,6 +785,8 @@ class CommandLine {
   std::span<const char* const> arguments_;  ///< what was typed, the program's name first
   std::string message_;
   PlotOptions plot_;
+  std::string rules_;
+  ExplanationForm explanation_form_ = ExplanationForm::text;
 };
 
 }  // namespace

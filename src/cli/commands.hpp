@@ -165,6 +165,16 @@ int run_motor(const MotorOptions& options, Output output);
 /// `what`: "motors", "conductors", "insulation" or "sizes".
 int run_list(const std::string& what, const Output& output);
 
+/// Forms of an explanation.
+enum class ExplanationForm { text, json, markdown };
+
+/// The page of `code`, or where that is empty a list of all codes. Throws InputError with the
+/// closest code where there is none.
+int run_explain(const std::string& code, ExplanationForm form, const Output& output);
+
+/// Says to a person at a terminal where more is told of `codes`: those that have a page.
+void point_to_explanations(const std::vector<std::string>& codes, const Output& output);
+
 /// Reads logs from files, compressed or not.
 [[nodiscard]] LogReaders logs_in_files();
 
@@ -237,7 +247,13 @@ int run_plot(const PlotOptions& options, const Output& output);
 
 /// Writes the page. `options` names the spec and the logs, which may both be there; `command` is
 /// what was typed, for a shell. The exit code is that of `optimize` for the spec.
-int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output);
+/// `rules` is the id of a book of rules, or empty.
+int run_report(const DiagnoseOptions& options, const std::string& rules, const std::string& command,
+               const Output& output);
+
+/// What the book of rules asks and how the design stands to it, with the conductor that the spec
+/// states or else its optimum; exit code 1 where a clause fails.
+int run_rules(const SpecOptions& spec, const std::string& rules, const Output& output);
 
 /// The command line, given with the program's name, as one may type it into a shell again.
 [[nodiscard]] std::string shell_command(std::span<const char* const> arguments);

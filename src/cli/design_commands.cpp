@@ -14,11 +14,13 @@
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "report/characters.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/reference_check.hpp"
 #include "tethercalc/study/motor.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc::cli {
 namespace {
@@ -113,6 +115,9 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
   emit(
       output, [&] { return optimize_text(file, answer, style_for(output)); },
       [&] { return optimize_json(file, answer); }, [&] { return optimize_csv(answer); });
+  std::vector<std::string> codes{std::string(limit_name(answer.result.limited_by))};
+  for (const Warning& warning : all_warnings(file)) codes.emplace_back(warning_code(warning.kind));
+  point_to_explanations(codes, output);
   return answer.result.feasible ? done : answer_is_no;
 }
 
@@ -206,12 +211,13 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
     try {
       const DesignFile file = read_design(name, overrides);
       text += printable(file.file) + ": valid\n";
-      std::vector<std::string> warnings = file.warnings;
-      if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
-      for (const std::string& warning : warnings) {
-        text += "  Note: " + printable(warning) + "\n";
+      std::vector<Warning> warnings = file.warnings;
+      if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
+      for (const Warning& warning : warnings) {
+        text += "  Note: " + printable(warning.sentence) + "\n";
       }
-      json.push_back({{"file", file.file}, {"valid", true}, {"warnings", warnings}});
+      json.push_back({{"file", file.file}, {"valid", true}});
+      add_warnings(json.back(), warnings);
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }

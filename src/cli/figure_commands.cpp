@@ -13,8 +13,10 @@
 #include "tethercalc/files/gnuplot.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
+#include "tethercalc/io/rule_books.hpp"
 #include "tethercalc/report/report_page.hpp"
 #include "tethercalc/report/result_figures.hpp"
+#include "tethercalc/report/rules_report.hpp"
 #include "tethercalc/report/sweep_figure.hpp"
 
 namespace tethercalc::cli {
@@ -184,6 +186,13 @@ DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
                       flown_as(options.flight, design), logs_in_files(), note_on_error);
 }
 
+/// The conductor that rules are held against: the spec's own, else the optimum, if there is one.
+std::optional<double> ruled_area(const DesignOptimum& optimum) {
+  if (optimum.design.tether.cross_section) return optimum.design.tether.cross_section;
+  if (!optimum.result.feasible) return std::nullopt;
+  return optimum.result.area;
+}
+
 std::string shell_word(std::string_view word) {
   constexpr std::string_view plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,%+@-";
@@ -232,8 +241,14 @@ int run_plot(const PlotOptions& options, const Output& output) {
   return drawn.exit_code;
 }
 
-int run_report(const DiagnoseOptions& options, const std::string& command, const Output& output) {
-  const DesignFile file = read_spec(options.spec);
+int run_report(const DiagnoseOptions& options, const std::string& rules, const std::string& command,
+               const Output& output) {
+  Problems problems;
+  std::optional<RuleBook> book;
+  DesignFile file;
+  problems.succeeds([&] { file = read_spec(options.spec); });
+  if (!rules.empty()) problems.succeeds([&] { book = rule_book(rules); });
+  problems.throw_if_any();
   PageContent content = content_of_design(file, chosen_motors({"alike"}, file, files_in("")));
   content.command = command;
   if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
@@ -243,8 +258,23 @@ int run_report(const DiagnoseOptions& options, const std::string& command, const
       content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
   }
+  if (book) content.rules = study_rules({file.design, ruled_area(content.optimum)}, *book);
   emit(output, report_page(content));
   return content.optimum.result.feasible ? done : answer_is_no;
+}
+
+int run_rules(const SpecOptions& spec, const std::string& rules, const Output& output) {
+  Problems problems;
+  RuleBook book;
+  DesignFile file;
+  problems.succeeds([&] { file = read_spec(spec); });
+  problems.succeeds([&] { book = rule_book(rules); });
+  problems.throw_if_any();
+  const RuleStudy study = study_rules({file.design, ruled_area(optimum_of(file.design))}, book);
+  emit(
+      output, [&] { return rules_text(file.name, study, style_for(output)); },
+      [&] { return rules_json(file.name, study); }, [&] { return rules_csv(study); });
+  return study.count(RuleVerdict::fail) == 0 ? done : answer_is_no;
 }
 
 std::string shell_command(std::span<const char* const> arguments) {

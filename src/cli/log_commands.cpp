@@ -241,8 +241,8 @@ int run_drag(const DragOptions& options, const Output& output) {
       studied_drag("", options.logs, options.flight, logs_in_files(), note_on_error).identified;
   tell_assumptions(options.flight, result.options);
   if (options.into && options.into_file.empty()) {
-    for (const std::string& warning : drag_warnings(result.fit)) {
-      remark("drag: " + warning + "\n");
+    for (const Warning& warning : drag_warnings(result.fit)) {
+      remark("drag: " + warning.sentence + "\n");
     }
     emit(output, spec_text(spec_with_drag(*file, result.fit), options.spec.file, output.file));
     return done;
@@ -288,6 +288,13 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
                      mission_text(*told.next_flight, target->home, target->format));
   }
   tell(told, planned ? options.next_flight_file : "", output);
+  std::vector<std::string> codes;
+  for (const auto* diagnosis :
+       {told.flight ? &*told.flight : nullptr, told.power ? &*told.power : nullptr}) {
+    if (diagnosis == nullptr) continue;
+    for (const Finding& finding : diagnosis->findings) codes.push_back(finding.effect);
+  }
+  point_to_explanations(codes, output);
   return told.next_flight && !planned && !told.next_flight->undecided.empty() ? answer_is_no : done;
 }
 

@@ -105,8 +105,10 @@ ShownMotor generic_motor(const MotorOptions& options) {
       spread.least, spread.greatest);
   motor.propeller_in = options.propeller_in;
   motor.curve = generic_motor_curve(request);
-  motor.warnings.push_back(fmt::format(
-      "an estimate, not measured: its power may be off by about {:g} % either way", band));
+  motor.warnings.push_back(
+      {WarningKind::motor_estimated,
+       fmt::format("an estimate, not measured: its power may be off by about {:g} % either way",
+                   band)});
   out.band = band;
   return out;
 }
@@ -146,19 +148,26 @@ ShownMotor motor_of_flight(const MotorOptions& options) {
   motor.curve = flown.curve;
   out.band = std::ceil(100 * flown.band);
   motor.warnings.push_back(
-      fmt::format("known at its hover only, to ±{:.1f} % (95 %); elsewhere its power may be off by "
-                  "about {:g} % "
-                  "either way",
-                  100 * flown.hover_interval, *out.band));
+      {WarningKind::motor_flown,
+       fmt::format(
+           "known at its hover only, to ±{:.1f} % (95 %); elsewhere its power may be off by "
+           "about {:g} % "
+           "either way",
+           100 * flown.hover_interval, *out.band)});
   const double beside = file.design.drone.auxiliary_power;
   motor.warnings.push_back(
-      beside > 0 ? fmt::format("all of the bus's power but the {:g} W of drone.auxiliary_power_W "
-                               "is taken for the motors'",
-                               beside)
-                 : "all of the bus's power is taken for the motors': what else it feeds counts as "
-                   "theirs (drone.auxiliary_power_W)");
-  motor.warnings.insert(motor.warnings.end(), flight.notes.begin(), flight.notes.end());
-  if (flown.forward) motor.warnings.push_back(forward_words(*flown.forward));
+      {WarningKind::motor_bus_power,
+       beside > 0 ? fmt::format("all of the bus's power but the {:g} W of drone.auxiliary_power_W "
+                                "is taken for the motors'",
+                                beside)
+                  : "all of the bus's power is taken for the motors': what else it feeds counts as "
+                    "theirs (drone.auxiliary_power_W)"});
+  for (const std::string& note : flight.notes) {
+    motor.warnings.push_back({WarningKind::motor_log_note, note});
+  }
+  if (flown.forward) {
+    motor.warnings.push_back({WarningKind::motor_forward_power, forward_words(*flown.forward)});
+  }
   return out;
 }
 
@@ -237,8 +246,8 @@ int run_motor(const MotorOptions& options, Output output) {
     output.format = Format::json;
   }
   if (output.format != Format::table) {
-    for (const std::string& warning : shown.motor.warnings) {
-      remark("motor: " + warning + "\n");
+    for (const Warning& warning : shown.motor.warnings) {
+      remark("motor: " + warning.sentence + "\n");
     }
   }
   emit(

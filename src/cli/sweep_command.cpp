@@ -281,7 +281,9 @@ int run_sweep(const SweepOptions& options) {
   problems.succeeds([&] { base = read_spec(options.spec); });
   problems.throw_if_any();
   const SweepSpace space = make_space(options, base);
-  if (const auto drag = drag_estimate_sentence(base.design)) remark("sweep: " + *drag + "\n");
+  if (const auto drag = drag_estimate_warning(base.design)) {
+    remark("sweep: " + drag->sentence + "\n");
+  }
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 
   const Sweep sweep{space, base.design, SweepRows(space.axes(), format),

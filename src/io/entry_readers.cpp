@@ -121,10 +121,12 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
   entry.curve.set_measured_in(density);
   if (uncertainty) {
     entry.curve.set_uncertainty(*uncertainty / 100);
-    entry.warnings.push_back(fmt::format(
-        "{}: the motor is an estimate, not measured: its power may be off by about {:g} % "
-        "either way (power_uncertainty_percent)",
-        object.where(), *uncertainty));
+    entry.warnings.push_back(
+        {WarningKind::motor_estimated,
+         fmt::format(
+             "{}: the motor is an estimate, not measured: its power may be off by about {:g} % "
+             "either way (power_uncertainty_percent)",
+             object.where(), *uncertainty)});
   }
   return entry;
 }

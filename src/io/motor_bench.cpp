@@ -479,8 +479,7 @@ std::vector<std::vector<Measured>> grouped(std::vector<Measured> rows, std::size
 }
 
 /// Whether a table's power is its voltage times its current, where it has all three.
-void check_power(const Table& table, std::span<const Measured> rows,
-                 std::vector<std::string>& notes) {
+void check_power(const Table& table, std::span<const Measured> rows, std::vector<Warning>& notes) {
   if (!table.columns.has(BenchQuantity::power) && !table.columns.has(BenchQuantity::efficiency))
     return;
   std::vector<double> ratios;
@@ -494,9 +493,10 @@ void check_power(const Table& table, std::span<const Measured> rows,
   constexpr double agreement = 0.05;  // rounded columns of a data sheet stay within
   if (std::abs(median - 1) < agreement) return;
   notes.push_back(
-      fmt::format("{}: its power is {:.2f} times its voltage times current (median); the "
-                  "power is taken",
-                  table.file, median));
+      {WarningKind::motor_power_mismatch,
+       fmt::format("{}: its power is {:.2f} times its voltage times current (median); the "
+                   "power is taken",
+                   table.file, median)});
 }
 
 double mean_voltage(std::span<const Measured> rows) {
@@ -507,7 +507,7 @@ double mean_voltage(std::span<const Measured> rows) {
 
 /// Rows that run, those left out told in `notes`.
 std::vector<Measured> running_rows(const Table& table, Problems& problems,
-                                   std::vector<std::string>& notes) {
+                                   std::vector<Warning>& notes) {
   const DecimalMark mark = decimal_mark(table);
   if (!mark.problem.empty()) {
     problems.add(table.file, mark.problem);
@@ -529,8 +529,10 @@ std::vector<Measured> running_rows(const Table& table, Problems& problems,
     }
     ++idle;
     notes.push_back(
-        fmt::format("{}:{}: left out, since a running motor has thrust and power above 0, found {}",
-                    table.file, row.line, in_practical_units(measured->point)));
+        {WarningKind::motor_rows_left_out,
+         fmt::format(
+             "{}:{}: left out, since a running motor has thrust and power above 0, found {}",
+             table.file, row.line, in_practical_units(measured->point))});
   }
   if (rows.size() < 2 && idle > 0) {
     problems.add(table.file,
@@ -596,10 +598,12 @@ MotorBench motor_from_bench(std::span<const LoadedText> tables, const MotorBench
   problems.throw_if_any();
   out.scatter = scatter_of(motor.curve, rows);
   if (groups.size() < rows.size()) {
-    motor.warnings.push_back(fmt::format(
-        "{}: {} rows of repeated runs or sweeps were averaged to {} points; their power "
-        "scatters by {:.1f} % around the curve (root mean square)",
-        names.front(), rows.size(), groups.size(), 100 * out.scatter));
+    motor.warnings.push_back(
+        {WarningKind::motor_runs_averaged,
+         fmt::format(
+             "{}: {} rows of repeated runs or sweeps were averaged to {} points; their power "
+             "scatters by {:.1f} % around the curve (root mean square)",
+             names.front(), rows.size(), groups.size(), 100 * out.scatter)});
   }
   return out;
 }

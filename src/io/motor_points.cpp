@@ -25,8 +25,9 @@ bool set_curve(MotorEntry& entry, std::span<const BenchPoint> measured, const st
       members += fmt::format("{} ({})", in_practical_units(points[i]), measured[i].where);
     }
     entry.warnings.push_back(
-        fmt::format("{}: power must rise with thrust, so these points were pooled to {}: {}", where,
-                    in_practical_units(pool.mean), members));
+        {WarningKind::motor_points_pooled,
+         fmt::format("{}: power must rise with thrust, so these points were pooled to {}: {}",
+                     where, in_practical_units(pool.mean), members)});
   }
   if (isotonic.points.size() < 2) {
     problems.add(

@@ -10,6 +10,7 @@
 #include "page/asks.hpp"
 #include "page/page_json.hpp"
 #include "report/figure_json.hpp"
+#include "report/result_values.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/report_page.hpp"
@@ -33,9 +34,13 @@ Optimised optimised(const Request& request) {
 ordered_json optimum_json(const Optimised& asked) {
   const auto& [file, study] = asked;
   Answer told = answer(file, study);
-  return {{"headline", std::move(told.headline)},      {"sentences", std::move(told.sentences)},
-          {"remedies", std::move(told.remedies)},      {"warnings", all_warnings(file)},
-          {"result", optimize_json(file, study)},      {"text", optimize_text(file, study, {})},
+  const auto sentence = [](const Warning& warning) { return warning.sentence; };
+  return {{"headline", std::move(told.headline)},
+          {"sentences", std::move(told.sentences)},
+          {"remedies", std::move(told.remedies)},
+          {"warnings", json_list(all_warnings(file), sentence)},
+          {"result", optimize_json(file, study)},
+          {"text", optimize_text(file, study, {})},
           {"command", "tethercalc optimize spec.json"}};
 }
 

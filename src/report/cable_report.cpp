@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/constants.hpp"
@@ -14,18 +15,8 @@ namespace {
 
 constexpr int station_count = 11;
 
-const char* outcome_name(CableOutcome outcome) {
-  switch (outcome) {
-    case CableOutcome::hangs:
-      return "hangs";
-    case CableOutcome::too_short:
-      return "too_short";
-    case CableOutcome::tension_too_low:
-      return "winch_tension_too_low";
-    case CableOutcome::not_found:
-      break;
-  }
-  return "not_found";
+std::string_view outcome_name(CableOutcome outcome) {
+  return cable_outcome_names()[static_cast<std::size_t>(outcome)];
 }
 
 std::string no_shape_sentence(const ShapeStudy& study, const ShapeRequest& request) {
@@ -121,6 +112,12 @@ std::string strength_sentence(const ShapeStudy& study) {
 
 }  // namespace
 
+std::span<const std::string_view> cable_outcome_names() {
+  static constexpr std::array<std::string_view, 4> names{"hangs", "too_short",
+                                                         "winch_tension_too_low", "not_found"};
+  return names;
+}
+
 std::string cable_shape_text(const DesignFile& file, double area, const ShapeRequest& request,
                              const ShapeStudy& study, const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n\n";
@@ -152,7 +149,9 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   add_hover(hovers, "straight", study.straight);
   out += TitledTable{"The drone holding its place", hovers}.text(style);
   out += wrapped(difference_sentence(study));
-  if (const auto drag = drag_estimate_sentence(file.design)) out += wrapped("Note: " + *drag);
+  if (const auto drag = drag_estimate_warning(file.design)) {
+    out += wrapped("Note: " + drag->sentence);
+  }
   TextTable stations({"along\nm", "x\nm", "y\nm", "height\nm", "tension\nN"});
   for (const CablePoint& p : stations_of(study.shape)) {
     stations.add({fixed(p.s, 2), fixed(p.position.x, 2), fixed(p.position.y, 2),

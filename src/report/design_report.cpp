@@ -149,7 +149,7 @@ std::vector<std::string> estimate_sentences(const Design& design) {
                     "{} % either way (power_uncertainty_percent)",
                     significant(*percent, 3)));
   }
-  if (const auto drag = drag_estimate_sentence(design)) out.push_back("Note: " + *drag);
+  if (const auto drag = drag_estimate_warning(design)) out.push_back("Note: " + drag->sentence);
   return out;
 }
 
@@ -192,7 +192,7 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
   for (const std::string& sentence : estimate_sentences(answer.best.design)) {
     out += wrapped(sentence);
   }
-  if (study.problem.frees("drone.motor")) out += wrapped("Note: " + motor_mass_sentence());
+  if (study.problem.frees("drone.motor")) out += wrapped("Note: " + motor_mass_warning().sentence);
   if (!study.prices.empty()) {
     out += "\n" + style.bold("What binds, and what more of it would change") + "\n";
     for (const ShadowPrice& price : study.prices) {

@@ -188,20 +188,19 @@ struct VoltageClass {
   std::string_view sentence;
 };
 
+constexpr std::array voltage_classes{
+    VoltageClass{"touchable_elv", 60,
+                 "extra-low voltage at or below 60 V DC, which in dry places needs no protection "
+                 "against touch"},
+    VoltageClass{"elv", 120,
+                 "extra-low voltage at or below 120 V DC: live parts must be insulated or covered"},
+    VoltageClass{"low_voltage", 1500,
+                 "low voltage above the extra-low limit of 120 V DC: insulation, fault protection "
+                 "and disconnection are mandatory"},
+    VoltageClass{"high_voltage", infinity, "high voltage above 1500 V DC"}};
+
 VoltageClass voltage_class(double voltage) {
-  static constexpr std::array classes{
-      VoltageClass{"touchable_elv", 60,
-                   "extra-low voltage at or below 60 V DC, which in dry places needs no protection "
-                   "against touch"},
-      VoltageClass{
-          "elv", 120,
-          "extra-low voltage at or below 120 V DC: live parts must be insulated or covered"},
-      VoltageClass{
-          "low_voltage", 1500,
-          "low voltage above the extra-low limit of 120 V DC: insulation, fault protection "
-          "and disconnection are mandatory"},
-      VoltageClass{"high_voltage", infinity, "high voltage above 1500 V DC"}};
-  return *std::ranges::lower_bound(classes, voltage, {}, &VoltageClass::up_to);
+  return *std::ranges::lower_bound(voltage_classes, voltage, {}, &VoltageClass::up_to);
 }
 
 }  // namespace
@@ -358,6 +357,12 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
                      filled_in(reason, design, where));
 }
 
+std::vector<std::string_view> voltage_class_names() {
+  std::vector<std::string_view> names;
+  for (const VoltageClass& one : voltage_classes) names.push_back(one.name);
+  return names;
+}
+
 ordered_json voltage_class_json(double voltage) {
   const VoltageClass found = voltage_class(voltage);
   return {{"name", found.name}, {"sentence", found.sentence}};
@@ -452,7 +457,7 @@ namespace {
 
 /// What is said of a motor's curve that the density of the air does not reach. The curve is silent
 /// at the published method's density, which is a little above the standard atmosphere's.
-std::optional<std::string> density_warning(const Design& design) {
+std::optional<Warning> density_warning(const Design& design) {
   constexpr double standard_density = 1.225;  // kg/m³, ISO 2533
   constexpr double noticeable = 0.03;
   const double density = design.flight.air_density;
@@ -462,63 +467,72 @@ std::optional<std::string> density_warning(const Design& design) {
     return std::nullopt;
   }
   const double power = 1 / std::sqrt(ratio) - 1;
-  return fmt::format(
-      "the motors' curve counts as it was measured, not in air of {} kg/m³: of a bench at {} kg/m³ "
-      "an ideal rotor needs {} % {} power there for the same thrust and makes {} % {} at most; "
-      "state the bench's density (drone.motor_air_density_kg_m3) to have it scaled",
-      significant(density, 4), significant(standard_density, 4),
-      significant(100 * std::abs(power), 2), power > 0 ? "more" : "less",
-      significant(100 * std::abs(ratio - 1), 2), ratio < 1 ? "less" : "more");
+  return Warning{
+      WarningKind::motor_air_density,
+      fmt::format(
+          "the motors' curve counts as it was measured, not in air of {} kg/m³: of a bench at {} "
+          "kg/m³ an ideal rotor needs {} % {} power there for the same thrust and makes {} % {} at "
+          "most; state the bench's density (drone.motor_air_density_kg_m3) to have it scaled",
+          significant(density, 4), significant(standard_density, 4),
+          significant(100 * std::abs(power), 2), power > 0 ? "more" : "less",
+          significant(100 * std::abs(ratio - 1), 2), ratio < 1 ? "less" : "more")};
 }
 
 }  // namespace
 
-std::optional<std::string> drag_estimate_sentence(const Design& design) {
+std::optional<Warning> drag_estimate_warning(const Design& design) {
   const AirframeDrag& drag = design.drone.drag;
   if (!drag.is_estimate) return std::nullopt;
-  return fmt::format(
-      "the drag is an estimate, not measured: the spec has no drone.drag, and a drone of {} g is "
-      "taken to have front_area_m2 {}, top_area_m2 {}, linear_m_s {}; the force may be off by a "
-      "factor of {} either way (drag_uncertainty_factor), power in forward flight with it; "
-      "tethercalc drag learns it from a flight",
-      significant(design.drone.mass / unit::gram, 4), significant(drag.front_area, 3),
-      significant(drag.top_area, 3), significant(drag.linear_speed, 3), drag_estimate_factor);
+  return Warning{
+      WarningKind::drag_estimated,
+      fmt::format(
+          "the drag is an estimate, not measured: the spec has no drone.drag, and a drone of {} g "
+          "is taken to have front_area_m2 {}, top_area_m2 {}, linear_m_s {}; the force may be off "
+          "by a factor of {} either way (drag_uncertainty_factor), power in forward flight with "
+          "it; tethercalc drag learns it from a flight",
+          significant(design.drone.mass / unit::gram, 4), significant(drag.front_area, 3),
+          significant(drag.top_area, 3), significant(drag.linear_speed, 3), drag_estimate_factor)};
 }
 
-std::string motor_mass_sentence() {
-  return "the drone weighs what the spec says (drone.mass_g) with every motor: what a motor, its "
-         "propeller or a larger frame weighs more is not counted, nor whether the propeller fits";
+Warning motor_mass_warning() {
+  return {WarningKind::motor_mass_not_counted,
+          "the drone weighs what the spec says (drone.mass_g) with every motor: what a motor, its "
+          "propeller or a larger frame weighs more is not counted, nor whether the propeller "
+          "fits"};
 }
 
-std::vector<std::string> cable_warnings(const Design& design) {
-  std::vector<std::string> warnings;
+std::vector<Warning> cable_warnings(const Design& design) {
+  std::vector<Warning> warnings;
   const Tether& tether = design.tether;
   if (!tether.ambient_temperature_C) return warnings;
   if (tether.spooled_length > 0 && !is_cooling_known(tether.drum)) {
-    warnings.push_back(fmt::format(
-        "{} m lie on a drum of which neither layers nor derating are stated: the wound part is the "
-        "hot one, and its temperature is not known (tether.drum.core_diameter_mm and width_mm, "
-        "tether.drum.layers or tether.drum.derating)",
-        significant(tether.spooled_length, 3)));
+    warnings.push_back(
+        {WarningKind::drum_cooling_unknown,
+         fmt::format("{} m lie on a drum of which neither layers nor derating are stated: the "
+                     "wound part is the hot one, and its temperature is not known "
+                     "(tether.drum.core_diameter_mm and width_mm, tether.drum.layers or "
+                     "tether.drum.derating)",
+                     significant(tether.spooled_length, 3))});
   }
   if (!tether.insulation.rated_temperature_C) {
     warnings.push_back(
-        "the rated temperature of the insulation is not known, so that heat limits nothing "
-        "(rated_temperature_C of the material)");
+        {WarningKind::rated_temperature_unknown,
+         "the rated temperature of the insulation is not known, so that heat limits nothing "
+         "(rated_temperature_C of the material)"});
   }
   return warnings;
 }
 
-std::vector<std::string> spec_warnings(const DesignFile& file) {
-  std::vector<std::string> warnings = file.warnings;
-  if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
+std::vector<Warning> spec_warnings(const DesignFile& file) {
+  std::vector<Warning> warnings = file.warnings;
+  if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
   if (auto density = density_warning(file.design)) warnings.push_back(std::move(*density));
   return warnings;
 }
 
-std::vector<std::string> all_warnings(const DesignFile& file) {
-  std::vector<std::string> warnings = spec_warnings(file);
-  for (std::string& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+std::vector<Warning> all_warnings(const DesignFile& file) {
+  std::vector<Warning> warnings = spec_warnings(file);
+  for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
   return warnings;
 }
 

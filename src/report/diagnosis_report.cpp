@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -290,6 +291,13 @@ class Story {
 };
 
 }  // namespace
+
+std::span<const std::string_view> verdict_names() {
+  static constexpr std::array<std::string_view, 7> names{
+      "findings",         "suspected",  "indistinguishable_from", "ruled_out", "not_testable",
+      "not_identifiable", "unexplained"};
+  return names;
+}
 
 ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
   ordered_json out{{"kind", d.kind},

@@ -227,24 +227,29 @@ std::vector<SteadyDrag> steady_drag_table(const DragFit& fit) {
   return rows;
 }
 
-std::vector<std::string> drag_warnings(const DragFit& fit) {
-  std::vector<std::string> out;
+std::vector<Warning> drag_warnings(const DragFit& fit) {
+  std::vector<Warning> out;
   for (const FittedParameter& p : fit.parameters) {
     if (p.at_bound == Bound::none) continue;
     out.push_back(
-        fmt::format("{} wants to leave its {} bound {}: the flight lacks what would determine it. "
-                    "The errors of the others take it as known.",
-                    title_of(p), bound_name(p.at_bound), parameter_number(p, p.estimate.value)));
+        {WarningKind::drag_at_bound,
+         fmt::format("{} wants to leave its {} bound {}: the flight lacks what would determine it. "
+                     "The errors of the others take it as known.",
+                     title_of(p), bound_name(p.at_bound), parameter_number(p, p.estimate.value))});
   }
   const std::vector<SteadyDrag> table = steady_drag_table(fit);
   const bool may_be_none =
       std::ranges::any_of(table, [](const SteadyDrag& row) { return !(row.force.lower > 0); });
   if (may_be_none) {
-    out.emplace_back(
-        "At some speeds the flight does not even tell that there is drag (intervals that reach "
-        "below zero): fly longer, faster and in both directions.");
+    out.push_back(
+        {WarningKind::drag_may_be_none,
+         "At some speeds the flight does not even tell that there is drag (intervals that reach "
+         "below zero): fly longer, faster and in both directions."});
   }
-  if (!fit.converged) out.emplace_back("The fit did not converge; take its numbers as a guess.");
+  if (!fit.converged) {
+    out.push_back({WarningKind::drag_not_converged,
+                   "The fit did not converge; take its numbers as a guess."});
+  }
   return out;
 }
 
@@ -268,7 +273,7 @@ ordered_json drag_json(const DragIdentification& result) {
   out["residual_lag1_autocorrelation"] = quality.residual_lag1_autocorrelation;
   out["samples"] = quality.samples;
   out["effective_samples"] = quality.effective_samples;
-  out["warnings"] = drag_warnings(fit);
+  add_warnings(out, drag_warnings(fit));
   out["converged"] = fit.converged;
   out["correlation"] = correlation_json(fit);
   out["entangled"] = json_list(entangled_pairs(fit), [&](const EntangledPair& pair) {
@@ -344,7 +349,7 @@ DragSentences drag_sentences(const DragIdentification& result) {
   out.quality = {wind_sentence(fit), entangled_sentence(fit),
                  force_sentence(steady_drag_table(fit))};
   std::erase(out.quality, "");
-  for (std::string& warning : drag_warnings(fit)) out.quality.push_back(std::move(warning));
+  for (Warning& warning : drag_warnings(fit)) out.quality.push_back(std::move(warning.sentence));
   out.quality.push_back(residual_sentence(fit.quality));
   return out;
 }
@@ -386,7 +391,7 @@ std::string autopilot_parameter_file(const DragIdentification& result, Autopilot
                   significant(known.air_density, 4)));
   out += commented(std::string(style.how_to_set));
   out += commented("Set them together: what one leaves the other takes.");
-  for (const std::string& warning : drag_warnings(result.fit)) out += commented(warning);
+  for (const Warning& warning : drag_warnings(result.fit)) out += commented(warning.sentence);
   if (drag.check) out += commented(check_sentence(*drag.check));
   for (const AutopilotParameter& parameter : drag.parameters) {
     if (!parameter.value) {

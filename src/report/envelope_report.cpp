@@ -78,8 +78,8 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     }
     out += table.text(style);
   }
-  for (const std::string& warning : all_warnings(file)) {
-    out += "\n" + style.subdued(wrapped("Note: " + warning));
+  for (const Warning& warning : all_warnings(file)) {
+    out += "\n" + style.subdued(wrapped("Note: " + warning.sentence));
   }
   return out;
 }
@@ -108,7 +108,7 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
       {"greatest", greatest},
       {"curves", curves}};
   add_estimates(out, file.design);
-  out["warnings"] = all_warnings(file);
+  add_warnings(out, all_warnings(file));
   return out;
 }
 

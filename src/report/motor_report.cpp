@@ -51,7 +51,7 @@ std::string motor_text(const MotorEntry& motor, const TextStyle& style) {
   out += wrapped(conditions_of(motor)) + "\n" + table.text(style);
   if (!motor.source.empty()) out += "\n" + wrapped("Source: " + motor.source);
   if (!motor.warnings.empty()) out += "\n" + style.bold("Notes") + "\n";
-  for (const std::string& warning : motor.warnings) out += wrapped(warning, 96, "  ");
+  for (const Warning& warning : motor.warnings) out += wrapped(warning.sentence, 96, "  ");
   return out;
 }
 

@@ -131,10 +131,10 @@ std::string results_csv(const Design& design, const Optimization& optimum) {
   return csv_line(values);
 }
 
-std::string notes_text(std::span<const std::string> warnings, const TextStyle& style) {
+std::string notes_text(std::span<const Warning> warnings, const TextStyle& style) {
   std::string out;
-  for (const std::string& warning : warnings) {
-    out += style.subdued(wrapped("Note: " + warning));
+  for (const Warning& warning : warnings) {
+    out += style.subdued(wrapped("Note: " + warning.sentence));
   }
   return out;
 }
@@ -267,7 +267,7 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
     out["remedies"] = remedies_json(study);
   }
   add_estimates(out, design);
-  out["warnings"] = all_warnings(file);
+  add_warnings(out, all_warnings(file));
   return out;
 }
 
@@ -309,7 +309,7 @@ ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> t
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
   add_estimates(out, file.design);
-  out["warnings"] = all_warnings(file);
+  add_warnings(out, all_warnings(file));
   return out;
 }
 
@@ -362,11 +362,15 @@ std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> r
   const std::vector<std::string> refused = refused_motors(ranking);
   if (!refused.empty()) out += "\n" + style.bold("Not feasible") + "\n";
   for (const std::string& motor : refused) out += "  " + motor + "\n";
-  std::string notes = wrapped(motor_mass_sentence(), 96, "  ");
+  std::string notes = wrapped(motor_mass_warning().sentence, 96, "  ");
   for (const MotorOptimum& entry : ranking) {
-    for (const std::string& warning : entry.motor.warnings) notes += wrapped(warning, 96, "  ");
+    for (const Warning& warning : entry.motor.warnings) {
+      notes += wrapped(warning.sentence, 96, "  ");
+    }
   }
-  if (const auto drag = drag_estimate_sentence(file.design)) notes += wrapped(*drag, 96, "  ");
+  if (const auto drag = drag_estimate_warning(file.design)) {
+    notes += wrapped(drag->sentence, 96, "  ");
+  }
   return out + "\n" + style.bold("Notes") + "\n" + notes;
 }
 
@@ -381,12 +385,14 @@ ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> 
         {"reason", entry.refusal ? ordered_json(refusal_sentence(entry.design, *entry.refusal))
                                  : ordered_json(nullptr)}};
     add_estimates(row, entry.design);
-    row["warnings"] = entry.motor.warnings;
+    add_warnings(row, entry.motor.warnings);
     return row;
   });
-  std::vector<std::string> warnings{motor_mass_sentence()};
-  if (auto drag = drag_estimate_sentence(file.design)) warnings.push_back(std::move(*drag));
-  return {{"name", file.name}, {"motors", rows}, {"warnings", warnings}};
+  std::vector<Warning> warnings{motor_mass_warning()};
+  if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
+  ordered_json out{{"name", file.name}, {"motors", rows}};
+  add_warnings(out, warnings);
+  return out;
 }
 
 std::string compare_csv(std::span<const MotorOptimum> ranking) {

@@ -16,6 +16,9 @@
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
+#include "tethercalc/report/explanation.hpp"
+#include "tethercalc/report/rules_report.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
 namespace {
@@ -155,8 +158,8 @@ Section answer_section(const PageContent& content) {
   body += html::paragraphs(told.sentences);
   if (!told.remedies.empty()) body += html::list(told.remedies);
   if (feasible) body += html::table(condition_table(content.optimum.result), "table-conditions");
-  for (const std::string& warning : all_warnings(content.file)) {
-    body += html::element("p", "Note: " + warning, " class=\"note\"") + "\n";
+  for (const Warning& warning : all_warnings(content.file)) {
+    body += html::element("p", "Note: " + warning.sentence, " class=\"note\"") + "\n";
   }
   return {"answer", "The answer", std::move(body)};
 }
@@ -290,6 +293,43 @@ Section method_section(const PageContent& content) {
   return {"method", "How this was computed", std::move(body)};
 }
 
+Section rules_section(const RuleStudy& rules) {
+  std::string body = html::element("p", rules_headline(rules)) + "\n";
+  body += html::table(rules_table(rules), "table-rules");
+  body += html::element("h3", "The clauses") + "\n" + html::list(rules_clauses(rules));
+  body += html::element("h3", "What this covers") + "\n" + html::paragraphs(rules_scope(rules));
+  return {"rules", "What published rules ask: " + rules.book.title, std::move(body)};
+}
+
+/// What the codes behind this page's answers mean, and what to do.
+Section explained_section(const PageContent& content) {
+  std::vector<std::string> codes{std::string(limit_name(content.optimum.result.limited_by))};
+  for (const Warning& warning : all_warnings(content.file)) {
+    codes.emplace_back(warning_code(warning.kind));
+  }
+  for (const LogDiagnosis& log : content.diagnoses) {
+    for (const Finding& finding : log.diagnosis.findings) codes.push_back(finding.effect);
+  }
+  std::string body;
+  std::vector<std::string> told;
+  for (const std::string& code : codes) {
+    const Explanation* page = find_explanation(code);  // none of an effect of the user's own
+    if (page == nullptr || std::ranges::count(told, code) > 0) continue;
+    told.push_back(code);
+    body += html::element("h3", fmt::format("{} ({})", page->title, code)) + "\n";
+    for (const char* heading : {"What it means", "What to do"}) {
+      const ExplanationPart* part = page->part(heading);
+      for (std::string text : part->texts) {
+        std::erase(text, '`');
+        body += html::element("p", text) + "\n";
+      }
+    }
+  }
+  body += html::element("p", "tethercalc explain CODE says why, with the formula and its source.",
+                        " class=\"note\"");
+  return {"explained", "What this means, and what to do", body + "\n"};
+}
+
 std::string head(const std::string& title) {
   return fmt::format(
       "<head>\n<meta charset=\"utf-8\"/>\n"
@@ -322,6 +362,8 @@ std::string report_page(const PageContent& content) {
   if (!content.motors.empty()) sections.push_back(other_motors(content));
   if (content.drag) sections.push_back(drag_section(*content.drag));
   for (const LogDiagnosis& log : content.diagnoses) sections.push_back(diagnosis_section(log));
+  if (content.rules) sections.push_back(rules_section(*content.rules));
+  sections.push_back(explained_section(content));
   sections.push_back(spec_section(content.file));
   sections.push_back(method_section(content));
 

@@ -45,6 +45,12 @@ ordered_json operating_point_json(const OperatingPoint& point) {
   return out;
 }
 
+void add_warnings(ordered_json& answer, std::span<const Warning> warnings) {
+  answer["warnings"] = json_list(warnings, [](const Warning& w) { return w.sentence; });
+  answer["warning_codes"] =
+      json_list(warnings, [](const Warning& w) { return warning_code(w.kind); });
+}
+
 std::string with_stop(std::string sentence) {
   if (!sentence.ends_with('.')) sentence += '.';
   return sentence;

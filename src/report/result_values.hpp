@@ -4,10 +4,12 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "tethercalc/model/warning.hpp"
 #include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
@@ -44,6 +46,10 @@ template <typename Values, typename Of>
 /// Puts both into an answer, as `power_uncertainty_percent` and `drag_uncertainty_factor`, null
 /// where nothing is estimated.
 void add_estimates(ordered_json& answer, const Design& design);
+
+/// Puts the sentences of `warnings` into an answer as `warnings`, and beside them, in the same
+/// order, the codes of what they are about as `warning_codes`.
+void add_warnings(ordered_json& answer, std::span<const Warning> warnings);
 
 /// A sentence that ends in a full stop, whether it did or not.
 [[nodiscard]] std::string with_stop(std::string sentence);

@@ -42,8 +42,8 @@ ToldDiagnosis told_diagnosis(const AskedDiagnosis& asked, const LogsAsked& optio
     study.power->notes.insert(study.power->notes.begin(), asked.power_notes.begin(),
                               asked.power_notes.end());
   }
-  if (auto drag = drag_estimate_sentence(file.design)) {
-    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
+  if (auto drag = drag_estimate_warning(file.design)) {
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(drag->sentence));
   }
   // Checked as if a person had written it.
   DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);

@@ -159,7 +159,7 @@ TEST_CASE("an up and down sweep is averaged, and its scatter told") {
   for (int g = 100; g <= 1000; g += 100) CHECK(power_at(bench, g) == Approx(mean(g)).epsilon(1e-5));
   CHECK(bench.scatter == Approx(0.02).epsilon(0.01));
   REQUIRE(bench.motor.warnings.size() == 1);
-  CHECK_THAT(bench.motor.warnings[0],
+  CHECK_THAT(bench.motor.warnings[0].sentence,
              Contains("20 rows of repeated runs or sweeps were averaged to 10 points") &&
                  Contains("2.0 %"));
 }
@@ -180,7 +180,7 @@ TEST_CASE("power that is not voltage times current is told") {
   const MotorBench bench =
       bench_of("thrust_g,power_W,voltage_V,current_A\n100,20,10,1\n200,50,10,2.5\n300,80,10,4\n");
   REQUIRE(bench.motor.warnings.size() == 1);
-  CHECK_THAT(bench.motor.warnings[0], Contains("2.00 times its voltage times current"));
+  CHECK_THAT(bench.motor.warnings[0].sentence, Contains("2.00 times its voltage times current"));
 }
 
 TEST_CASE("a table of several motors asks which, and where chooses") {
@@ -225,7 +225,7 @@ TEST_CASE("a motor without an id is called after its file, an estimate says so")
   const MotorEntry estimate = find_motor("mine.json", load);
   CHECK(estimate.id == "mine");
   REQUIRE(estimate.warnings.size() == 1);
-  CHECK_THAT(estimate.warnings[0], Contains("estimate") && Contains("26 %"));
+  CHECK_THAT(estimate.warnings[0].sentence, Contains("estimate") && Contains("26 %"));
 }
 
 TEST_CASE("of 208 bench runs in one file each becomes a motor or says why not") {

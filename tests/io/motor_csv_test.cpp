@@ -101,9 +101,9 @@ TEST_CASE("pooled and idle rows are named by their lines") {
       "300,20\n"
       "400,60\n");
   REQUIRE(motor.warnings.size() == 2);
-  CHECK_THAT(motor.warnings[0], Catch::Contains("bench.csv:2: left out"));
-  CHECK_THAT(motor.warnings[0], Catch::Contains("-0.4 g at 1.20 W"));
-  CHECK_THAT(motor.warnings[1],
+  CHECK_THAT(motor.warnings[0].sentence, Catch::Contains("bench.csv:2: left out"));
+  CHECK_THAT(motor.warnings[0].sentence, Catch::Contains("-0.4 g at 1.20 W"));
+  CHECK_THAT(motor.warnings[1].sentence,
              Catch::Contains("pooled to 250.0 g at 25.00 W: 200.0 g at 30.00 W (line 4), "
                              "300.0 g at 20.00 W (line 5)"));
   CHECK(motor.curve.power(250 * unit::gram_force) == Approx(25).epsilon(1e-14));
@@ -116,7 +116,7 @@ TEST_CASE("warnings of a motor reach the one who reads the design") {
   const DesignFile file = parse_design(starting_spec(), "spec.json", files_in(folder.path()),
                                        std::vector<std::string>{"drone.motor=mine.csv"});
   REQUIRE(file.warnings.size() == 1);
-  CHECK_THAT(file.warnings[0], Catch::Contains("500.0 g at 70.00 W (line 3)"));
+  CHECK_THAT(file.warnings[0].sentence, Catch::Contains("500.0 g at 70.00 W (line 3)"));
 }
 
 TEST_CASE("real bench runs all become motor curves, and the noisy ones say what was pooled") {

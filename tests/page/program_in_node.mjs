@@ -69,19 +69,23 @@ function goldenSpec(inputs, motors) {
   };
 }
 
-function compareDesign(name, spec) {
+function compareDesign(name, spec, digits = 12) {
   const file = join(folder, 'spec.json');
   writeFileSync(file, spec);
   const expected = command('optimize', file, '--format', 'json');
   const answer = ask({ ask: 'optimize', spec });
-  same(answer.result, JSON.parse(expected), name);
+  same(answer.result, JSON.parse(expected), name, digits);
   assert.equal(answer.text, command('optimize', file), name);
 }
 
 try {
   const example = (name) => readFileSync(join(project, 'examples', name), 'utf8');
   for (const name of ['holybro-x500', 'headroom-range', 'hexacopter-400v', 'reference/hanging-offset',
-    'reference/infeasible-power-hover', 'reference/every-effect']) compareDesign(name, example(`${name}.json`));
+    'reference/infeasible-power-hover', 'reference/every-effect']) {
+    // Of a cable that hangs the solver ends within a tolerance, not at the same last digits.
+    const text = example(`${name}.json`);
+    compareDesign(name, text, text.includes('"solved"') ? 9 : 12);
+  }
   const spec = example('holybro-x500.json');
 
   const golden = shared && join(shared, 'data/golden/reference-designs.json');

@@ -270,11 +270,18 @@ TEST_CASE(
   drag.insert(drag.end(), log.begin(), log.end());
   std::vector<std::string> diagnose = arguments;
   diagnose.insert(diagnose.begin(), "diagnose");
+  std::string explained;  // what limits it and what was found
+  for (const char* code : {"available_power", "linear_drag"}) {
+    explained += flat(run_tethercalc({"explain", code}).out);
+  }
+  std::erase(explained, '`');
   const std::string told = flat(run_tethercalc({"optimize", published}).out) +
-                           flat(run_tethercalc(drag).out) + flat(run_tethercalc(diagnose).out);
+                           flat(run_tethercalc(drag).out) + flat(run_tethercalc(diagnose).out) +
+                           explained;
   const std::set<std::string> of_the_page_alone{
       "Tether of a drone",
-      "By the spec as it stands, of which the figures and tables of designs below are:"};
+      "By the spec as it stands, of which the figures and tables of designs below are:",
+      "tethercalc explain CODE says why, with the formula and its source."};
   int sentences = 0;
   for (const std::string& text : texts(page, "p")) {
     if (text.starts_with("Steady flight, in hover")) break;  // how it was computed

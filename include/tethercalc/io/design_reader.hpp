@@ -20,10 +20,10 @@ struct DesignFile {
   std::string file;  ///< as messages call it: the path as given, or "standard input"
   TextLoader load;   ///< reads the files that the spec refers to
   MotorEntry motor;  ///< behind design.drone.motor
-  ConductorEntry conductor;           ///< behind design.tether.conductor
-  InsulationEntry insulation;         ///< behind design.tether.insulation
-  nlohmann::ordered_json document;    ///< the spec itself, overrides included
-  std::vector<std::string> warnings;  ///< sentences the user should see; the design is usable
+  ConductorEntry conductor;         ///< behind design.tether.conductor
+  InsulationEntry insulation;       ///< behind design.tether.insulation
+  nlohmann::ordered_json document;  ///< the spec itself, overrides included
+  std::vector<Warning> warnings;    ///< what the user should know; the design is usable
 };
 
 /// Reads a spec; `file` is what messages call it, and `load` reads the files that it refers to.

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/model/warning.hpp"
+
 namespace tethercalc {
 
 /// One measured point of a motor with its propeller on a test bench.
@@ -140,7 +142,7 @@ struct MotorEntry {
   std::optional<double> voltage_V;     ///< at which the curve was measured
   std::optional<double> propeller_in;  ///< diameter in inches
   MotorCurve curve;                    ///< of one motor, at that voltage with that propeller
-  std::vector<std::string> warnings;   ///< what was done to noisy points, one sentence each
+  std::vector<Warning> warnings;       ///< what was done to noisy points, and what is not known
 };
 
 /// Part of the motor power that falls with airspeed. Neutral: `induced_share` 0, the published

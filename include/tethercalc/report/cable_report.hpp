@@ -2,7 +2,9 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tethercalc/io/cable_cases.hpp"
@@ -11,6 +13,9 @@
 #include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
+
+/// "hangs", "too_short", …: how answers name a `CableOutcome`, in its order.
+[[nodiscard]] std::span<const std::string_view> cable_outcome_names();
 
 /// For people: loads, tensions, what the straight tether would say, the shape at eleven places,
 /// and notes. `area` in m².

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tethercalc/io/design_request.hpp"
@@ -47,6 +48,9 @@ namespace tethercalc {
 /// ripple-free), or "high_voltage". It is a name, not a proof of safety.
 [[nodiscard]] nlohmann::ordered_json voltage_class_json(double voltage);
 
+/// The names of these classes, the lowest first.
+[[nodiscard]] std::vector<std::string_view> voltage_class_names();
+
 /// {`ambient_temperature_C`, `rated_temperature_C`, `hover`, `forward` {`conductor_temperature_C`,
 /// `drum_temperature_C`, `runaway`}}; null where the design has no ambient temperature.
 [[nodiscard]] nlohmann::ordered_json thermal_json(const Design& design, const AreaPoints& points);
@@ -59,21 +63,21 @@ namespace tethercalc {
 [[nodiscard]] std::vector<std::string> cable_sentences(const Design& design,
                                                        const AreaPoints& points);
 
-/// What the heat balance of this design does not know and the user should, a sentence each.
-[[nodiscard]] std::vector<std::string> cable_warnings(const Design& design);
+/// What the heat balance of this design does not know and the user should.
+[[nodiscard]] std::vector<Warning> cable_warnings(const Design& design);
 
 /// That the drag is an estimate, which one, and by how much it may be off; nothing where it is not.
-[[nodiscard]] std::optional<std::string> drag_estimate_sentence(const Design& design);
+[[nodiscard]] std::optional<Warning> drag_estimate_warning(const Design& design);
 
 /// What no comparison of motors counts.
-[[nodiscard]] std::string motor_mass_sentence();
+[[nodiscard]] Warning motor_mass_warning();
 
 /// What the reader of the spec noted, whether the drag is an estimate, and whether the motors'
 /// curve should have been scaled to the density of the air.
-[[nodiscard]] std::vector<std::string> spec_warnings(const DesignFile& file);
+[[nodiscard]] std::vector<Warning> spec_warnings(const DesignFile& file);
 
 /// `spec_warnings`, then `cable_warnings`.
-[[nodiscard]] std::vector<std::string> all_warnings(const DesignFile& file);
+[[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file);
 
 // --- `optimize`, `evaluate` and `compare` ---
 

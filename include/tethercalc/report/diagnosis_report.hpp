@@ -2,7 +2,9 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -10,6 +12,9 @@
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
+
+/// "findings", "suspected" …: the keys under which a diagnosis says what it holds of effects.
+[[nodiscard]] std::span<const std::string_view> verdict_names();
 
 /// The result keys of `diagnose`; `extended` is the extended spec and may be null. Numbers that do
 /// not exist are null.

@@ -7,6 +7,7 @@
 
 #include "tethercalc/identify/autopilot_drag.hpp"
 #include "tethercalc/identify/drag_fit.hpp"
+#include "tethercalc/model/warning.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
@@ -15,16 +16,16 @@ namespace tethercalc {
 /// (m/s). Speeds that would need a tilt beyond 60° are left out.
 [[nodiscard]] std::vector<SteadyDrag> steady_drag_table(const DragFit& fit);
 
-/// Sentences about what makes the fit doubtful: parameters at a bound, drag that may be none, no
+/// What makes the fit doubtful: parameters at a bound, drag that may be none, no
 /// convergence. Empty for a sound fit.
-[[nodiscard]] std::vector<std::string> drag_warnings(const DragFit& fit);
+[[nodiscard]] std::vector<Warning> drag_warnings(const DragFit& fit);
 
 /// All results. `front_area_m2`, `top_area_m2`, `linear_m_s` and the list `wind_m_s` hold {`value`,
 /// `standard_error_independent`, `standard_error`, `ci95`}, null where the parameter is held at its
-/// bound, which `at_bound` then names; `warnings` those of `drag_warnings`; `drone.drag` is the
-/// block for a spec; `table` lists steady flight with the same objects; `autopilot` has, of
-/// `ardupilot` and `px4`, each of their parameters with its unit, or null as its value and why it
-/// is left out.
+/// bound, which `at_bound` then names; `warnings` and `warning_codes` those of `drag_warnings`;
+/// `drone.drag` is the block for a spec; `table` lists steady flight with the same objects;
+/// `autopilot` has, of `ardupilot` and `px4`, each of their parameters with its unit, or null as
+/// its value and why it is left out.
 [[nodiscard]] nlohmann::ordered_json drag_json(const DragIdentification& result);
 
 /// What is said of a fit beside its tables.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tethercalc/report/result_figures.hpp"
+#include "tethercalc/study/rules.hpp"
 
 namespace tethercalc {
 
@@ -24,6 +25,7 @@ struct PageContent {
   std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
   std::optional<DragStudy> drag;        ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told
+  std::optional<RuleStudy> rules;       ///< of the answer's cable; nothing: no such section
   std::string command;                  ///< by which the page can be made again, for a shell
 };
 
