@@ -24,7 +24,7 @@ const ask = (request, files) => {
 };
 const command = (...args) => {
   try {
-    return execFileSync(tethercalc, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'], maxBuffer: 1 << 28 });
+    return execFileSync(tethercalc, args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 28 });
   } catch (error) {
     if (error.status === 1) return error.stdout;
     throw error;
@@ -59,13 +59,12 @@ function goldenSpec(inputs, motors) {
     drone: { mass_g: inputs.drone_mass_g, motor_count: inputs.motor_count, motor: { points }, auxiliary_power_W: inputs.payload_power_W,
       drag: { front_area_m2: inputs.drag_front_area_m2, top_area_m2: inputs.drag_top_area_m2, linear_m_s: inputs.drag_linear_m_s } },
     tether: { length_m: inputs.tether_length_m,
-      conductor: { resistivity_ohm_mm2_m: copper ? 0.0178 : 0.0278, density_g_cm3: copper ? 8.9 : 2.7 },
+      conductor: { resistivity_20C_ohm_mm2_per_m: copper ? 0.0178 : 0.0278, temperature_coefficient_per_K: 0, density_g_cm3: copper ? 8.9 : 2.7 },
       insulation: { material: { density_g_cm3: inputs.insulation_density_g_cm3 }, thickness_mm: inputs.insulation_thickness_mm } },
     supply: { voltage_V: inputs.supply_voltage_V,
       converter: { efficiency: inputs.converter_efficiency, min_input_voltage_V: inputs.converter_min_input_voltage_V } },
-    flight: { airspeed_m_s: inputs.airspeed_m_s, air_density_kg_m3: inputs.air_density_kg_m3 },
+    flight: { airspeed_m_s: inputs.airspeed_m_s, air_density_kg_m3: inputs.air_density_kg_m3, gravity_m_s2: inputs.gravity_m_s2 },
     requirements: { thrust_headroom: inputs.thrust_headroom },
-    gravity_m_s2: inputs.gravity_m_s2,
   };
 }
 
@@ -90,7 +89,7 @@ try {
 
   const golden = shared && join(shared, 'data/golden/reference-designs.json');
   if (golden && existsSync(golden)) {
-    const data = JSON.parse(readFileSync(golden, 'utf8'));
+    const data = JSON.parse(readFileSync(golden, 'utf8').replaceAll(/\bNaN\b/g, 'null'));
     const designs = data.designs ?? data.cases;
     designs.forEach((design, i) => compareDesign(`golden ${i}`, JSON.stringify(goldenSpec(design.inputs ?? design, data.motors), null, 1)));
     console.log(`${designs.length} golden designs`);
