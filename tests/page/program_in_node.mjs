@@ -103,7 +103,7 @@ try {
     const found = ask({ ask: 'drag', file: basename(log), ...given }, { [basename(log)]: bytes });
     // The fit ends where steps no longer matter, not at the same last digits.
     same(found.result, JSON.parse(command('drag', log, '--format', 'json', ...options.flatMap(([, name, value]) => [name, String(value)]))),
-      basename(log), 6);
+      basename(log), 9);
   };
   compareDrag(join(project, 'examples/simulated-flight.csv'), ['mass_g', '--mass-g', 1550]);
   const flight = shared && join(shared, 'data/x500-flight.bin');
@@ -120,7 +120,7 @@ try {
     const took = performance.now() - began;
     const expected = JSON.parse(command('diagnose', specFile, `--${kind}`, log, '--format', 'json'));
     assert.deepEqual(found.result.findings.map(({ effect }) => effect), expected.findings.map(({ effect }) => effect));
-    same(found.result.findings, expected.findings, name, 5);
+    same(found.result.findings, expected.findings, name, 9);
     console.log(`diagnosis of ${name}: ${found.result.findings.map(({ effect }) => effect).join(', ') || 'nothing found'} in ${took.toFixed(0)} ms`);
   };
   compareDiagnosis(join(project, 'examples/holybro-x500.json'), 'flight', join(project, 'examples/simulated-flight.csv'));
