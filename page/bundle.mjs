@@ -1,0 +1,52 @@
+// Makes the page of one file: program, style and scripts inline, under a policy that allows nothing else.
+//
+//   node page/bundle.mjs --program FILE.wasm --loader FILE.mjs --output FILE.html
+//
+// The loader defines loadCalculator(compiled module) → promise of call(request, files).
+import { createHash } from 'node:crypto';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { parseArgs } from 'node:util';
+import { gzipSync } from 'node:zlib';
+import { build } from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values: options } = parseArgs({ options: {
+  program: { type: 'string' }, loader: { type: 'string' }, output: { type: 'string' } } });
+for (const name of ['program', 'loader', 'output']) {
+  if (!options[name]) { console.error(`bundle: --${name} is needed`); process.exit(2); }
+}
+
+/** A module of that name with these contents, for imports that are no file here. */
+const module = (name, contents, loader) => ({ name, setup(builder) {
+  builder.onResolve({ filter: new RegExp(`^${name}$`) }, ({ path }) => ({ path, namespace: name }));
+  builder.onLoad({ filter: /.*/, namespace: name }, () => ({ contents, loader }));
+} });
+const program = module('tethercalc-program', `${readFileSync(options.loader, 'utf8')}\nexport default loadCalculator;`, 'js');
+const text = async (entry, plugins = []) => (await build({ bundle: true, minify: true, format: 'iife', target: 'es2022',
+  write: false, charset: 'utf8', legalComments: 'inline', logLevel: 'error', platform: 'browser', external: ['fs', 'path', 'crypto'],
+  plugins: [program, ...plugins], entryPoints: [join(here, 'src', entry)] })).outputFiles[0].text;
+
+const worker = await text('worker.js');
+const script = inlined(await text('main.js', [module('worker-source', worker, 'text')]));
+const css = (await build({ stdin: { contents: readFileSync(join(here, 'node_modules/uplot/dist/uPlot.min.css'), 'utf8') +
+  readFileSync(join(here, 'styles.css'), 'utf8'), loader: 'css' }, minify: true, write: false })).outputFiles[0].text;
+
+/** Nothing in a script may end its element. */
+function inlined(source) { return source.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--'); }
+const hash = (source) => `'sha256-${createHash('sha256').update(source).digest('base64')}'`;
+
+const parts = {
+  policy: ["default-src 'none'", `script-src ${hash(script)} 'wasm-unsafe-eval'`, `style-src ${hash(css)}`,
+    'worker-src blob:', 'img-src data: blob:', "connect-src 'none'", "base-uri 'none'", "form-action 'none'"].join('; '),
+  style: css,
+  program: gzipSync(readFileSync(options.program), { level: 9 }).toString('base64'),
+  script,
+};
+const page = readFileSync(join(here, 'index.html'), 'utf8').replace(/\{\{(\w+)\}\}/g, (whole, name) => parts[name]);
+mkdirSync(dirname(options.output), { recursive: true });
+writeFileSync(options.output, page);
+const packed = gzipSync(page, { level: 9 }).length;
+console.log(`${options.output}: ${page.length} bytes, ${packed} with gzip`);
+if (packed > 500_000) console.error('bundle: the page is larger than 500 kB with gzip');
