@@ -12,7 +12,7 @@
 namespace tethercalc {
 namespace {
 
-constexpr std::string_view space = " \t\r\n";
+constexpr std::string_view blanks = " \t\r\n";
 
 /// From the first character to behind the last.
 struct Extent {
@@ -32,7 +32,7 @@ class JsonText {
   explicit JsonText(std::string_view text) : text_(text) {}
 
   [[nodiscard]] std::size_t skip_space(std::size_t at) const {
-    return std::min(text_.find_first_not_of(space, at), text_.size());
+    return std::min(text_.find_first_not_of(blanks, at), text_.size());
   }
 
   [[nodiscard]] Extent value_at(std::size_t at) const {
