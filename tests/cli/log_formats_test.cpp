@@ -25,7 +25,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string example = project_file("examples/simulated-flight.csv");
+const std::string example_flight = project_file("examples/simulated-flight.csv");
 
 using Bytes = std::vector<std::byte>;
 
@@ -49,7 +49,7 @@ void add_attitude_of(ULogWriter& log, std::uint64_t time, double roll, double pi
 /// The example flight as PX4 would log it: attitudes at the times of the velocities and, to be
 /// interpolated between, one more before each.
 ULogWriter example_as_ulog(bool attitudes_beside) {
-  const tethercalc::FlightLog flight = read_flight_csv(example);
+  const tethercalc::FlightLog flight = read_flight_csv(example_flight);
   ULogWriter log;
   log.information("sys_name", "PX4");
   define_flight_topics(log);
@@ -76,7 +76,7 @@ ULogWriter example_as_ulog(bool attitudes_beside) {
 
 /// The first four minutes of the example flight in PX4's format: what examples/px4-flight.ulg is.
 std::string shipped_ulog() {
-  const tethercalc::FlightLog flight = read_flight_csv(example);
+  const tethercalc::FlightLog flight = read_flight_csv(example_flight);
   ULogWriter log;
   log.information("sys_name", "simulated flight, not PX4");
   define_flight_topics(log);
@@ -93,7 +93,7 @@ std::string shipped_ulog() {
 
 /// The example flight as a ground station writes a DataFlash log out.
 std::string example_as_text() {
-  const tethercalc::FlightLog flight = read_flight_csv(example);
+  const tethercalc::FlightLog flight = read_flight_csv(example_flight);
   std::ostringstream text;
   text.precision(12);
   text << "FMT, 128, 89, FMT, BBnNZ, Type,Length,Name,Format,Columns\n"
@@ -171,7 +171,7 @@ TEST_CASE("a flight logged by PX4 gives the drag that its CSV gives") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "flight.ulg").string();
   write_file(log, text_of(example_as_ulog(false).bytes()));
-  const json from_csv = drag_of(example);
+  const json from_csv = drag_of(example_flight);
   // Quaternions and velocities are logged in single precision.
   check_same_drag(drag_of(log), from_csv, 1e-4);
   const std::string beside = (folder.path() / "beside.ulg").string();
@@ -195,14 +195,14 @@ TEST_CASE("diagnose says the same of a flight from ULog and from CSV") {
     for (const json& finding : told.at("findings")) ids.push_back(finding.at("effect"));
     return ids;
   };
-  CHECK(findings(log) == findings(example));
+  CHECK(findings(log) == findings(example_flight));
 }
 
 TEST_CASE("a DataFlash log as text gives the drag that its CSV gives, and tells its lines") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "flight.log").string();
   write_file(log, example_as_text());
-  check_same_drag(drag_of(log), drag_of(example), 1e-6);
+  check_same_drag(drag_of(log), drag_of(example_flight), 1e-6);
   const json told = json::parse(run_tethercalc({"log", log, "--format", "json"}).out);
   CHECK(told.at("format") == "dataflash_text");
   CHECK(told.at("firmware") == "ArduCopter V4.5.7, with a comma");

@@ -20,7 +20,7 @@ namespace {
 
 const fs::path folder = fs::path(TETHERCALC_REFERENCE_DATA) / "data" / "ulog";
 
-std::vector<std::pair<fs::path, nlohmann::json>> reference_logs() {
+std::vector<std::pair<fs::path, nlohmann::json>> reference_ulogs() {
   std::vector<std::pair<fs::path, nlohmann::json>> logs;
   if (!fs::exists(folder)) return logs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -45,7 +45,7 @@ struct Statistics {
   double magnitude = 0;  // sum of absolute values, which rounding is measured by
 };
 
-Statistics statistics_of(const std::vector<double>& column) {
+Statistics statistics_of_field(const std::vector<double>& column) {
   Statistics found;
   for (const double value : column) {
     if (!std::isfinite(value)) continue;
@@ -75,7 +75,7 @@ bool is_character_of_text(const LogMessageType& type, const std::string& field) 
 }  // namespace
 
 TEST_CASE("every topic and field of the reference ULogs has the recorded count, sum and range") {
-  const auto logs = reference_logs();
+  const auto logs = reference_ulogs();
   if (skip_without(logs)) return;
   std::size_t compared = 0;
   for (const auto& [path, golden] : logs) {
@@ -110,7 +110,7 @@ TEST_CASE("every topic and field of the reference ULogs has the recorded count, 
         INFO(fields[i]);
         const auto& recorded = topic.at("fields").at(fields[i]);
         REQUIRE(columns[i].size() == topic.at("n").get<std::size_t>());
-        const Statistics found = statistics_of(columns[i]);
+        const Statistics found = statistics_of_field(columns[i]);
         CHECK(found.finite == recorded.at("finite").get<std::size_t>());
         if (found.finite == 0) continue;
         CHECK(found.minimum == recorded.at("min").get<double>());
@@ -126,7 +126,7 @@ TEST_CASE("every topic and field of the reference ULogs has the recorded count, 
 }
 
 TEST_CASE("information, parameters and dropouts of the reference ULogs are the recorded ones") {
-  const auto logs = reference_logs();
+  const auto logs = reference_ulogs();
   if (skip_without(logs)) return;
   for (const auto& [path, golden] : logs) {
     INFO(path.filename().string());
