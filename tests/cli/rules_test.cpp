@@ -35,7 +35,8 @@ bool says_safe(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the published drone keeps mass and tether length of class C3; its strength is unknown") {
+TEST_CASE(
+    "the published drone keeps mass and tether length of class C3, and its strength is unknown") {
   const json answer = rules_of(published, "eu-c3");
   CHECK(verdict_of(answer, "mass") == "pass");
   CHECK(verdict_of(answer, "tether-length") == "pass");
