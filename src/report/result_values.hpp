@@ -51,6 +51,9 @@ void add_estimates(ordered_json& answer, const Design& design);
 /// order, the codes of what they are about as `warning_codes`.
 void add_warnings(ordered_json& answer, std::span<const Warning> warnings);
 
+/// The same of what was noticed in a log, as `notes` and `note_codes`.
+void add_notes(ordered_json& answer, std::span<const Warning> notes);
+
 /// A sentence that ends in a full stop, whether it did or not.
 [[nodiscard]] std::string with_stop(std::string sentence);
 
