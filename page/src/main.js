@@ -49,7 +49,7 @@ function parsedSpec(text) {
 // --- From the state to the page ---
 
 function refresh({ sliding = false } = {}) {
-  const reply = ask('optimize_and_figures', { spec: state.spec, kinds: ['optimum'] });
+  const reply = ask('optimize_and_figures', { spec: state.spec, kinds: ['optimum'], brief: true });
   const rest = controls.show(parsedSpec(state.spec), reply.problems ?? []);
   document.body.classList.toggle('stale', Boolean(reply.problems));
   showProblems(rest, reply.problems?.length ?? 0);
@@ -152,7 +152,7 @@ function showState(next) {
 function takePinned() {
   pinnedAnswer = null;
   if (state.pinned !== null) {
-    const { answer } = ask('optimize_and_figures', { spec: state.pinned, kinds: ['optimum'] });
+    const { answer } = ask('optimize_and_figures', { spec: state.pinned, kinds: ['optimum'], brief: true });
     if (answer) pinnedAnswer = { ...answer, figures: figuresOf(answer.figures) };
     else state.pinned = null;
   }

@@ -110,6 +110,14 @@ TEST_CASE("a conductor of the spec is called by its id, else its name, else the 
   CHECK_THAT(headline(conductor), Catch::EndsWith(" mm² of litz."));
 }
 
+TEST_CASE("a brief answer is the whole one without its text") {
+  ordered_json request{{"ask", "optimize_and_figures"}, {"spec", example("holybro-x500.json")}};
+  ordered_json whole = answered(request);
+  request["brief"] = true;
+  REQUIRE(whole.erase("text") == 1);
+  CHECK(answered(request).dump() == whole.dump());
+}
+
 TEST_CASE("the curves of a figure carry the numbers of the answer") {
   const ordered_json all = answered({{"ask", "optimize_and_figures"},
                                      {"spec", example("holybro-x500.json")},

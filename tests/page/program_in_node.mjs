@@ -125,7 +125,7 @@ try {
   };
   compareDiagnosis(join(project, 'examples/holybro-x500.json'), 'flight', join(project, 'examples/simulated-flight.csv'));
 
-  const slider = { ask: 'optimize_and_figures', spec, kinds: ['optimum'] };
+  const slider = { ask: 'optimize_and_figures', spec, kinds: ['optimum'], brief: true };
   const times = [];
   for (let i = 0; i < 200; ++i) {
     const changed = ask({ ask: 'set', spec, path: 'supply.voltage_V', value: 60 + i / 10 }).spec;
