@@ -15,6 +15,10 @@ const load = new Function(`${readFileSync(loader, 'utf8')}\nreturn loadCalculato
 const begun = performance.now();
 const call = await load(readFileSync(wasm));
 console.log(`loaded in ${(performance.now() - begun).toFixed(0)} ms`);
+// Bytes that are no program, and a program that asks for what is not there, are refused rather than waited for.
+await assert.rejects(load(Uint8Array.of(1, 2, 3)), WebAssembly.CompileError);
+const needsMore = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 2, 7, 1, 1, 120, 1, 121, 0, 0);
+await assert.rejects(load(new WebAssembly.Module(needsMore)), TypeError);
 const folder = mkdtempSync(join(tmpdir(), 'tethercalc-page-'));
 
 const ask = (request, files) => {
