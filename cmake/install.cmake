@@ -17,6 +17,7 @@ endif()
 install(DIRECTORY include/tethercalc TYPE INCLUDE)
 # Laid out as here, so that the README's links and commands hold where they are installed.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff TYPE DOC COMPONENT program)
+install(FILES page/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/page COMPONENT program)
 install(DIRECTORY examples docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
   PATTERN "Doxyfile" EXCLUDE PATTERN "*.dox" EXCLUDE)
 

@@ -205,7 +205,10 @@ def drag(
     mass_g: float,
     *,
     air_density_kg_m3: float | None = None,
-    pitch_offset_deg: float = 0,
+    pressure_hPa: float | None = None,
+    temperature_C: float | None = None,
+    pitch_offset_deg: float | None = None,
+    trim_log: Path | None = None,
     start: float | str | None = None,
     end: float | str | None = None,
     core: int = 0,
@@ -214,18 +217,23 @@ def drag(
     """The drag that flights of one drone show, with honest errors.
 
     `start` and `end` are seconds of the log's clock or texts such as "25%" of its samples; without
-    them the part that moves is used. Without `air_density_kg_m3` it is 1.293 kg/m³.
+    them the part that moves is used. The air density is given, or follows from pressure and
+    temperature; so is the pitch offset, or measured by `trim_log`, a hover flight. What is assumed
+    where neither is given, and what is amiss with a log, is warned of.
     """
-    return _core._drag(
-        _paths(logs),
-        mass_g,
-        air_density_kg_m3,
-        pitch_offset_deg,
+    flown = _core._Flight(
+        core,
         _place(start),
         _place(end),
-        core,
+        _path(trim_log),
+        pitch_offset_deg,
+        mass_g,
+        air_density_kg_m3,
+        pressure_hPa,
+        temperature_C,
         published_kinematics,
     )
+    return _core._drag(_paths(logs), flown)
 
 
 def diagnose(
@@ -240,7 +248,10 @@ def diagnose(
     free_flight: bool = False,
     mass_g: float | None = None,
     air_density_kg_m3: float | None = None,
-    pitch_offset_deg: float = 0,
+    pressure_hPa: float | None = None,
+    temperature_C: float | None = None,
+    pitch_offset_deg: float | None = None,
+    trim_log: Path | None = None,
     start: float | str | None = None,
     end: float | str | None = None,
     core: int = 0,
@@ -248,9 +259,21 @@ def diagnose(
     """What the simulation of measured flights gets wrong, why, and how far the design moves.
 
     `flight` and `power` are logs of either kind, `log` is one that holds both. `base` names effects
-    that are taken for granted, `effects` files with further ones. `answer.extended.spec` is the
-    design with what was found in it.
+    that are taken for granted, `effects` files with further ones. What is known of the flight is
+    written as for `drag`; mass and air are else the spec's. `answer.extended.spec` is the design
+    with what was found in it.
     """
+    flown = _core._Flight(
+        core,
+        _place(start),
+        _place(end),
+        _path(trim_log),
+        pitch_offset_deg,
+        mass_g,
+        air_density_kg_m3,
+        pressure_hPa,
+        temperature_C,
+    )
     return _core._diagnose(
         spec,
         _paths(flight),
@@ -258,12 +281,7 @@ def diagnose(
         _path(log),
         _texts(base),
         _paths(effects),
-        list(batteries),
+        [str(number) for number in batteries],
         free_flight,
-        mass_g,
-        air_density_kg_m3,
-        pitch_offset_deg,
-        _place(start),
-        _place(end),
-        core,
+        flown,
     )

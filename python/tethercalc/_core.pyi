@@ -118,6 +118,21 @@ class Sweep:
     @property
     def summary(self) -> dict[str, Any] | None: ...
 
+class _Flight:
+    def __init__(
+        self,
+        core: int,
+        start: str,
+        end: str,
+        trim_log: str,
+        pitch_offset_deg: float | None,
+        mass_g: float | None,
+        air_density_kg_m3: float | None,
+        pressure_hPa: float | None,
+        temperature_C: float | None,
+        published_kinematics: bool = ...,
+    ) -> None: ...
+
 def fields() -> list[dict[str, Any]]: ...
 def load(path: Any, set: dict[str, Any] = ...) -> Design: ...
 def optimize(spec: Any) -> Optimum: ...
@@ -154,16 +169,7 @@ def _shape(
     exponent: float | None,
     roughness_m: float | None,
 ) -> Answer: ...
-def _drag(
-    logs: Sequence[str],
-    mass_g: float,
-    air_density_kg_m3: float | None,
-    pitch_offset_deg: float,
-    start: str,
-    end: str,
-    core: int,
-    published_kinematics: bool,
-) -> Answer: ...
+def _drag(logs: Sequence[str], flown: _Flight) -> Answer: ...
 def _diagnose(
     spec: Any,
     flight: Sequence[str],
@@ -171,12 +177,7 @@ def _diagnose(
     log: str,
     base: Sequence[str],
     effects: Sequence[str],
-    batteries: Sequence[int],
+    batteries: Sequence[str],
     free_flight: bool,
-    mass_g: float | None,
-    air_density_kg_m3: float | None,
-    pitch_offset_deg: float,
-    start: str,
-    end: str,
-    core: int,
+    flown: _Flight,
 ) -> Answer: ...

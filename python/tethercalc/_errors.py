@@ -7,6 +7,15 @@ from dataclasses import dataclass
 
 _PLACE = re.compile(r"(?P<file>.*?)(?::(?P<line>\d+))?(?: (?P<pointer>/\S*))?", re.DOTALL)
 
+_OPTION = re.compile(r"(?<![^\s(\"])--([a-z][\w-]*)")
+#: Options whose arguments have another name.
+_ARGUMENTS = {
+    "air-density": "air_density_kg_m3",
+    "battery": "batteries",
+    "from": "start",
+    "to": "end",
+}
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -22,10 +31,15 @@ class Problem:
         return f"{self.where}: {self.message}"
 
 
+def in_arguments(text: str) -> str:
+    """A sentence of the command, whose options are arguments here."""
+    return _OPTION.sub(lambda o: _ARGUMENTS.get(o[1], o[1].replace("-", "_")), text)
+
+
 def _problem(where: str, message: str) -> Problem:
-    if where.startswith("--"):  # an option of the command, which is an argument here
-        option, _, value = where[2:].partition(" ")
-        return Problem(f"{option.replace('-', '_')} {value}".strip(), message)
+    message = in_arguments(message)
+    if where.startswith("--"):
+        return Problem(in_arguments(where), message)
     place = _PLACE.fullmatch(where)
     if place is None or not (place["line"] or place["pointer"]):
         return Problem(where, message)

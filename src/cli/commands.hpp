@@ -180,9 +180,6 @@ int run_explain(const std::string& code, ExplanationForm form, const Output& out
 /// Says to a person at a terminal where more is told of `codes`: those that have a page.
 void point_to_explanations(const std::vector<std::string>& codes, const Output& output);
 
-/// Reads logs from files, compressed or not.
-[[nodiscard]] LogReaders logs_in_files();
-
 /// Says it on standard error.
 void note_on_error(const std::string& note);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "files/input_files.hpp"
+#include "files/logs_in_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/files/gnuplot.hpp"

@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 
 #include "files/log_file.hpp"
+#include "files/logs_in_files.hpp"
 #include "files/output_files.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
@@ -23,7 +23,6 @@
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/spec_writer.hpp"
 #include "tethercalc/report/design_report.hpp"
-#include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/drag_report.hpp"
 #include "tethercalc/report/log_report.hpp"
 #include "tethercalc/report/next_flight_report.hpp"
@@ -67,22 +66,6 @@ void clear_progress() {
   if (shows_progress()) std::fprintf(stderr, "\r\x1b[K");
 }
 
-/// The effects of the files given, no id twice.
-std::vector<Effect> own_effects(const DiagnoseOptions& options) {
-  std::vector<Effect> effects;
-  for (const std::string& file : options.effect_files) {
-    for (Effect& effect : read_effects(file)) {
-      const auto same = std::find_if(effects.begin(), effects.end(),
-                                     [&](const Effect& other) { return other.id == effect.id; });
-      if (same != effects.end()) {
-        throw InputError(file, fmt::format("\"{}\" is an effect of another file, too", effect.id));
-      }
-      effects.push_back(std::move(effect));
-    }
-  }
-  return effects;
-}
-
 ToldDiagnosis studied(const AskedDiagnosis& asked, const DiagnoseOptions& options,
                       const DesignFile& file) {
   try {
@@ -111,13 +94,7 @@ void tell(const AnsweredDiagnosis& told, const std::string& mission, const Outpu
         if (told.next_flight) json["next_flight"] = next_flight_json(*told.next_flight, mission);
         return json;
       },
-      [&] {
-        std::vector<Finding> findings = told.flight ? told.flight->findings : told.power->findings;
-        if (told.flight && told.power) {
-          findings.insert(findings.end(), told.power->findings.begin(), told.power->findings.end());
-        }
-        return diagnosis_csv(findings);
-      });
+      [&] { return told_csv(told); });
 }
 
 /// "LAT,LON" in degrees.
@@ -191,15 +168,6 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
 
 }  // namespace
 
-LogReaders logs_in_files() {
-  return {[](const std::string& name, const FlightLogOptions& how) {
-            return read_flight_log(name, how);
-          },
-          [](const std::string& name, const PowerLogOptions& how) {
-            return read_power_log(name, how);
-          }};
-}
-
 void note_on_error(const std::string& note) { remark(note + "\n"); }
 
 DiagnoseOptions with_both_halves(DiagnoseOptions options) {
@@ -262,8 +230,8 @@ int run_drag(const DragOptions& options, const Output& output) {
 }
 
 AnsweredDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile& file) {
-  AskedDiagnosis asked =
-      diagnosis_question(options, file.design, own_effects(options), logs_in_files());
+  AskedDiagnosis asked = diagnosis_question(
+      options, file.design, read_effect_files(options.effect_files), logs_in_files());
   AnsweredDiagnosis told{studied(asked, options, file)};
   if (!options.next_flight_file.empty()) {
     told.next_flight = study_next_flight(

@@ -233,4 +233,19 @@ std::vector<Effect> read_effects(const std::string& path) {
   return effects;
 }
 
+std::vector<Effect> read_effect_files(std::span<const std::string> paths) {
+  std::vector<Effect> effects;
+  for (const std::string& path : paths) {
+    for (Effect& effect : read_effects(path)) {
+      const auto same = std::find_if(effects.begin(), effects.end(),
+                                     [&](const Effect& other) { return other.id == effect.id; });
+      if (same != effects.end()) {
+        throw InputError(path, fmt::format("\"{}\" is an effect of another file, too", effect.id));
+      }
+      effects.push_back(std::move(effect));
+    }
+  }
+  return effects;
+}
+
 }  // namespace tethercalc

@@ -198,10 +198,26 @@ std::optional<Table> table_of(const LoadedText& input, const std::vector<NamedCo
   return best;
 }
 
+/// Whether any row has two cells that are written as numbers.
+bool holds_numbers(const Table& table) {
+  const auto is_numeric = [](const std::string& cell) {
+    return cell.find_first_of("0123456789") != std::string::npos &&
+           cell.find_first_not_of("0123456789.,+-eE% ") == std::string::npos;
+  };
+  return std::ranges::any_of(table.rows, [&](const Row& row) {
+    return std::ranges::count_if(row.cells, is_numeric) >= 2;
+  });
+}
+
 /// What the header lacks or says twice.
 bool header_will_do(const Table& table, const std::vector<NamedColumn>& named, Problems& problems) {
   const std::string where = fmt::format("{}:{}", table.file, table.header_line);
   const std::size_t before = problems.count();
+  // What is no table may be a secret, and nothing of it is shown.
+  if (!holds_numbers(table)) {
+    problems.add(where, "is no table of a motor: no row below its first line has two numbers");
+    return false;
+  }
   const std::vector<std::string> shown = all_shown(table.header);
   for (const NamedColumn& column : named) {
     if (std::ranges::find(table.header, column.header) != table.header.end()) continue;

@@ -60,4 +60,12 @@ nlohmann::ordered_json told_json(const ToldDiagnosis& told) {
                                    : diagnosis_json(only_one(told), told.spec);
 }
 
+std::string told_csv(const ToldDiagnosis& told) {
+  std::vector<Finding> findings;
+  for (const std::optional<Diagnosis>* one : {&told.flight, &told.power}) {
+    if (*one) findings.insert(findings.end(), (*one)->findings.begin(), (*one)->findings.end());
+  }
+  return diagnosis_csv(findings);
+}
+
 }  // namespace tethercalc

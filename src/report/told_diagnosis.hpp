@@ -26,5 +26,7 @@ struct ToldDiagnosis : DiagnosisStudy {
 [[nodiscard]] std::string told_text(const ToldDiagnosis& told, const TextStyle& style);
 /// The result keys of `diagnose`.
 [[nodiscard]] nlohmann::ordered_json told_json(const ToldDiagnosis& told);
+/// A row a finding, the flight's first.
+[[nodiscard]] std::string told_csv(const ToldDiagnosis& told);
 
 }  // namespace tethercalc

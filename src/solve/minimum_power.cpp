@@ -91,8 +91,12 @@ class ValleySearch {
           }
         }
       }
+      const double bottom = std::clamp(next, left_.radius, right_.radius);
+      if (std::abs(next - at.radius) <= last_step * at.radius) return nearby(at, bottom);
       next = inside_bracket(next, step);
-      if (std::abs(next - at.radius) <= last_step * at.radius) return nearby(at, next);
+      // Where every step leads out of the bracket, however small that is, the bottom is a kink and
+      // steep on its sides: a drone of no frontal area is upright from some weight on.
+      if (std::abs(next - at.radius) <= 1e-14 * at.radius) return nearby(at, next);
       at = thrust_at(flight_, next, at.tan_guess(next));
       stay_within_motors(at);
       piece = piece_at(at);

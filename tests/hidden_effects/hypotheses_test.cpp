@@ -203,6 +203,20 @@ TEST_CASE("an effect's sizes come first, whatever the order in its file") {
   CHECK(effect.parameters[1].name == "depth");
 }
 
+TEST_CASE("effects of several files come in their order, and none of one id twice") {
+  const std::string wake = test::project_file("examples/effects/braking-wake.json");
+  const std::string cushion = test::project_file("examples/effects/ground-cushion.json");
+  const auto effects = read_effect_files(std::vector{cushion, wake});
+  REQUIRE(effects.size() == 2);
+  CHECK(effects[0].id == "ground_cushion");
+  CHECK(effects[1].id == "braking_wake");
+  CHECK(read_effect_files({}).empty());
+  CHECK_THROWS_WITH(
+      read_effect_files(std::vector{wake, cushion, wake}),
+      Catch::Matchers::Contains(wake) &&
+          Catch::Matchers::Contains("\"braking_wake\" is an effect of another file, too"));
+}
+
 TEST_CASE("every problem of an effect's file is told with its place") {
   using Catch::Matchers::Contains;
   CHECK_THAT(refusal(R"({"id": "mine"})"), Contains("/title: \"title\" is missing") &&

@@ -119,6 +119,16 @@ TEST_CASE("a header that is not understood is answered with what it has and how 
   CHECK_THAT(bench_refusal("F;P\n1;10\n", {{"force=F"}, {}}), Contains("does not say what"));
 }
 
+TEST_CASE("of a file that is no table of numbers nothing is shown") {
+  for (const std::string file :
+       {"root:x:0:0:root:/root:/bin/bash\ndaemon:x:1:1:daemon:/usr/sbin:/bin/sh\n",
+        "secret = swordfish, 12\nuser = admin, x\n", "password swordfish"}) {
+    const std::string text = bench_refusal(file);
+    CHECK_THAT(text,
+               Contains("is no table of a motor") && !Contains("root:x") && !Contains("swordfish"));
+  }
+}
+
 TEST_CASE("a quote that is not closed is told as such") {
   CHECK_THAT(bench_refusal("Thrust (g),Power (W)\n100,\"10\n200,25\n"),
              Contains("bench.csv:2: a quote is opened and not closed"));

@@ -1,7 +1,12 @@
 """Logs as arrays, the published fit, and a diagnosis."""
 
 import json
+import math
+import pathlib
+import subprocess
+import tempfile
 import unittest
+import warnings
 
 import numpy as np
 import tethercalc
@@ -71,14 +76,51 @@ class Drag(unittest.TestCase):
         self.assertEqual(str(fit), command(*words))
         self.assertEqual(fit.to_dict(), json.loads(command(*words, "--format", "json")))
 
+    def test_air_by_the_weather_and_the_offset_of_a_hover_flight_are_the_commands(self):
+        with tempfile.TemporaryDirectory() as folder:
+            hover = pathlib.Path(folder) / "hover.csv"
+            rows = ["time_s,roll_deg,pitch_deg,yaw_deg,vn_m_s,ve_m_s,vd_m_s"]
+            for k in range(600):
+                sway = math.sin(k / 9)
+                rows.append(f"{k / 10},{sway},{1.2 + sway},{sway},{sway / 9},{sway / 8},{sway / 7}")
+            hover.write_text("\n".join(rows) + "\n")
+            fit = tethercalc.drag(FLIGHT, 1550, pressure_hPa=985, temperature_C=12, trim_log=hover)
+            words = ["--pressure-hPa", 985, "--temperature-C", 12, "--trim-log", hover]
+            self.assertEqual(str(fit), command("drag", FLIGHT, "--mass-g", 1550, *words))
+        level = tethercalc.drag(
+            FLIGHT, 1550, pressure_hPa=985, temperature_C=12, pitch_offset_deg=0
+        )
+        self.assertNotEqual(fit.front_area_m2.value, level.front_area_m2.value)
+
+    def test_what_is_assumed_is_warned_of_where_it_is_called(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            tethercalc.drag(FLIGHT, 1550)
+        self.assertEqual([one.filename for one in caught], [__file__, __file__])
+        self.assertIn("1.293 kg/m³ taken (air_density_kg_m3,", str(caught[0].message))
+        self.assertIn("(trim_log or pitch_offset_deg)", str(caught[1].message))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            tethercalc.drag(FLIGHT, 1550, air_density_kg_m3=1.2, pitch_offset_deg=0)
+            with self.assertRaises(UserWarning):
+                tethercalc.drag(FLIGHT, 1550)
+
     def test_bad_arguments_are_told_by_their_names(self):
-        with self.assertRaises(tethercalc.InputError) as caught:
-            tethercalc.drag(FLIGHT, -3)
-        self.assertEqual(caught.exception.problems[0].where, "mass_g")
-        with self.assertRaises(tethercalc.InputError):
-            tethercalc.drag(FLIGHT, 1550, start="a quarter")
+        for where, arguments in (
+            ("mass_g", {"mass_g": -3}),
+            ("start", {"start": "a quarter"}),
+            ("end", {"end": "a quarter"}),
+            ("pitch_offset_deg", {"pitch_offset_deg": 46}),
+            ("air_density_kg_m3", {"air_density_kg_m3": 12}),
+            ("pressure_hPa", {"pressure_hPa": 1013}),
+            ("trim_log", {"trim_log": FLIGHT, "pitch_offset_deg": 1}),
+        ):
+            with self.assertRaises(tethercalc.InputError) as caught:
+                tethercalc.drag(FLIGHT, **{"mass_g": 1550, **arguments})
+            self.assertEqual(caught.exception.problems[0].where, where)
+            self.assertNotIn("--", str(caught.exception))
         with self.assertRaises(AttributeError) as missing:
-            tethercalc.drag(FLIGHT, 1550).front_area
+            tethercalc.drag(FLIGHT, 1550, air_density_kg_m3=1.2, pitch_offset_deg=0).front_area
         self.assertIn("front_area_m2", str(missing.exception))
 
 
@@ -100,6 +142,36 @@ class Diagnosis(unittest.TestCase):
         told = tethercalc.diagnose(given, power=power)
         words = ["diagnose", PUBLISHED, "--set", "tether.cross_section_mm2=1.09", "--power", power]
         self.assertEqual(told.to_dict(), json.loads(command(*words, "--format", "json")))
+
+    def test_several_flights_are_told_apart_as_the_command_does(self):
+        flights = [FLIGHT, FLIGHT]
+        told = tethercalc.diagnose(PUBLISHED, flight=flights, start="5%", end="95%")
+        words = ["diagnose", PUBLISHED, "--flight", FLIGHT, "--flight", FLIGHT]
+        words += ["--from", "5%", "--to", "95%"]
+        self.assertEqual(str(told), command(*words))
+        self.assertIn(f"flight 2 is {FLIGHT}", " ".join(str(told).split()))
+        self.assertEqual(told.to_csv(), command(*words, "--format", "csv"))
+
+    def test_an_effect_of_two_files_is_refused_as_by_the_command(self):
+        effects = [EXAMPLES / "effects" / "braking-wake.json"] * 2
+        with self.assertRaises(tethercalc.InputError) as caught:
+            tethercalc.diagnose(PUBLISHED, flight=FLIGHT, effects=effects)
+        words = [word for effect in effects for word in ("--effects", effect)]
+        with self.assertRaises(subprocess.CalledProcessError) as refused:
+            command("diagnose", PUBLISHED, "--flight", FLIGHT, *words)
+        self.assertEqual(refused.exception.returncode, 2)
+        self.assertIn("is an effect of another file, too", str(caught.exception))
+        self.assertIn(str(caught.exception), refused.exception.stderr)
+
+    def test_what_is_of_the_power_needs_a_log_of_it(self):
+        for arguments, where in (
+            ({"free_flight": True}, "free_flight"),
+            ({"batteries": [0]}, "batteries"),
+            ({"log": FLIGHT}, "log"),
+        ):
+            with self.assertRaises(tethercalc.InputError) as caught:
+                tethercalc.diagnose(PUBLISHED, flight=FLIGHT, **arguments)
+            self.assertEqual(caught.exception.problems[0].where, where)
 
     def test_an_unknown_effect_or_no_log_is_refused(self):
         with self.assertRaises(tethercalc.InputError) as caught:

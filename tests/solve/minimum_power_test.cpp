@@ -93,3 +93,23 @@ TEST_CASE("the minimum power lies on a kink of a motor curve that has one there"
   REQUIRE_FALSE(std::isnan(found.area));
   CHECK(evaluate(flight, found.area).necessary_thrust == Approx(5.6).epsilon(1e-12));
 }
+
+TEST_CASE("the minimum power lies where a drone of no frontal area comes upright") {
+  // Its drag grows with the sine of the tilt, so that a thrust T of all motors with T·sin θ =
+  // q·A_t·sin θ holds it at any weight below q·A_t, and the weight itself above.
+  Design design = test::published_design();
+  design.tether.projection_factor = 0;
+  AirframeDrag& drag = design.drone.drag;
+  drag.front_area = 0;
+  drag.linear_speed = 0;
+  const double hover = minimum_power(SteadyFlight(design, Condition::hover)).area;
+  const double weight = 1.2 * evaluate(SteadyFlight(design, Condition::hover), hover).takeoff_mass *
+                        design.flight.gravity;
+  const double speed = design.flight.airspeed;
+  drag.top_area = weight / (0.5 * design.flight.air_density * speed * speed);
+  const SteadyFlight flight(design, Condition::forward);
+  const MinimumPower found = minimum_power(flight);
+  REQUIRE_FALSE(std::isnan(found.area));
+  CHECK(evaluate(flight, found.area).takeoff_mass * design.flight.gravity ==
+        Approx(weight).epsilon(1e-12));
+}

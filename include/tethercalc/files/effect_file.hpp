@@ -1,6 +1,7 @@
 // Effects of one's own from a JSON file.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,9 @@ namespace tethercalc {
 /// another kind, names that are used twice or hide a channel, formulas that cannot be read, and
 /// what `effect_of` refuses.
 [[nodiscard]] std::vector<Effect> read_effects(const std::string& path);
+
+/// The effects of several such files, in their order. Throws InputError likewise, and where two
+/// files have effects of one id.
+[[nodiscard]] std::vector<Effect> read_effect_files(std::span<const std::string> paths);
 
 }  // namespace tethercalc
