@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tethercalc/io/library.hpp"
 #include "tethercalc/model/warning.hpp"
 #include "tethercalc/study/results.hpp"
 
@@ -50,6 +51,10 @@ void add_estimates(ordered_json& answer, const Design& design);
 /// Puts the sentences of `warnings` into an answer as `warnings`, and beside them, in the same
 /// order, the codes of what they are about as `warning_codes`.
 void add_warnings(ordered_json& answer, std::span<const Warning> warnings);
+
+/// What sentences call a conductor: its id, else its name; one that a spec describes may have
+/// neither.
+[[nodiscard]] std::string conductor_words(const ConductorEntry& conductor);
 
 /// A sentence that ends in a full stop, whether it did or not.
 [[nodiscard]] std::string with_stop(std::string sentence);
