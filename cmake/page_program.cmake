@@ -12,17 +12,14 @@ endforeach()
 
 include(cmake/embed_data.cmake)
 set(source "${PROJECT_SOURCE_DIR}/src")
-file(GLOB physics_sources CONFIGURE_DEPENDS
-  "${source}/model/*.cpp" "${source}/solve/*.cpp" "${source}/study/*.cpp")
+file(GLOB physics_sources CONFIGURE_DEPENDS "${source}/model/*.cpp" "${source}/solve/*.cpp")
+file(GLOB word_sources CONFIGURE_DEPENDS "${source}/study/*.cpp" "${source}/identify/*.cpp"
+  "${source}/diagnose/*.cpp" "${source}/io/*.cpp" "${source}/report/*.cpp" "${source}/page/*.cpp")
 # The search for a whole design is NLopt's, which is a library of the host.
-list(FILTER physics_sources EXCLUDE REGEX
-  "/(solve/constrained_minimum|study/design_search|study/design)\\.cpp$")
-file(GLOB fit_sources CONFIGURE_DEPENDS "${source}/identify/*.cpp" "${source}/diagnose/*.cpp")
-file(GLOB word_sources CONFIGURE_DEPENDS
-  "${source}/io/*.cpp" "${source}/report/*.cpp" "${source}/page/*.cpp")
-list(FILTER word_sources EXCLUDE REGEX "/browser_program\\.cpp$")
+list(FILTER physics_sources EXCLUDE REGEX "/constrained_minimum\\.cpp$")
+list(FILTER word_sources EXCLUDE REGEX "/(study/design_search|study/design|page/browser_program)\\.cpp$")
 file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
-list(FILTER data_files EXCLUDE REGEX "/schema/")
+list(FILTER data_files EXCLUDE REGEX "/(schema|rules)/")
 list(SORT data_files)
 
 # A room is compiled as one file, as in src/CMakeLists.txt.
@@ -39,30 +36,30 @@ function(compile_for_page target)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/include" "${source}")
   target_include_directories(${target} SYSTEM PRIVATE "${headers}" "${headers}/eigen3")
   target_compile_definitions(${target} PRIVATE TETHERCALC_VERSION="${PROJECT_VERSION}"
-    FMT_HEADER_ONLY TETHERCALC_WITHOUT_DESIGN_SEARCH)
-  target_compile_options(${target} PRIVATE -fwasm-exceptions -Wno-defaulted-function-deleted
-    "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp")
+    FMT_HEADER_ONLY FMT_USE_LONG_DOUBLE=0 TETHERCALC_WITHOUT_DESIGN_SEARCH NDEBUG)
+  # Exceptions are caught by their types without RTTI, too.
+  target_compile_options(${target} PRIVATE -fwasm-exceptions -fno-rtti -fno-math-errno
+    -Wno-defaulted-function-deleted "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp")
 endfunction()
 
 # What sliders wait for is optimised for speed, the rest for its size.
 add_library(page_physics STATIC ${physics_sources})
 compile_for_page(page_physics)
-target_compile_options(page_physics PRIVATE -O2 -fno-math-errno)
+target_compile_options(page_physics PRIVATE -O2)
 
-add_library(page_fits STATIC ${fit_sources})
-compile_for_page(page_fits)
-target_compile_options(page_fits PRIVATE -Os -fno-math-errno)
-
+# Emscripten 3.1.6 inlines nothing at -Oz unless told to, and calls are larger than most of what they call.
+set(small -Oz -finline-functions)
 add_library(page_words STATIC ${word_sources})
 embed_data(page_words ${data_files})
 include(src/page/example_specs.cmake)
 embed_files(page_words example_specs "${PROJECT_SOURCE_DIR}/examples" ${example_specs})
 compile_for_page(page_words)
-target_compile_options(page_words PRIVATE -Oz)
+target_compile_options(page_words PRIVATE ${small})
 
 add_executable(page_program "${source}/page/browser_program.cpp")
 compile_for_page(page_program)
-target_link_libraries(page_program PRIVATE page_words page_physics page_fits page_physics)
+target_compile_options(page_program PRIVATE ${small})
+target_link_libraries(page_program PRIVATE page_words page_physics)
 set_target_properties(page_program PROPERTIES SUFFIX .js LINK_DEPENDS "${source}/page/call.js")
 target_link_options(page_program PRIVATE -Oz -fwasm-exceptions --no-entry
   "SHELL:--extern-post-js ${source}/page/call.js"

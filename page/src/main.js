@@ -1,6 +1,6 @@
 import { buildAnswer, motorsTable, showAnswer, showExplained, sizesTable, whatIfTable } from './answer.js';
 import { buildControls } from './controls.js';
-import { openCore, programBytes } from './core.js';
+import { openCore } from './core.js';
 import { byId, download, el, setText } from './dom.js';
 import { valueAt } from './field_words.js';
 import { DrawnFigure, takeColours } from './figure.js';
@@ -8,6 +8,7 @@ import { figuresOf } from './figure_data.js';
 import { makeHistory } from './history.js';
 import { buildLearn } from './learn.js';
 import { editObject, editTable } from './value_dialog.js';
+import { packedProgram } from './packed_program.js';
 import { problemWords } from './problems.js';
 import workerSource from 'worker-source';
 
@@ -49,7 +50,7 @@ function parsedSpec(text) {
 // --- From the state to the page ---
 
 function refresh({ sliding = false } = {}) {
-  const reply = ask('optimize_and_figures', { spec: state.spec, kinds: ['optimum'] });
+  const reply = ask('optimize_and_figures', { spec: state.spec, kinds: ['optimum'], brief: true });
   const rest = controls.show(parsedSpec(state.spec), reply.problems ?? []);
   document.body.classList.toggle('stale', Boolean(reply.problems));
   showProblems(rest, reply.problems?.length ?? 0);
@@ -153,7 +154,7 @@ function showState(next) {
 function takePinned() {
   pinnedAnswer = null;
   if (state.pinned !== null) {
-    const { answer } = ask('optimize_and_figures', { spec: state.pinned, kinds: ['optimum'] });
+    const { answer } = ask('optimize_and_figures', { spec: state.pinned, kinds: ['optimum'], brief: true });
     if (answer) pinnedAnswer = { ...answer, figures: figuresOf(answer.figures) };
     else state.pinned = null;
   }
@@ -460,7 +461,7 @@ function startWorker(program) {
 async function start() {
   let theme = 'auto';
   try { theme = localStorage.getItem('theme') ?? 'auto'; } catch { /* as above */ }
-  const program = await programBytes(byId('program'));
+  const program = await packedProgram(byId('program'));
   call = await openCore(program);
   about = ask('about').answer;
   setText(byId('version'), about.version);

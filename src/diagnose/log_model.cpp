@@ -248,7 +248,7 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
                           open.gain_percent > 2 * open.gain_se_percent;
   if (hardly_chance || helps_much) {
     diagnosis.suspected.push_back(
-        {effect.id, open.gain_percent, open.gain_se_percent,
+        {effect.id, effect.title, open.gain_percent, open.gain_se_percent,
          estimates(log, selection, open.freed, open.group),
          what_is_missing(effect, open, selection.least_gain_percent * effect.least_gain_factor),
          log.flight_of(open.group)});

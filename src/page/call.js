@@ -2,12 +2,15 @@
 // `call(request, files)` is the answer to a JSON text as a JSON text. `bytes` are those of
 // page_program.wasm, or a WebAssembly.Module of it; `files` maps names to Uint8Arrays.
 async function loadCalculator(bytes) {
-  const instance = (imports, receive) => {
-    const module = bytes instanceof WebAssembly.Module ? Promise.resolve(bytes) : WebAssembly.compile(bytes);
-    module.then((compiled) => WebAssembly.instantiate(compiled, imports).then((made) => receive(made, compiled)));
-    return {};
-  };
-  const program = await createProgram({ instantiateWasm: instance });
+  const compiled = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
+  // The loader waits for ever where an instance fails; this promise does not.
+  const program = await new Promise((resolve, reject) => {
+    const instantiateWasm = (imports, receive) => {
+      WebAssembly.instantiate(compiled, imports).then((made) => receive(made, compiled)).catch(reject);
+      return {};
+    };
+    createProgram({ instantiateWasm }).then(resolve, reject);
+  });
   const encoder = new TextEncoder();
   const decoder = new TextDecoder();
   // Memory may grow with every allocation, which moves HEAPU8.

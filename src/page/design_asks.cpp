@@ -31,17 +31,17 @@ Optimised optimised(const Request& request) {
   return {std::move(file), std::move(study)};
 }
 
-ordered_json optimum_json(const Optimised& asked) {
+/// All of it but "text", the whole output of the command, which `brief` leaves out.
+ordered_json optimum_json(const Request& request, const Optimised& asked) {
   const auto& [file, study] = asked;
   Answer told = answer(file, study);
   const auto sentence = [](const Warning& warning) { return warning.sentence; };
-  return {{"headline", std::move(told.headline)},
-          {"sentences", std::move(told.sentences)},
-          {"remedies", std::move(told.remedies)},
-          {"warnings", json_list(all_warnings(file), sentence)},
-          {"result", optimize_json(file, study)},
-          {"text", optimize_text(file, study, {})},
-          {"command", "tethercalc optimize spec.json"}};
+  ordered_json out{
+      {"headline", std::move(told.headline)}, {"sentences", std::move(told.sentences)},
+      {"remedies", std::move(told.remedies)}, {"warnings", json_list(all_warnings(file), sentence)},
+      {"result", optimize_json(file, study)}, {"command", "tethercalc optimize spec.json"}};
+  if (!request.flag("brief")) out["text"] = optimize_text(file, study, {});
+  return out;
 }
 
 std::vector<MotorOptimum> ranked_motors(const Request& request, const DesignFile& file) {
@@ -134,7 +134,7 @@ ordered_json figures_json(const Request& request, const Optimised& of) {
   return figures;
 }
 
-ordered_json optimize(const Request& request) { return optimum_json(optimised(request)); }
+ordered_json optimize(const Request& request) { return optimum_json(request, optimised(request)); }
 
 ordered_json figures(const Request& request) {
   return {{"figures", figures_json(request, optimised(request))}};
@@ -142,7 +142,7 @@ ordered_json figures(const Request& request) {
 
 ordered_json optimize_and_figures(const Request& request) {
   const Optimised asked = optimised(request);
-  ordered_json out = optimum_json(asked);
+  ordered_json out = optimum_json(request, asked);
   out["figures"] = figures_json(request, asked);
   return out;
 }

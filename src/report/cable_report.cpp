@@ -121,10 +121,11 @@ std::span<const std::string_view> cable_outcome_names() {
 std::string cable_shape_text(const DesignFile& file, double area, const ShapeRequest& request,
                              const ShapeStudy& study, const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n\n";
-  out += fmt::format("{} mm² of {}: {} g/m, {} mm across the wind\n",
-                     significant(area / unit::square_millimetre, 4), file.conductor.id,
-                     significant(study.cable.weight / file.design.flight.gravity / unit::gram, 3),
-                     significant(study.cable.diameter / unit::millimetre, 3));
+  out +=
+      fmt::format("{} mm² of {}: {} g/m, {} mm across the wind\n",
+                  significant(area / unit::square_millimetre, 4), conductor_words(file.conductor),
+                  significant(study.cable.weight / file.design.flight.gravity / unit::gram, 3),
+                  significant(study.cable.diameter / unit::millimetre, 3));
   out += fmt::format("Drone {} m up and {} m aside, wind {} m/s\n", significant(request.height, 3),
                      significant(request.offset, 3), significant(request.wind, 3));
   if (study.outcome != CableOutcome::hangs) {

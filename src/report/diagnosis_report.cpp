@@ -83,6 +83,21 @@ std::string name_of(const Told& told) {
   return told.flight > 0 ? fmt::format("{} (flight {})", told.effect, told.flight) : told.effect;
 }
 
+/// An effect in words, with the flight where it belongs to one of several.
+template <typename Told>
+std::string title_of(const Told& told) {
+  return told.flight > 0 ? fmt::format("{} in flight {}", told.title, told.flight) : told.title;
+}
+
+/// `title` without the capital of a sentence; that of an abbreviation or a single letter stays.
+std::string within_sentence(std::string title) {
+  const auto in = [&](std::size_t i, char first, char last) {
+    return i < title.size() && first <= title[i] && title[i] <= last;
+  };
+  if (in(0, 'A', 'Z') && (in(1, 'a', 'z') || title.starts_with("A "))) title[0] += 'a' - 'A';
+  return title;
+}
+
 constexpr const char* impact_heading = "What it does to the design";
 
 std::string impact_sentence(const DesignImpact& impact) {
@@ -143,10 +158,11 @@ class Story {
     } else {
       const double gain =
           100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
-      std::string names;
-      for (const Finding& f : d_.findings) names += (names.empty() ? "" : ", ") + name_of(f);
-      text = fmt::format("{} explain{} {:.0f} % of the error of this {} log.", style_.good(names),
-                         d_.findings.size() == 1 ? "s" : "", gain, d_.kind);
+      std::vector<std::string> titles;
+      for (const Finding& f : d_.findings) titles.push_back(within_sentence(title_of(f)));
+      const std::string found = fmt::format("Found: {}.", fmt::join(titles, "; "));
+      text = fmt::format("{} That explains {:.0f} % of the error of this {} log.",
+                         style_.good(found), gain, d_.kind);
     }
     paragraph(fmt::format("{} It has {} samples, worth {:.0f} independent ones.", text, d_.samples,
                           d_.effective_samples));
@@ -187,8 +203,7 @@ class Story {
   }
 
   void finding(const Finding& f) {
-    heading(f.title + (f.flight > 0 ? fmt::format(" in flight {}", f.flight) : "") + " (" +
-            f.effect + ", " + f.stage + ")");
+    heading(fmt::format("{} ({}, {})", title_of(f), f.effect, f.stage));
     std::vector<std::string> values;
     for (const ParameterEstimate& p : f.parameters) values.push_back(with_interval(p));
     std::string text = fmt::format(
@@ -208,9 +223,9 @@ class Story {
     for (const Suspected& s : d_.suspected) {
       std::vector<std::string> values;
       for (const ParameterEstimate& p : s.parameters) values.push_back(with_interval(p));
-      paragraph(fmt::format("{} would help by {:.1f} ± {:.1f} %, with {}. What is missing: {}",
-                            name_of(s), s.gain_percent, s.gain_se_percent, fmt::join(values, ", "),
-                            with_stop(s.missing)));
+      paragraph(fmt::format("{} ({}) would help by {:.1f} ± {:.1f} %, with {}. What is missing: {}",
+                            title_of(s), s.effect, s.gain_percent, s.gain_se_percent,
+                            fmt::join(values, ", "), with_stop(s.missing)));
     }
   }
 

@@ -61,7 +61,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
   std::string out = style.bold(file.name) + "\n\n";
   out += fmt::format("{} mm² of {}, {} V\n",
                      significant(*file.design.tether.cross_section / unit::square_millimetre, 4),
-                     file.conductor.id, significant(file.design.supply.voltage, 3));
+                     conductor_words(file.conductor), significant(file.design.supply.voltage, 3));
   for (const ReachResult& result : study.greatest) out += wrapped(sentence_of(file.design, result));
   for (const EnvelopeCurve& curve : study.curves) {
     if (curve.points.empty()) continue;

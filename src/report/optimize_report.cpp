@@ -23,7 +23,8 @@ Answer feasible_answer(const DesignFile& file, const OptimumStudy& study) {
   const Optimization& result = study.result;
   const OperatingPoint& hover = result.hover;
   Answer out;
-  out.headline = fmt::format("Fly {} of {}.", area_words(result.area), file.conductor.id);
+  out.headline =
+      fmt::format("Fly {} of {}.", area_words(result.area), conductor_words(file.conductor));
   out.sentences.push_back(limit_sentence(design, result));
   out.sentences.push_back(fmt::format(
       "The tether of {} m weighs {} g and has {} ohm; the drone takes off with {} g.",

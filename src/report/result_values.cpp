@@ -10,6 +10,11 @@ ordered_json number_or_null(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
+std::string conductor_words(const ConductorEntry& conductor) {
+  if (!conductor.id.empty()) return conductor.id;
+  return conductor.name.empty() ? "the spec's own conductor" : conductor.name;
+}
+
 std::optional<double> power_uncertainty_percent(const Design& design) {
   const std::optional<double> share = design.drone.motor.uncertainty();
   return share ? std::optional(100 * *share) : std::nullopt;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tethercalc/io/library.hpp"
 #include "tethercalc/model/warning.hpp"
 #include "tethercalc/study/results.hpp"
 
@@ -53,6 +54,10 @@ void add_warnings(ordered_json& answer, std::span<const Warning> warnings);
 
 /// The same of what was noticed in a log, as `notes` and `note_codes`.
 void add_notes(ordered_json& answer, std::span<const Warning> notes);
+
+/// What sentences call a conductor: its id, else its name; one that a spec describes may have
+/// neither.
+[[nodiscard]] std::string conductor_words(const ConductorEntry& conductor);
 
 /// A sentence that ends in a full stop, whether it did or not.
 [[nodiscard]] std::string with_stop(std::string sentence);

@@ -94,6 +94,30 @@ TEST_CASE("envelope, shape, CSV and figures of the page are those of the program
         test::file_text(picture));
 }
 
+TEST_CASE("a conductor of the spec is called by its id, else its name, else the spec's own") {
+  const auto headline = [](const ordered_json& conductor) {
+    ordered_json spec = ordered_json::parse(example("holybro-x500.json"));
+    spec["tether"]["conductor"] = conductor;
+    return answered({{"ask", "optimize"}, {"spec", spec.dump()}}).at("headline").get<std::string>();
+  };
+  ordered_json conductor{{"resistivity_20C_ohm_mm2_per_m", 0.0278},
+                         {"temperature_coefficient_per_K", 0.004},
+                         {"density_g_cm3", 2.7}};
+  CHECK_THAT(headline(conductor), Catch::EndsWith(" mm² of the spec's own conductor."));
+  conductor["name"] = "Litz wire";
+  CHECK_THAT(headline(conductor), Catch::EndsWith(" mm² of Litz wire."));
+  conductor["id"] = "litz";
+  CHECK_THAT(headline(conductor), Catch::EndsWith(" mm² of litz."));
+}
+
+TEST_CASE("a brief answer is the whole one without its text") {
+  ordered_json request{{"ask", "optimize_and_figures"}, {"spec", example("holybro-x500.json")}};
+  ordered_json whole = answered(request);
+  request["brief"] = true;
+  REQUIRE(whole.erase("text") == 1);
+  CHECK(answered(request).dump() == whole.dump());
+}
+
 TEST_CASE("the curves of a figure carry the numbers of the answer") {
   const ordered_json all = answered({{"ask", "optimize_and_figures"},
                                      {"spec", example("holybro-x500.json")},

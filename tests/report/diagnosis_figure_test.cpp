@@ -90,7 +90,8 @@ TEST_CASE("every effect stands in the figure with its verdict") {
   d.findings[0].gain_percent = 60.2;
   d.findings[0].gain_se_percent = 4.1;
   d.findings[0].indistinguishable_from = {"spooled_length"};
-  d.suspected.push_back({"extra_mass", 3.1, 1.2, {}, "a longer log", 0});
+  d.suspected.push_back(
+      {"extra_mass", "The drone is heavier than the spec says", 3.1, 1.2, {}, "a longer log", 0});
   d.ruled_out.push_back({"tether_drag", "tether_drag_scale", 0.31, "1", 0});
   d.ruled_out.push_back({"air_density", "air_density_kg_m3", 0.0412, "kg/m³", 0});
   d.not_testable.push_back({"converter_efficiency_curve", "bus_voltage_V", 0});

@@ -31,6 +31,7 @@ Diagnosis example() {
                         .to_separate = "pitch_trim: hover through all headings"});
   d.budget = {{36}, 4, 60};
   d.suspected.push_back({"linear_drag",
+                         "Drag in proportion to speed",
                          34.1,
                          2.5,
                          {{"linear_m_s", 51, "m/s", 2, 1000}},
@@ -80,13 +81,29 @@ TEST_CASE("a log too short has no error to report and says so without a NaN") {
 TEST_CASE("the story tells finding, uncertainty, rival and gain") {
   std::string text = diagnosis_text(example(), {});
   std::replace(text.begin(), text.end(), '\n', ' ');  // lines are wrapped
-  CHECK(text.find("linear_drag would help by 34.1 ± 2.5 %") != std::string::npos);
+  CHECK(text.find("Drag in proportion to speed (linear_drag) would help by 34.1 ± 2.5 %") !=
+        std::string::npos);
   CHECK(text.find("0.42 m/s") != std::string::npos);
   for (const char* part : {"wind_m_s = -1.20 m/s", "-1.30 to -1.10", "20.0 ± 2.0 %", "pitch_trim",
                            "hover through all headings", "36.0 %", "vertical_coupling"}) {
     INFO(part);
     CHECK(text.find(part) != std::string::npos);
   }
+}
+
+TEST_CASE("the story opens with what was found, in words within a sentence") {
+  Diagnosis d = example();
+  const auto opening = [&] {
+    std::string text = diagnosis_text(d, {});
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text.substr(0, text.find(" It has"));
+  };
+  d.findings[0].title = "Steady wind";
+  CHECK(opening().starts_with("Found: steady wind. That explains "));
+  d.findings[0].flight = 2;
+  d.findings.push_back(d.findings[0]);
+  d.findings[1].title = "ESC too hot";
+  CHECK(opening().starts_with("Found: steady wind in flight 2; ESC too hot in flight 2. That "));
 }
 
 TEST_CASE("the CSV has one row a parameter") {

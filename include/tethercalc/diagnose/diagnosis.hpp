@@ -70,6 +70,7 @@ struct Finding {
 /// An effect that chance hardly explains, and that is not certain or not large enough to be named.
 struct Suspected {
   std::string effect;                         ///< id in the catalogue
+  std::string title;                          ///< what a person calls it
   double gain_percent = 0;                    ///< on data not fitted, were it in the model
   double gain_se_percent = 0;                 ///< standard error over blocks
   std::vector<ParameterEstimate> parameters;  ///< its sizes, beside the findings
