@@ -67,6 +67,22 @@ export function showAnswer(answer, pinned) {
   setText(byId('command'), answer.command);
 }
 
+/** The pages of what limits the design and of its warnings, asked for with `explain(code)` once they are opened. */
+export function showExplained(result, explain) {
+  const codes = [...new Set([result.optimum?.limited_by ?? result.limited_by, ...result.warning_codes])].filter(Boolean);
+  const details = byId('explained');
+  details.ontoggle = () => {
+    if (!details.open || details.dataset.codes === codes.join()) return;
+    details.dataset.codes = codes.join();
+    byId('explained-codes').replaceChildren(...codes.flatMap((code) => {
+      const page = explain(code);
+      return page ? [el('h3', {}, `${page.title} `, el('code', {}, code)),
+        ...page.parts.flatMap(({ heading, texts }) => [el('h4', {}, heading), ...texts.map((text) => el('p', {}, text))])] : [];
+    }));
+  };
+  details.ontoggle();
+}
+
 /** Items are reused, so that what did not change stays as it is. */
 function list(node, texts) {
   while (node.children.length > texts.length) node.lastElementChild.remove();

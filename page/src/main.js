@@ -1,4 +1,4 @@
-import { buildAnswer, motorsTable, showAnswer, sizesTable, whatIfTable } from './answer.js';
+import { buildAnswer, motorsTable, showAnswer, showExplained, sizesTable, whatIfTable } from './answer.js';
 import { buildControls } from './controls.js';
 import { openCore } from './core.js';
 import { byId, download, el, setText } from './dom.js';
@@ -57,6 +57,7 @@ function refresh({ sliding = false } = {}) {
   if (reply.answer) {
     shownAnswer = { ...reply.answer, figures: figuresOf(reply.answer.figures) };
     showAnswer(shownAnswer, pinnedAnswer?.result ?? null);
+    showExplained(shownAnswer.result, (code) => ask('explain', { code }).answer?.result);
     main.show(shownAnswer.figures[0], pinnedAnswer?.figures[0] ?? null);
     document.title = `${shownAnswer.result.name || 'tethercalc'} · tethercalc`;
   } else if (!shownAnswer) setText(byId('headline'), 'There is no answer yet.');

@@ -112,9 +112,9 @@ std::string heading(const Texts& logs) {
 }
 
 /// What the command says on standard error, as Python's warnings where the package was called.
-void warn(const Texts& notes) {
-  for (const std::string& note : notes) {
-    const auto told = py::module_::import("tethercalc._errors").attr("in_arguments")(note);
+void warn(const std::vector<Warning>& notes) {
+  for (const Warning& note : notes) {
+    const auto told = py::module_::import("tethercalc._errors").attr("in_arguments")(note.sentence);
     if (PyErr_WarnEx(PyExc_UserWarning, told.cast<std::string>().c_str(), 2) != 0) {
       throw py::error_already_set();
     }
@@ -124,20 +124,20 @@ void warn(const Texts& notes) {
 Answer drag(const Texts& logs, const FlightOptions& flight) {
   struct Learned {
     DragStudy study;
-    Texts notes;
+    std::vector<Warning> notes;
   };
   const auto learned = std::make_shared<const Learned>(interruptible([=](const StopFlag&) {
-    Texts notes;
+    std::vector<Warning> notes;
     DragStudy study = studied_drag(heading(logs), logs, flight, logs_in_files(),
-                                   [&](const std::string& note) { notes.push_back(note); });
-    for (std::string& assumed : assumptions_of(flight, study.identified.options)) {
+                                   [&](const Warning& note) { notes.push_back(note); });
+    for (Warning& assumed : assumptions_of(flight, study.identified.options)) {
       notes.push_back(std::move(assumed));
     }
     return Learned{std::move(study), std::move(notes)};
   }));
   warn(learned->notes);
   return {[=] { return drag_text(learned->study.identified, {}); },
-          [=] { return drag_json(learned->study.identified); },
+          [=] { return drag_json(learned->study.identified, learned->notes); },
           [=] { return drag_csv(learned->study.identified); },
           {{"speed", [=] { return drag_figure(learned->study); }},
            {"surface", [=] { return drag_surface_figure(learned->study); }}}};

@@ -120,20 +120,35 @@ def sweep(
 ) -> Sweep:
     """Computes many designs on all cores, or on `jobs` of them.
 
-    `vary` maps dot paths to lists of values or to texts such as "40:100:5", "10..60" and "75~1.5",
-    or lists "path=values" as --vary takes them. Every combination is computed or, with `sample`, as
-    many draws by `method`: "sobol" or "lhs". Ctrl-C ends it.
+    `vary` maps dot paths to lists of values or to texts such as "40:100:5", "10..60" and
+    "75~1.5", or lists "path=values" as --vary takes them. Every combination is computed or, with
+    `sample`, as many draws by `method`: "sobol" or "lhs". Ctrl-C ends it.
+
+    The result's `array` has a record a design: the varied fields, then `status`, `limited_by`,
+    `limiting_condition` and `cross_section_mm2`, then `hover` and `forward` with every number of
+    an OperatingPoint, such as `array["forward.total_power_W"]`. Numbers that do not exist are
+    NaN.
     """
     return _core._sweep(spec, _varied(vary), sample, method, seed, jobs)
 
 
 def evaluate(spec: Spec, area_mm2: Areas = None) -> Answer:
-    """What cables of these cross-sections do, in mm² or as "AWG18"; else the spec's own."""
+    """What cables of these cross-sections do, in mm² or as "AWG18"; else the spec's own.
+
+    `table` has an entry a cross-section, whose `hover` and `forward` have the numbers of an
+    OperatingPoint; `thermal` the temperatures in °C where a heat balance is asked for;
+    `voltage_class` the class of the supply's voltage.
+    """
     return _core._evaluate(spec, _areas(area_mm2))
 
 
 def compare(spec: Spec, motors: Texts = "all") -> Answer:
-    """The optimum with each of several motors: "all", "alike", names or files."""
+    """The optimum with each of several motors: "all", "alike", names or files.
+
+    "alike" are the spec's own and those nearest in greatest thrust. `motors` has an entry a
+    motor: `motor`, `status`, `optimum` with `cross_section_mm2`, `limited_by`, `hover` and
+    `forward`, `best_headroom`, and where there is no optimum the `reason`.
+    """
     return _core._compare(spec, _texts(motors))
 
 
@@ -150,7 +165,13 @@ def design(
     """The best whole design among those that the `free` fields allow, and what binds it.
 
     `free` is written as for `sweep`: "40..400" is searched, a list is enumerated. `subject_to`
-    lists demands such as "tether_mass_g<=400".
+    lists demands such as "tether_mass_g<=400", in the unit that the name ends in; `minimize` is
+    such a name or the path of a field. `standard` ("awg" or "iec") leaves sizes that can be
+    bought, and `pareto` names two quantities whose front is wanted.
+
+    `value` is the least found, `free` the fields' values there, `cross_section_mm2`, `hover` and
+    `forward` its cable and operating points, `prices` what each demand costs, `spec` the whole
+    design and `pareto` the front.
     """
     return _core._design(
         spec, _varied(free), minimize, _texts(subject_to), standard, _texts(pareto), seed
@@ -158,7 +179,12 @@ def design(
 
 
 def envelope(spec: Spec, area_mm2: Area = None) -> Answer:
-    """How high, heavy, fast and in how much wind a given cable flies."""
+    """How high, heavy, fast and in how much wind a given cable flies.
+
+    `area_mm2` is a cross-section in mm² or as "AWG18", else the spec's own. `greatest` has
+    `height_m`, `payload_g`, `headwind_m_s` and `airspeed_m_s`, each with its value and what limits
+    it; `curves` has one of them over another.
+    """
     return _core._envelope(spec, _areas(area_mm2))
 
 
@@ -180,7 +206,20 @@ def shape(
     exponent: float | None = None,
     roughness_m: float | None = None,
 ) -> Answer:
-    """How the cable hangs, and what the drone feels of it. What is not given the spec says."""
+    """How the cable hangs, and what the drone feels of it. What is not given the spec says.
+
+    The drone is `height_m` above the station and `offset_m` aside; the cable is as long as it
+    takes and `slack_percent` more, or `length_m`, or pulled by the winch with `winch_tension_N`.
+    The wind is `wind_m_s` at `reference_height_m` and blows from `wind_from_deg`, clockwise from
+    above, 0 being where the drone stands aside. `profile` ("uniform", "power-law" or
+    "logarithmic") says how it grows with height, with `exponent` or `roughness_m`, the station
+    being `station_height_m` over ground. `stiffness_N` is axial, force per strain.
+
+    `outcome` is "hangs" or says why there is no such cable. `length_m` is its length, `T_drone_N`
+    and `T_anchor_N` the pulls at its ends, `F_on_drone_N` the force by axis (aside, to its left,
+    up), `solved` and `straight` what the drone does with this cable and with a straight one,
+    `stations` the curve.
+    """
     return _core._shape(
         spec,
         _areas(area_mm2),
@@ -219,7 +258,12 @@ def drag(
     `start` and `end` are seconds of the log's clock or texts such as "25%" of its samples; without
     them the part that moves is used. The air density is given, or follows from pressure and
     temperature; so is the pitch offset, or measured by `trim_log`, a hover flight. What is assumed
-    where neither is given, and what is amiss with a log, is warned of.
+    where neither is given, and what is amiss with a log, is warned of; `notes` has the same.
+
+    `front_area_m2`, `top_area_m2` and `linear_m_s` have `value`, `standard_error` and `ci95`, the
+    ends of the 95 % interval; `wind_m_s` has one a flight. `rmse_m_s2` is what the fit leaves of
+    the acceleration, `table` the force (N) and tilt (degrees) over the airspeed, `drone.drag` the
+    block for a spec. Of several flights drag is shared and the wind is each one's own.
     """
     flown = _core._Flight(
         core,
@@ -258,10 +302,18 @@ def diagnose(
 ) -> Answer:
     """What the simulation of measured flights gets wrong, why, and how far the design moves.
 
-    `flight` and `power` are logs of either kind, `log` is one that holds both. `base` names effects
-    that are taken for granted, `effects` files with further ones. What is known of the flight is
-    written as for `drag`; mass and air are else the spec's. `answer.extended.spec` is the design
-    with what was found in it.
+    `flight` and `power` are logs of either kind, `log` is one that holds both. `base` names
+    effects that are taken for granted, `effects` files with further ones. What is known of the
+    flight is written as for `drag`; mass and air are else the spec's. `batteries` are the numbers
+    of the monitors that feed the motors, `free_flight` says that the power was logged without the
+    tether.
+
+    `findings` has what was found, each with `effect`, `title`, `parameters`, the `gain_percent`
+    on held-out data and what it is `indistinguishable_from`; `suspected`, `ruled_out`,
+    `not_testable` and `not_identifiable` the other verdicts, `unexplained` what has no name,
+    `notes` what was done to the log. `extended.spec` is the design with what was found in it,
+    `design_impact` how far its `cross_section_mm2` and `total_power_W` move. With logs of both
+    kinds each has its own under `flight` and `power`.
     """
     flown = _core._Flight(
         core,

@@ -16,6 +16,7 @@
 #include "report/told_diagnosis.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
+#include "tethercalc/model/warning.hpp"
 #include "tethercalc/report/text_table.hpp"
 #include "tethercalc/study/next_flight.hpp"
 
@@ -181,7 +182,7 @@ int run_explain(const std::string& code, ExplanationForm form, const Output& out
 void point_to_explanations(const std::vector<std::string>& codes, const Output& output);
 
 /// Says it on standard error.
-void note_on_error(const std::string& note);
+void note_on_error(const Warning& note);
 
 /// What an autopilot's log holds, or all messages of one name as CSV.
 int run_log(const std::string& file, const std::string& message, const Output& output);

@@ -50,10 +50,8 @@ std::optional<Autopilot> parameters_of(const std::string& name) {
 }
 
 /// What was not said and moves the answer, on standard error so that no format hides it.
-void tell_assumptions(const FlightOptions& flight, const DragIdentificationOptions& taken) {
-  for (const std::string& assumed : assumptions_of(flight, taken)) {
-    remark("drag: " + assumed + "\n");
-  }
+void tell_assumptions(std::span<const Warning> assumptions) {
+  for (const Warning& assumed : assumptions) remark("drag: " + assumed.sentence + "\n");
 }
 
 /// One line that is written over, on a terminal only.
@@ -168,7 +166,7 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
 
 }  // namespace
 
-void note_on_error(const std::string& note) { remark(note + "\n"); }
+void note_on_error(const Warning& note) { remark(note.sentence + "\n"); }
 
 DiagnoseOptions with_both_halves(DiagnoseOptions options) {
   static_cast<LogsAsked&>(options) = with_halves(options);
@@ -205,9 +203,16 @@ int run_drag(const DragOptions& options, const Output& output) {
   if (file && !options.into) {
     throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
   }
-  const DragIdentification result =
-      studied_drag("", options.logs, options.flight, logs_in_files(), note_on_error).identified;
-  tell_assumptions(options.flight, result.options);
+  std::vector<Warning> notes;
+  const DragIdentification result = studied_drag("", options.logs, options.flight, logs_in_files(),
+                                                 [&notes](const Warning& note) {
+                                                   note_on_error(note);
+                                                   notes.push_back(note);
+                                                 })
+                                        .identified;
+  const std::vector<Warning> assumptions = assumptions_of(options.flight, result.options);
+  tell_assumptions(assumptions);
+  notes.insert(notes.end(), assumptions.begin(), assumptions.end());
   if (options.into && options.into_file.empty()) {
     for (const Warning& warning : drag_warnings(result.fit)) {
       remark("drag: " + warning.sentence + "\n");
@@ -225,7 +230,7 @@ int run_drag(const DragOptions& options, const Output& output) {
   }
   emit(
       output, [&] { return drag_text(result, style_for(output)); },
-      [&] { return drag_json(result); }, [&] { return drag_csv(result); });
+      [&] { return drag_json(result, notes); }, [&] { return drag_csv(result); });
   return done;
 }
 

@@ -203,9 +203,7 @@ ShownMotor motor_of_flight(const MotorOptions& options) {
                                 beside)
                   : "all of the bus's power is taken for the motors': what else it feeds counts as "
                     "theirs (drone.auxiliary_power_W)"});
-  for (const std::string& note : flight.notes) {
-    motor.warnings.push_back({WarningKind::motor_log_note, note});
-  }
+  motor.warnings.insert(motor.warnings.end(), flight.notes.begin(), flight.notes.end());
   if (flown.forward) {
     motor.warnings.push_back({WarningKind::motor_forward_power, forward_words(*flown.forward)});
   }

@@ -211,10 +211,12 @@ void tell_headings(const std::vector<FlightData>& flights, Diagnosis& d) {
       continue;
     }
     const double heading = flights[k].record.mean_heading / unit::degree;
-    d.notes.push_back(fmt::format(
-        "{}ahead is along the mean heading of the flight, {:.0f}° from north over east; "
-        "right is to the right of it",
-        in_flight(flights, k), heading < 0 ? heading + 360 : heading));
+    d.notes.push_back(
+        {WarningKind::log_mean_heading,
+         fmt::format(
+             "{}ahead is along the mean heading of the flight, {:.0f}° from north over east; "
+             "right is to the right of it",
+             in_flight(flights, k), heading < 0 ? heading + 360 : heading)});
   }
 }
 
@@ -332,22 +334,24 @@ Diagnosis too_short(const std::vector<FlightData>& flights,
   for (const Effect* effect : effects) {
     d.not_testable.push_back({effect->id, needs});
   }
-  d.notes.push_back(fmt::format(
-      "too short to tell an effect from chance: {:.1f} s of usable flight, {:.0f} s are needed",
-      usable, needed));
+  d.notes.push_back(
+      {WarningKind::log_too_short, fmt::format("too short to tell an effect from chance: {:.1f} s "
+                                               "of usable flight, {:.0f} s are needed",
+                                               usable, needed)});
   return d;
 }
 
 /// What was done to the logs.
-std::vector<std::string> notes_of(const std::vector<FlightData>& flights) {
-  std::vector<std::string> notes;
+std::vector<Warning> notes_of(const std::vector<FlightData>& flights) {
+  std::vector<Warning> notes;
   for (std::size_t k = 0; k < flights.size(); ++k) {
     if (flights.size() > 1) {
-      notes.push_back(fmt::format("flight {}: {} samples, {:.0f} s, are used", k + 1,
-                                  used_samples(flights[k]), flights[k].usable));
+      notes.push_back({WarningKind::log_flight_of_several,
+                       fmt::format("flight {}: {} samples, {:.0f} s, are used", k + 1,
+                                   used_samples(flights[k]), flights[k].usable)});
     }
-    for (const std::string& note : flights[k].faults.notes) {
-      notes.push_back(in_flight(flights, k) + note);
+    for (const auto& [kind, note] : flights[k].faults.notes) {
+      notes.push_back({kind, in_flight(flights, k) + note});
     }
   }
   return notes;
@@ -386,11 +390,12 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
   const bool aside =
       std::any_of(read.begin(), read.end(), [](const FlightData& f) { return f.record.both_axes; });
   d.quantity = aside ? "forward acceleration and that to the right" : "forward acceleration";
-  const std::vector<std::string> notes = notes_of(read);
+  const std::vector<Warning> notes = notes_of(read);
   d.notes.insert(d.notes.begin(), notes.begin(), notes.end());
   for (std::size_t k = 0; k < read.size(); ++k) {
     if (read[k].faults.level_assumed) {
-      d.notes.push_back(in_flight(read, k) + "the roll never moves; it is taken as logged");
+      d.notes.push_back({WarningKind::log_unchanging,
+                         in_flight(read, k) + "the roll never moves; it is taken as logged"});
     }
   }
   return d;

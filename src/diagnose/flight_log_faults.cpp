@@ -81,13 +81,16 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
     if (constant(*series, range)) continue;
     if (const std::size_t spikes = repair_spikes(*series, range, faults.sample)) {
       faults.notes.push_back(
-          fmt::format("{} of {} samples left out: spikes in the {}", spikes, range.size(), name));
+          {WarningKind::log_spikes,
+           fmt::format("{} of {} samples left out: spikes in the {}", spikes, range.size(), name)});
     }
     const double stuck = mark_stuck(*series, log.time, range, faults.sample);
     if (stuck > 0) {
-      faults.notes.push_back(fmt::format(
-          "{:.1f} s left out: the {} repeats one value there, as if its sensor were stuck", stuck,
-          name));
+      faults.notes.push_back(
+          {WarningKind::log_stuck,
+           fmt::format(
+               "{:.1f} s left out: the {} repeats one value there, as if its sensor were stuck",
+               stuck, name)});
     }
   }
   return faults;

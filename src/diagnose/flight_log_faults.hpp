@@ -2,19 +2,19 @@
 // judged, since each would pass for a huge effect.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "tethercalc/identify/observations.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
 /// What was found wrong with a log within a range of it.
 struct LogFaults {
-  std::vector<bool> sample;        ///< true where some channel of the whole log cannot be trusted
-  std::vector<std::string> notes;  ///< sentences for a person
-  bool level_assumed = false;      ///< the roll never moves
-  bool height_unknown = false;     ///< the down velocity never moves
+  std::vector<bool> sample;     ///< true where some channel of the whole log cannot be trusted
+  std::vector<Warning> notes;   ///< what was found
+  bool level_assumed = false;   ///< the roll never moves
+  bool height_unknown = false;  ///< the down velocity never moves
 };
 
 /// Marks spikes (a sample that stands out from the line between its neighbours ten times as far as

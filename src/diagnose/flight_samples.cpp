@@ -172,13 +172,17 @@ FlightSamples flown_samples(FlightLog log, double gravity) {
   FlightSamples samples;
   if (flown.size() > 1) {
     samples.notes.push_back(
-        fmt::format("the log holds {} flights: {}", flown.size(), times_of(log, flown)));
+        {WarningKind::log_flights_joined,
+         fmt::format("the log holds {} flights: {}", flown.size(), times_of(log, flown))});
   }
   for (const auto& [marks, words] : {std::pair{&standing, "the drone stands still"},
                                      std::pair{&toppled, "it is tilted beyond 75°"}}) {
     double sum = 0;
     for (const SampleRange& part : flown) sum += marked_seconds(log, part, *marks);
-    if (sum > 0) samples.notes.push_back(fmt::format("{:.1f} s left out: {} there", sum, words));
+    if (sum > 0) {
+      samples.notes.push_back(
+          {WarningKind::log_not_flying, fmt::format("{:.1f} s left out: {} there", sum, words)});
+    }
   }
   const std::size_t first = flown.front().first;
   const std::size_t last = flown.back().last;
@@ -223,8 +227,10 @@ void average_fast_samples(FlightSamples& samples, std::vector<bool>& faulty) {
   faulty = std::move(any_faulty);
   samples.log = std::move(means);
   samples.range = {0, samples.log.time.size()};
-  samples.notes.push_back(fmt::format(
-      "means of {} samples each are judged: a faster log knows no more of the drag", count));
+  samples.notes.push_back(
+      {WarningKind::log_averaged,
+       fmt::format("means of {} samples each are judged: a faster log knows no more of the drag",
+                   count)});
 }
 
 }  // namespace tethercalc

@@ -2,18 +2,18 @@
 // drag shows.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "tethercalc/identify/observations.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
 /// A log and what of it is judged.
 struct FlightSamples {
   FlightLog log;
-  SampleRange range;               ///< of `log`
-  std::vector<std::string> notes;  ///< what was left out, and why
+  SampleRange range;           ///< of `log`
+  std::vector<Warning> notes;  ///< what was left out, and why
 };
 
 /// The log with all its flights: of its `moving_parts` the longest, and others that last, in which

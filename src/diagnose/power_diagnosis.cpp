@@ -122,24 +122,28 @@ std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
 }
 
 /// What was taken for granted where the log does not say.
-void note_assumptions(const Design& design, const PowerLog& log, std::vector<std::string>& notes) {
+void note_assumptions(const Design& design, const PowerLog& log, std::vector<Warning>& notes) {
   if (log.free_flight) {
     notes.push_back(
-        fmt::format("flown free: without tether, converter and reserve battery; the auxiliary "
-                    "power of the spec ({:g} W) comes out of the same battery",
-                    design.drone.auxiliary_power));
+        {WarningKind::log_free_flight,
+         fmt::format("flown free: without tether, converter and reserve battery; the auxiliary "
+                     "power of the spec ({:g} W) comes out of the same battery",
+                     design.drone.auxiliary_power)});
   } else if (log.ambient_temperature_C.empty() && is_measured(Stage::tether, log)) {
     notes.push_back(
-        fmt::format("ambient_temperature_C is missing: the cable is taken to be at the spec's {:g} "
-                    "°C before it heats, so its resistivity may stand for the weather",
-                    flight_state_at(design, 0, 0).ambient_temperature_C));
+        {WarningKind::log_ambient_missing,
+         fmt::format(
+             "ambient_temperature_C is missing: the cable is taken to be at the spec's {:g} "
+             "°C before it heats, so its resistivity may stand for the weather",
+             flight_state_at(design, 0, 0).ambient_temperature_C)});
   }
   for (const auto& [name, values] :
        {std::pair{"height_m", &log.height}, std::pair{"airspeed_m_s", &log.airspeed}}) {
     if (!values->empty() && std::all_of(values->begin(), values->end(), [first = values](double x) {
           return x == first->front();
         })) {
-      notes.push_back(fmt::format("{} never changes in this log: taken as it is", name));
+      notes.push_back({WarningKind::log_unchanging,
+                       fmt::format("{} never changes in this log: taken as it is", name)});
     }
   }
 }
@@ -442,7 +446,7 @@ bool too_short(const PowerLog& log, const std::vector<const Effect*>& candidates
   for (const Effect* effect : candidates) {
     diagnosis.not_testable.push_back({effect->id, needs});
   }
-  diagnosis.notes.push_back("the log is too short to judge");
+  diagnosis.notes.push_back({WarningKind::log_too_short, "the log is too short to judge"});
   return true;
 }
 
@@ -513,17 +517,22 @@ void compare_tilt(const PowerLogModel& view, const Selection& selection, Diagnos
 /// What the tilt says in words, and what a verdict by it rests on.
 void tell_tilt(const TiltComparison& tilt, const PowerModel& base, const PowerModel& found,
                const Drone& extended, Diagnosis& diagnosis) {
-  diagnosis.notes.push_back(fmt::format(
-      "the tilt shows a drag over mass of {:.3f} ± {:.3f} {}; the spec comes to {:.3f}, with the "
-      "findings to {:.3f}. A heavier drone leans less and draws more, hungrier motors lean as "
-      "before. That rests on the spec's drag: where it was guessed, weigh the drone",
-      tilt.mean(), tilt.half_width(), TiltComparison::unit, tilt.predicted(base),
-      tilt.predicted(found)));
-  diagnosis.notes.push_back(fmt::format(
-      "of a drone of {:.0f} g this tilt makes a front area of {:.5f} m², a top area of {:.5f} m² "
-      "and {:.2f} m/s of linear drag: the drag of the extended spec",
-      extended.mass / unit::gram, extended.drag.front_area, extended.drag.top_area,
-      extended.drag.linear_speed));
+  diagnosis.notes.push_back(
+      {WarningKind::tilt_drag_shown,
+       fmt::format(
+           "the tilt shows a drag over mass of {:.3f} ± {:.3f} {}; the spec comes to {:.3f}, with "
+           "the "
+           "findings to {:.3f}. A heavier drone leans less and draws more, hungrier motors lean as "
+           "before. That rests on the spec's drag: where it was guessed, weigh the drone",
+           tilt.mean(), tilt.half_width(), TiltComparison::unit, tilt.predicted(base),
+           tilt.predicted(found))});
+  diagnosis.notes.push_back(
+      {WarningKind::tilt_drag_taken,
+       fmt::format("of a drone of {:.0f} g this tilt makes a front area of {:.5f} m², a top area "
+                   "of {:.5f} m² "
+                   "and {:.2f} m/s of linear drag: the drag of the extended spec",
+                   extended.mass / unit::gram, extended.drag.front_area, extended.drag.top_area,
+                   extended.drag.linear_speed)});
   for (Suspected& suspected : diagnosis.suspected) {
     const Effect* effect = find_effect(suspected.effect);
     if (effect == nullptr || !acts_on(*effect, Stage::airframe)) continue;

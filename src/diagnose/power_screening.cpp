@@ -175,7 +175,7 @@ double best_delay(const std::function<double(double)>& agreement, std::size_t sa
 
 /// Puts all channels on the clock of the supply current or, without one, of the bus.
 void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& log,
-           std::vector<std::string>& notes) {
+           std::vector<Warning>& notes) {
   const std::size_t n = log.time.size();
   const double interval = (log.time.back() - log.time.front()) / static_cast<double>(n - 1);
   using Member = std::vector<double> PowerLog::*;
@@ -196,9 +196,10 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
         best_delay([&](double d) { return change_correlation(with, compared(shifted(d)), usable); },
                    n, interval);
     if (delay == 0) return;
-    notes.push_back(fmt::format("{} lagged {:.1f} s {} the {}; the channels were shifted back",
-                                names, std::abs(delay), delay > 0 ? "behind" : "ahead of",
-                                has_supply ? "supply current" : "power at the bus"));
+    notes.push_back({WarningKind::log_lag,
+                     fmt::format("{} lagged {:.1f} s {} the {}; the channels were shifted back",
+                                 names, std::abs(delay), delay > 0 ? "behind" : "ahead of",
+                                 has_supply ? "supply current" : "power at the bus")});
     log = shifted(delay);
   };
   const std::vector<double> power =
@@ -265,9 +266,10 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
     const bool gone = channel.optional && 2 * stuck > n;
     if (stuck > 0) {
       screened.notes.push_back(
-          fmt::format("{} is stuck for {:.0f} % of the log: {}", channel.name,
-                      100.0 * static_cast<double>(stuck) / static_cast<double>(n),
-                      gone ? "not used" : "left out there"));
+          {WarningKind::log_stuck,
+           fmt::format("{} is stuck for {:.0f} % of the log: {}", channel.name,
+                       100.0 * static_cast<double>(stuck) / static_cast<double>(n),
+                       gone ? "not used" : "left out there")});
     }
     if (gone) {
       x.clear();
@@ -276,7 +278,8 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
     }
     // A corner of a climb may look like one; a handful is nothing to report.
     if (500 * spikes > n) {
-      screened.notes.push_back(fmt::format("{}: {} spikes left out", channel.name, spikes));
+      screened.notes.push_back(
+          {WarningKind::log_spikes, fmt::format("{}: {} spikes left out", channel.name, spikes)});
     }
     fill_in(log.time, bad[c], x);
   }

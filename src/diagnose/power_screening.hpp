@@ -9,6 +9,7 @@
 #include "diagnose/power_chain.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
@@ -30,7 +31,7 @@ struct ScreenedPowerLog {
   /// Whether every channel that a stage compares was healthy in a sample. Without stages that the
   /// log lacks a channel of.
   std::map<Stage, std::vector<char>> usable;
-  std::vector<std::string> notes;  ///< what was found, one sentence each, with channel names
+  std::vector<Warning> notes;  ///< what was found, one sentence each, with channel names
 };
 
 /// Screens a log.

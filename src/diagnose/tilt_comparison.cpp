@@ -64,7 +64,7 @@ double drag_over_mass(const AirframeDrag& law, double mass, double air_density, 
 std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const PowerModel& base,
                                                  const PowerLog& log,
                                                  double false_alarm_probability,
-                                                 std::vector<std::string>& notes) {
+                                                 std::vector<Warning>& notes) {
   TiltComparison tilt(shown, height_of_drag(log), log.free_flight);
   const auto blocks = static_cast<double>(shown.over_mass.size());
   tilt.mean_ = mean_of(shown.over_mass);
@@ -78,9 +78,10 @@ std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const 
                        student_quantile(many, false_alarm_probability / 2);
   tilt.noise_ = std::hypot(tails * error, common) * std::sqrt(blocks);
   if (!(error > 0) || !std::isfinite(tilt.mean_) || !(tilt.half_width_ < tilt.predicted(base))) {
-    notes.emplace_back(
-        "the tilt tells no drag of this drone from none, so it does not say whether the drone is "
-        "heavier or its motors are hungrier: that takes passes at speed, there and back");
+    notes.push_back(
+        {WarningKind::tilt_tells_nothing,
+         "the tilt tells no drag of this drone from none, so it does not say whether the drone is "
+         "heavier or its motors are hungrier: that takes passes at speed, there and back"});
     return std::nullopt;
   }
   return tilt;

@@ -8,6 +8,7 @@
 
 #include "diagnose/power_chain.hpp"
 #include "tethercalc/diagnose/drag_by_tilt.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
@@ -27,7 +28,7 @@ class TiltComparison {
   /// the drag of `base` from none, which is then noted.
   static std::optional<TiltComparison> of(const DragByTilt& shown, const PowerModel& base,
                                           const PowerLog& log, double false_alarm_probability,
-                                          std::vector<std::string>& notes);
+                                          std::vector<Warning>& notes);
 
   [[nodiscard]] std::size_t rows() const { return shown_.over_mass.size(); }
   [[nodiscard]] const DragByTilt& shown() const { return shown_; }

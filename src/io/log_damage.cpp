@@ -4,15 +4,17 @@
 
 namespace tethercalc {
 
-void note_damage(const LogContents& contents, std::vector<std::string>& notes) {
+void note_damage(const LogContents& contents, std::vector<Warning>& notes) {
   if (contents.skipped_bytes > 0) {
     notes.push_back(
-        fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",
-                    contents.skipped_bytes, contents.skipped_messages,
-                    contents.skipped_messages == 1 ? "" : "s"));
+        {WarningKind::log_damaged,
+         fmt::format("the log is damaged or cut: {} bytes and at least {} message{} were skipped",
+                     contents.skipped_bytes, contents.skipped_messages,
+                     contents.skipped_messages == 1 ? "" : "s")});
   }
-  notes.insert(notes.end(), contents.rejected_definitions.begin(),
-               contents.rejected_definitions.end());
+  for (const std::string& sentence : contents.rejected_definitions) {
+    notes.push_back({WarningKind::log_definition_rejected, sentence});
+  }
 }
 
 }  // namespace tethercalc

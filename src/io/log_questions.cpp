@@ -69,7 +69,7 @@ void check_effects(const LogsAsked& options, std::span<const Effect> own) {
 }
 
 LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
-                          const LogReaders& read, std::vector<std::string>& notes) {
+                          const LogReaders& read, std::vector<Warning>& notes) {
   LoggedFlight flight;
   flight.mass = flown_mass(options.flight);
   flight.air_density = air_density(options.flight);
@@ -82,11 +82,13 @@ LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
         read.flight(name, {.core = options.flight.core, .level_where_missing = true});
     const bool several = options.flight_logs.size() > 1;
     if (several) {
-      notes.push_back(fmt::format("flight {} is {}", flight.flights.size() + 1, name));
+      notes.push_back({WarningKind::log_flight_of_several,
+                       fmt::format("flight {} is {}", flight.flights.size() + 1, name)});
     }
-    for (const std::string& note : reading.notes) {
-      notes.push_back(several ? fmt::format("flight {}: {}", flight.flights.size() + 1, note)
-                              : note);
+    for (Warning& note : reading.notes) {
+      if (several)
+        note.sentence = fmt::format("flight {}: {}", flight.flights.size() + 1, note.sentence);
+      notes.push_back(std::move(note));
     }
     MeasuredFlight& measured =
         flight.flights.emplace_back(MeasuredFlight{std::move(reading.log), {}});
@@ -231,9 +233,11 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, i
   std::vector<FlightLog> logs;
   for (const std::string& name : names) {
     FlightLogReading reading = read.flight(name, {core});
-    for (const std::string& amiss : reading.notes) note(fmt::format("{}: {}", name, amiss));
+    for (const auto& [kind, amiss] : reading.notes)
+      note({kind, fmt::format("{}: {}", name, amiss)});
     if (!reading.log.north_wind.empty()) {
-      note(name + ": the measured wind is not used: a steady one is fitted");
+      note({WarningKind::log_wind_unused,
+            name + ": the measured wind is not used: a steady one is fitted"});
     }
     logs.push_back(std::move(reading.log));
   }
@@ -250,19 +254,20 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
   }
 }
 
-std::vector<std::string> assumptions_of(const FlightOptions& flight,
-                                        const DragIdentificationOptions& taken) {
-  std::vector<std::string> out;
+std::vector<Warning> assumptions_of(const FlightOptions& flight,
+                                    const DragIdentificationOptions& taken) {
+  std::vector<Warning> out;
   if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
     out.push_back(
-        fmt::format("no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
-                    "--temperature-C)",
-                    taken.conditions.air_density));
+        {WarningKind::air_density_assumed,
+         fmt::format("no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
+                     "--temperature-C)",
+                     taken.conditions.air_density)});
   }
   if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
-    out.emplace_back(
-        "no pitch offset given, 0° taken; what it misses ends up in the wind "
-        "(--trim-log or --pitch-offset-deg)");
+    out.push_back({WarningKind::pitch_offset_assumed,
+                   "no pitch offset given, 0° taken; what it misses ends up in the wind "
+                   "(--trim-log or --pitch-offset-deg)"});
   }
   return out;
 }

@@ -9,6 +9,7 @@
 
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/log_readers.hpp"
+#include "tethercalc/model/warning.hpp"
 #include "tethercalc/study/diagnosis.hpp"
 #include "tethercalc/study/drag.hpp"
 
@@ -20,8 +21,8 @@ struct LogReaders {
   std::function<PowerLogReading(const std::string& name, const PowerLogOptions&)> power;
 };
 
-/// Takes a sentence about what was amiss with a log.
-using NoteTaker = std::function<void(const std::string& note)>;
+/// Takes what was amiss with a log.
+using NoteTaker = std::function<void(const Warning& note)>;
 
 /// Which part of which flight log is looked at, and what is known about the flight; what is empty
 /// was not given.
@@ -77,9 +78,9 @@ void check_range(const char* option, double value, double least, double most, co
                                      const FlightOptions& flight, const LogReaders& read,
                                      const NoteTaker& note);
 
-/// What was not said and moves the answer of `drag`, a sentence each.
-[[nodiscard]] std::vector<std::string> assumptions_of(const FlightOptions& flight,
-                                                      const DragIdentificationOptions& taken);
+/// What was not said and moves the answer of `drag`.
+[[nodiscard]] std::vector<Warning> assumptions_of(const FlightOptions& flight,
+                                                  const DragIdentificationOptions& taken);
 
 /// The logs that a design is held against, and how.
 struct LogsAsked {
@@ -99,8 +100,8 @@ struct LogsAsked {
 /// A question with its logs, and what is to be said of how they were read.
 struct AskedDiagnosis {
   DiagnosisQuestion question;
-  std::vector<std::string> flight_notes;
-  std::vector<std::string> power_notes;
+  std::vector<Warning> flight_notes;
+  std::vector<Warning> power_notes;
 };
 
 /// The question that `options` put to `design`, with its logs read; `own` are effects beside those

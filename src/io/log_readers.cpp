@@ -228,12 +228,14 @@ Samples read_samples(const AutopilotLog& log, const EstimatorMessage& from) {
 
 void note_removed(FlightLogReading& reading) {
   if (reading.samples_implausible > 0) {
-    reading.notes.push_back(fmt::format("{} samples left out: values that no flight can have",
-                                        reading.samples_implausible));
+    reading.notes.push_back({WarningKind::log_values_implausible,
+                             fmt::format("{} samples left out: values that no flight can have",
+                                         reading.samples_implausible)});
   }
   if (reading.samples_out_of_order > 0) {
-    reading.notes.push_back(fmt::format("{} samples left out: their time does not increase",
-                                        reading.samples_out_of_order));
+    reading.notes.push_back({WarningKind::log_times_unordered,
+                             fmt::format("{} samples left out: their time does not increase",
+                                         reading.samples_out_of_order)});
   }
 }
 
@@ -297,7 +299,8 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
        {std::pair{"roll_deg", "level flight"}, std::pair{"vd_m_s", "flight at one height"}}) {
     if (table.has(column)) continue;
     table[column].assign(table["time_s"].size(), 0.0);
-    reading.notes.push_back(fmt::format("{} is missing: taken for {}", column, taken_for));
+    reading.notes.push_back({WarningKind::log_column_missing,
+                             fmt::format("{} is missing: taken for {}", column, taken_for)});
   }
   Samples samples(channel_count);
   for (const auto& [channel, column] : {std::pair{time_s, "time_s"},

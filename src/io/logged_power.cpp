@@ -24,8 +24,10 @@ namespace {
 
 constexpr double longest_estimator_step =
     1;  // s between samples of the estimator, which writes 10 a second
-constexpr const char* ground_speed_note =
-    "no airspeed and no wind in the log: ground speed is taken as airspeed";
+Warning ground_speed_note() {
+  return {WarningKind::log_ground_speed,
+          "no airspeed and no wind in the log: ground speed is taken as airspeed"};
+}
 
 [[noreturn]] void fail_in(const std::string& name, std::string message) {
   throw InputError({{name, std::move(message)}});
@@ -178,11 +180,12 @@ std::optional<std::pair<Track, std::string>> measured_airspeed(const AutopilotLo
 }
 
 /// Airspeed over time, and in a sentence where it comes from.
-std::pair<Track, std::string> airspeed_in(const AutopilotLog& log, const FlightLog& flight) {
+std::pair<Track, Warning> airspeed_in(const AutopilotLog& log, const FlightLog& flight) {
   if (auto measured = measured_airspeed(log)) {
     return {std::move(measured->first),
-            fmt::format("the airspeed is that of {}: a pitot tube reads the forward part only",
-                        measured->second)};
+            {WarningKind::log_airspeed_derived,
+             fmt::format("the airspeed is that of {}: a pitot tube reads the forward part only",
+                         measured->second)}};
   }
   const std::optional<LoggedWind> wind = logged_wind(log);
   const Track north = wind ? track_of(wind->time, wind->north) : Track{};
@@ -200,10 +203,11 @@ std::pair<Track, std::string> airspeed_in(const AutopilotLog& log, const FlightL
                                flight.east_velocity[i] - wind_at(east)));
   }
   return {track_of(flight.time, speed),
-          wind ? fmt::format("the airspeed is the ground speed less the wind that the estimator "
-                             "guesses ({})",
-                             wind->message)
-               : std::string(ground_speed_note)};
+          wind ? Warning{WarningKind::log_airspeed_derived,
+                         fmt::format("the airspeed is the ground speed less the wind that the "
+                                     "estimator guesses ({})",
+                                     wind->message)}
+               : ground_speed_note()};
 }
 
 // --- What is flown ---
@@ -263,10 +267,11 @@ PowerLogReading logged_power(const AutopilotLog& log, const FlightLogReading& fl
     fail_in(log.name(),
             fmt::format("while the drone flew {} tell nothing at the same time", reading.source));
   }
-  reading.notes.push_back(fmt::format("the bus is {}{}; {} flown ({})",
-                                      fmt::join(names_of(batteries), " and "),
-                                      batteries.size() > 1 ? ", their currents added" : "",
-                                      duration_words(power.time), flying->determined_by));
+  reading.notes.push_back(
+      {WarningKind::log_bus_chosen,
+       fmt::format("the bus is {}{}; {} flown ({})", fmt::join(names_of(batteries), " and "),
+                   batteries.size() > 1 ? ", their currents added" : "", duration_words(power.time),
+                   flying->determined_by)});
   reading.notes.push_back(airspeed_note);
   note_damage(log.contents(), reading.notes);
   return reading;
@@ -281,7 +286,7 @@ namespace {
 
 /// Airspeed of a table that has none, from its velocity over ground and the wind on board.
 std::vector<double> made_airspeed(LogTable& table, const std::string& name,
-                                  std::vector<std::string>& notes) {
+                                  std::vector<Warning>& notes) {
   const std::vector<double>& north = table["vn_m_s"];
   const std::vector<double>& east = table["ve_m_s"];
   if (north.empty() || east.empty()) {
@@ -310,7 +315,7 @@ std::vector<double> made_airspeed(LogTable& table, const std::string& name,
       speed.push_back(std::hypot(north[i], east[i]));
     }
   }
-  if (forward.empty() && wind_north.empty()) notes.emplace_back(ground_speed_note);
+  if (forward.empty() && wind_north.empty()) notes.push_back(ground_speed_note());
   return speed;
 }
 

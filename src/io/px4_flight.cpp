@@ -139,12 +139,14 @@ void note_wind(const LogContents& contents, Px4Motion& motion) {
   for (const char* const topic : {"wind", "wind_estimate"}) {
     if (contents.count(topic) == 0) continue;
     motion.notes.push_back(
-        fmt::format("the wind in {} is the estimator's guess, no measurement: not used", topic));
+        {WarningKind::log_wind_unused,
+         fmt::format("the wind in {} is the estimator's guess, no measurement: not used", topic)});
   }
   if (contents.count("airspeed") > 0) {
-    motion.notes.emplace_back(
-        "the airspeed in airspeed is not used: a pitot tube on a multirotor reads forward flight "
-        "only (where it is to be trusted, give the flight as CSV with airspeed_forward_m_s)");
+    motion.notes.push_back(
+        {WarningKind::log_wind_unused,
+         "the airspeed in airspeed is not used: a pitot tube on a multirotor reads forward flight "
+         "only (where it is to be trusted, give the flight as CSV with airspeed_forward_m_s)"});
   }
 }
 
@@ -201,12 +203,16 @@ Px4Motion px4_motion(const AutopilotLog& log, int core) {
     if (has_position) motion.down_position.push_back(velocity.columns.back()[i]);
   }
   if (invalid > 0) {
-    motion.notes.push_back(fmt::format(
-        "{} samples left out: the estimator itself calls their velocity invalid", invalid));
+    motion.notes.push_back(
+        {WarningKind::log_velocity_invalid,
+         fmt::format("{} samples left out: the estimator itself calls their velocity invalid",
+                     invalid)});
   }
   if (alone > 0) {
-    motion.notes.push_back(fmt::format(
-        "{} samples left out: no attitude within {} s before and after", alone, longest_step));
+    motion.notes.push_back(
+        {WarningKind::log_attitude_missing,
+         fmt::format("{} samples left out: no attitude within {} s before and after", alone,
+                     longest_step)});
   }
   note_wind(log.contents(), motion);
   return motion;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tethercalc/io/autopilot_log.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
@@ -16,7 +17,7 @@ struct Px4Motion {
   std::vector<double> north, east, down;  ///< m/s
   std::vector<double> down_position;      ///< m; empty where the log does not tell
   std::string source;                     ///< the messages they came from
-  std::vector<std::string> notes;         ///< what was left out, and why
+  std::vector<Warning> notes;             ///< what was left out, and why
 };
 
 /// Reads vehicle_local_position (vx, vy, vz, z) and vehicle_attitude (q, rotating the body's

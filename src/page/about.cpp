@@ -8,6 +8,7 @@
 #include "report/result_values.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/design_report.hpp"
+#include "tethercalc/report/explanation.hpp"
 
 namespace tethercalc::page {
 namespace {
@@ -124,6 +125,11 @@ ordered_json about(const Request&) {
        json_list(strength_materials(), [](const std::string& word) { return word; })},
       {"starting spec", starting_spec()},
       {"examples", examples_json()}};
+}
+
+ordered_json explain(const Request& request) {
+  const Explanation& page = explanation_of(request.text("code"));
+  return {{"text", explanation_text(page, {})}, {"result", explanation_json(page)}};
 }
 
 }  // namespace tethercalc::page

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <charconv>
 
 #include "io/closest_name.hpp"
@@ -13,9 +14,10 @@ namespace tethercalc::page {
 namespace {
 
 ordered_json (*find_ask(const std::string& name))(const Request&) {
-  std::vector<std::string> names{"about"};
-  if (name == names.front()) return about;
-  for (const std::span<const Ask> asks : {design_asks(), log_asks()}) {
+  static constexpr std::array general{Ask{"about", about}, Ask{"explain", explain}};
+  std::vector<std::string> names;
+  for (const std::span<const Ask> asks :
+       {std::span<const Ask>(general), design_asks(), log_asks()}) {
     for (const Ask& ask : asks) {
       if (ask.name == name) return ask.answer;
       names.emplace_back(ask.name);

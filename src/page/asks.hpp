@@ -16,6 +16,9 @@ struct Ask {
 /// What the calculator knows without a spec: its fields, its library, examples.
 [[nodiscard]] ordered_json about(const Request& request);
 
+/// The page of a code of the answers, as `explain` prints it.
+[[nodiscard]] ordered_json explain(const Request& request);
+
 /// Those about designs, and about specs and their files.
 [[nodiscard]] std::span<const Ask> design_asks();
 

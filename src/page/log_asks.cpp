@@ -6,6 +6,7 @@
 #include "io/log_questions.hpp"
 #include "page/asks.hpp"
 #include "page/page_json.hpp"
+#include "report/result_values.hpp"
 #include "report/told_diagnosis.hpp"
 #include "tethercalc/io/log_summary.hpp"
 #include "tethercalc/io/spec_writer.hpp"
@@ -77,12 +78,12 @@ ordered_json drag(const Request& request) {
     design = request.design();
     flight = flown_as(std::move(flight), design->design);
   }
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
   const LogReaders read = logs_of(request);
-  const DragStudy study = studied_drag(
-      names.size() == 1 ? names.front() : std::to_string(names.size()) + " flights", names, flight,
-      read, [&notes](const std::string& note) { notes.push_back(note); });
-  for (std::string& assumed : assumptions_of(flight, study.identified.options)) {
+  const DragStudy study =
+      studied_drag(names.size() == 1 ? names.front() : std::to_string(names.size()) + " flights",
+                   names, flight, read, [&notes](const Warning& note) { notes.push_back(note); });
+  for (Warning& assumed : assumptions_of(flight, study.identified.options)) {
     notes.push_back(std::move(assumed));
   }
   ordered_json figures = ordered_json::array();
@@ -90,10 +91,10 @@ ordered_json drag(const Request& request) {
   add_figure(figures, "drag surface", drag_surface_figure(study));
   add_figure(figures, "log", log_figure(names.front(), study.identified.flights.front()));
   ordered_json out{{"text", drag_text(study.identified, {})},
-                   {"result", drag_json(study.identified)},
-                   {"notes", notes},
+                   {"result", drag_json(study.identified, notes)},
                    {"figures", std::move(figures)},
                    {"command", drag_command(names, flight)}};
+  add_notes(out, notes);
   if (design) out["spec"] = spec_with_drag(*design, study.identified.fit).dump(2) + "\n";
   return out;
 }

@@ -240,7 +240,7 @@ std::string description_of(const std::string& name, const Diagnosis& d) {
 Figure diagnosis_figure(const std::string& name, const Diagnosis& diagnosis) {
   if (diagnosis.compared.empty()) {
     throw std::invalid_argument(diagnosis.notes.empty() ? "nothing in this log can be compared"
-                                                        : diagnosis.notes.back());
+                                                        : diagnosis.notes.back().sentence);
   }
   Figure figure{.id = "diagnosis",
                 .title = "Diagnosis of " + name,

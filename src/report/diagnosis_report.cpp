@@ -297,7 +297,7 @@ class Story {
   void notes() {
     if (d_.notes.empty()) return;
     heading("Notes");
-    for (const std::string& note : d_.notes) paragraph(with_stop(note));
+    for (const Warning& note : d_.notes) paragraph(with_stop(note.sentence));
   }
 
   const Diagnosis& d_;
@@ -366,7 +366,7 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
                         {"base_rmse", number_or_null(c.base_rmse)},
                         {"extended_rmse", number_or_null(c.extended_rmse)}};
   });
-  out["notes"] = d.notes;
+  add_notes(out, d.notes);
   out["design_impact"] = nullptr;
   if (d.design_impact) {
     out["design_impact"] = {{"cross_section_mm2", before_after(d.design_impact->cross_section_mm2)},

@@ -253,7 +253,7 @@ std::vector<Warning> drag_warnings(const DragFit& fit) {
   return out;
 }
 
-ordered_json drag_json(const DragIdentification& result) {
+ordered_json drag_json(const DragIdentification& result, std::span<const Warning> notes) {
   const DragFit& fit = result.fit;
   const FitQuality& quality = fit.quality;
   ordered_json out;
@@ -274,6 +274,7 @@ ordered_json drag_json(const DragIdentification& result) {
   out["samples"] = quality.samples;
   out["effective_samples"] = quality.effective_samples;
   add_warnings(out, drag_warnings(fit));
+  add_notes(out, notes);
   out["converged"] = fit.converged;
   out["correlation"] = correlation_json(fit);
   out["entangled"] = json_list(entangled_pairs(fit), [&](const EntangledPair& pair) {

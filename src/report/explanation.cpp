@@ -18,7 +18,9 @@
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/diagnosis_report.hpp"
+#include "tethercalc/report/reference_check.hpp"
 #include "tethercalc/study/results.hpp"
+#include "tethercalc/study/rules.hpp"
 
 namespace tethercalc {
 namespace {
@@ -32,12 +34,14 @@ struct GroupWords {
 constexpr std::array<GroupWords, code_group_count> group_words{
     {{"Answers", "answer", "explain/answers.md"},
      {"Limits and demands", "limit", "explain/limits.md"},
-     {"Warnings", "warning", "explain/warnings.md"},
+     {"Warnings and notes", "warning", "explain/warnings.md"},
      {"Verdicts of a diagnosis", "verdict", "explain/verdicts.md"},
      {"Effects that a flight log shows", "flight_effect", "explain/flight-effects.md"},
      {"Effects that a power log shows", "power_effect", "explain/power-effects.md"},
      {"Outcomes of a hanging cable", "cable", "explain/cable.md"},
-     {"Classes of voltage", "voltage", "explain/voltages.md"}}};
+     {"Classes of voltage", "voltage", "explain/voltages.md"},
+     {"Verdicts of published rules", "rule_verdict", "explain/rule-verdicts.md"},
+     {"Reference designs", "record", "explain/records.md"}}};
 
 const GroupWords& words_of(CodeGroup group) {
   return group_words.at(static_cast<std::size_t>(group));
@@ -153,6 +157,14 @@ std::vector<std::string> limits_and_demands() {
   return codes;
 }
 
+std::vector<std::string> rule_verdicts() {
+  std::vector<std::string> codes;
+  for (const RuleVerdict verdict : {RuleVerdict::pass, RuleVerdict::fail, RuleVerdict::unknown}) {
+    codes.emplace_back(rule_verdict_name(verdict));
+  }
+  return codes;
+}
+
 template <typename Names>
 std::vector<std::string> as_strings(const Names& names) {
   return {names.begin(), names.end()};
@@ -187,9 +199,13 @@ std::vector<std::string> codes_of(CodeGroup group) {
     case CodeGroup::cable:
       return as_strings(cable_outcome_names());
     case CodeGroup::voltages:
+      return as_strings(voltage_class_names());
+    case CodeGroup::rule_verdicts:
+      return rule_verdicts();
+    case CodeGroup::records:
       break;
   }
-  return as_strings(voltage_class_names());
+  return as_strings(check_status_names());
 }
 
 const ExplanationPart* Explanation::part(std::string_view heading) const {
@@ -287,7 +303,8 @@ std::string explanations_markdown() {
   std::string out =
       "# What the answers' codes mean\n\nEach limit, warning, verdict and effect that an answer "
       "names has a code that stays the same when\nits sentence changes: `limited_by`, "
-      "`warning_codes`, `effect`, `outcome`, `voltage_class`. `tethercalc\nexplain CODE` prints "
+      "`warning_codes`, `note_codes`, `effect`, `outcome`, `voltage_class`, `status`, `verdict`. "
+      "`tethercalc\nexplain CODE` prints "
       "the pages below, `tethercalc explain` lists them, `--format json` and\n`--format markdown` "
       "give them to programs and documents.\n\n";
   out += explanation_list_markdown();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -149,11 +150,13 @@ std::vector<std::string> complaints(const ReferenceCheck& check) {
   return lines;
 }
 
+constexpr std::array<std::string_view, 4> status_names{"ok", "drifted", "unrecorded", "error"};
+
 std::string_view status_of(const ReferenceCheck& check) {
-  return !check.problems.empty() ? "error"
-         : !check.recorded       ? "unrecorded"
-         : check.passed()        ? "ok"
-                                 : "drifted";
+  return !check.problems.empty() ? status_names[3]
+         : !check.recorded       ? status_names[2]
+         : check.passed()        ? status_names[0]
+                                 : status_names[1];
 }
 
 /// In an attribute, where XML readers would make spaces of line breaks.
@@ -169,6 +172,8 @@ std::size_t count_status(std::span<const ReferenceCheck> checks, std::string_vie
 }
 
 }  // namespace
+
+std::span<const std::string_view> check_status_names() { return status_names; }
 
 bool ReferenceCheck::passed() const {
   return recorded && problems.empty() && std::ranges::none_of(results, &RecordedResult::drifted);

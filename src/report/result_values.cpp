@@ -50,10 +50,22 @@ ordered_json operating_point_json(const OperatingPoint& point) {
   return out;
 }
 
+namespace {
+
+void add_told(ordered_json& answer, const char* sentences, const char* codes,
+              std::span<const Warning> told) {
+  answer[sentences] = json_list(told, [](const Warning& w) { return w.sentence; });
+  answer[codes] = json_list(told, [](const Warning& w) { return warning_code(w.kind); });
+}
+
+}  // namespace
+
 void add_warnings(ordered_json& answer, std::span<const Warning> warnings) {
-  answer["warnings"] = json_list(warnings, [](const Warning& w) { return w.sentence; });
-  answer["warning_codes"] =
-      json_list(warnings, [](const Warning& w) { return warning_code(w.kind); });
+  add_told(answer, "warnings", "warning_codes", warnings);
+}
+
+void add_notes(ordered_json& answer, std::span<const Warning> notes) {
+  add_told(answer, "notes", "note_codes", notes);
 }
 
 std::string with_stop(std::string sentence) {

@@ -52,6 +52,9 @@ void add_estimates(ordered_json& answer, const Design& design);
 /// order, the codes of what they are about as `warning_codes`.
 void add_warnings(ordered_json& answer, std::span<const Warning> warnings);
 
+/// The same of what was noticed in a log, as `notes` and `note_codes`.
+void add_notes(ordered_json& answer, std::span<const Warning> notes);
+
 /// What sentences call a conductor: its id, else its name; one that a spec describes may have
 /// neither.
 [[nodiscard]] std::string conductor_words(const ConductorEntry& conductor);

@@ -111,7 +111,9 @@ TitledTable rules_table(const RuleStudy& study) {
 
 std::vector<std::string> rules_clauses(const RuleStudy& study) {
   std::vector<std::string> out;
-  for (const RuleCheck& check : study.checks) out.push_back(clause_words(check));
+  for (const RuleCheck& check : study.checks) {
+    out.push_back(check.clause.id + ", " + clause_words(check));
+  }
   return out;
 }
 

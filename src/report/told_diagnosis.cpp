@@ -43,7 +43,7 @@ ToldDiagnosis told_diagnosis(const AskedDiagnosis& asked, const LogsAsked& optio
                               asked.power_notes.end());
   }
   if (auto drag = drag_estimate_warning(file.design)) {
-    (study.power ? study.power : study.flight)->notes.push_back(std::move(drag->sentence));
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
   }
   // Checked as if a person had written it.
   DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);

@@ -28,9 +28,12 @@ auto of_suitable(LogKind kind, const Diagnose& diagnose) {
   }
 }
 
-constexpr const char* no_tilt =
-    "the flight is too short to say how the drone leans, so mass and motors are told apart by the "
-    "power alone";
+Warning no_tilt() {
+  return {WarningKind::tilt_missing,
+          "the flight is too short to say how the drone leans, so mass and motors are told apart "
+          "by the "
+          "power alone"};
+}
 
 /// What was found of the design as it flew, in the design itself: only the day's own mass and air
 /// are not its.
@@ -97,7 +100,7 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     study.power = std::move(found.diagnosis);
     study.extended = as_designed(std::move(found.extended), flown, design);
     one_drone = study.power->drag_by_tilt.has_value();
-    if (one_flight && !tilt) study.power->notes.emplace_back(no_tilt);
+    if (one_flight && !tilt) study.power->notes.push_back(no_tilt());
   }
   if (study.flight && !study.flight->spec_changes.empty() && !one_drone) {
     study.extended.drone.drag = with_changes(design.drone.drag, study.flight->spec_changes);

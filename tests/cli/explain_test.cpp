@@ -1,6 +1,7 @@
 // `explain`, and the codes that answers print for it.
 #include <catch2/catch.hpp>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -25,8 +26,8 @@ std::set<std::string> known_codes() {
 
 /// Every value behind one of these keys, anywhere in an answer.
 void collect(const json& value, std::set<std::string>& codes) {
-  static const std::set<std::string> keys{"limited_by", "status", "effect", "outcome",
-                                          "warning_codes"};
+  static const std::set<std::string> keys{"limited_by", "status",        "effect",    "outcome",
+                                          "verdict",    "warning_codes", "note_codes"};
   if (!value.is_structured()) return;
   for (const auto& item : value.items()) {
     if (value.is_object() && keys.count(item.key()) > 0) {
@@ -119,6 +120,10 @@ TEST_CASE("every code in answers about designs and logs has a page") {
   ask(flight);
   ask({"diagnose", published, "--set", "tether.cross_section_mm2=1.09", "--power",
        project_file("examples/simulated-power.csv")});
+  ask({"drag", project_file("examples/simulated-flight.csv"), "--mass-g", "1550"});
+  ask({"design", large, "--free", "supply.voltage_V=300..400"});
+  ask({"rules", project_file("examples/tethered-25kg.json"), "--rules", "eu-c3"});
+  ask({"check", project_file("examples/reference")});
   const std::set<std::string> pages = known_codes();
   for (const std::string& code : codes) {
     INFO(code);
@@ -136,6 +141,33 @@ TEST_CASE("each warning has its code in the same place") {
   CHECK(answer["warning_codes"] == json({"drag_estimated", "drum_cooling_unknown"}));
   CHECK_THAT(answer["warnings"][0].get<std::string>(), Contains("the drag is an estimate"));
   CHECK_THAT(answer["warnings"][1].get<std::string>(), Contains("lie on a drum"));
+}
+
+TEST_CASE("each note on a log has its code in the same place, and the page says why") {
+  const std::string flight = project_file("examples/simulated-flight.csv");
+  const json drag =
+      json::parse(run_tethercalc({"drag", flight, "--mass-g", "1550", "--format", "json"}).out);
+  CHECK(drag["notes"].size() == drag["note_codes"].size());
+  CHECK(drag["note_codes"] == json({"air_density_assumed", "pitch_offset_assumed"}));
+
+  // Forty seconds of flight are too short, and a roll that is missing is taken for level flight.
+  TemporaryFolder folder;
+  std::ifstream log(flight);
+  std::ofstream cut(folder.path() / "cut.csv");
+  std::string line;
+  for (int i = 0; i < 700 && std::getline(log, line); ++i) {
+    const std::size_t roll = line.find(',');
+    cut << line.substr(0, roll) << line.substr(line.find(',', roll + 1)) << '\n';
+  }
+  cut.close();
+  const json diagnosis = json::parse(
+      run_tethercalc({"diagnose", published, "--flight", (folder.path() / "cut.csv").string(),
+                      "--mass-g", "1550", "--format", "json"})
+          .out);
+  REQUIRE(diagnosis["notes"].size() == diagnosis["note_codes"].size());
+  const auto codes = diagnosis["note_codes"].get<std::set<std::string>>();
+  CHECK(codes.count("log_column_missing") == 1);
+  CHECK(codes.count("log_too_short") == 1);
 }
 
 TEST_CASE("where to read more is said on a terminal's standard error only") {

@@ -59,7 +59,7 @@ TEST_CASE("drag over mass is g times the tangent of the tilt that holds an airsp
 }
 
 TEST_CASE("a heavier drone is predicted to lean less, and one with hungrier motors as before") {
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
   PowerModel model = flown_design();
   const auto tilt = TiltComparison::of(shown_by(model.design.drone.drag, 0.6, 0.01), model,
                                        hover_and_pass(15), 1e-4, notes);
@@ -78,7 +78,7 @@ TEST_CASE("a heavier drone is predicted to lean less, and one with hungrier moto
 
 TEST_CASE(
     "the drag that is told makes the design lean as the flight did, the tether's share taken off") {
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
   PowerModel model = flown_design();
   const AirframeDrag law{0.03, 0.02, 5, 0};
   const auto tilt =
@@ -94,7 +94,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a tilt that the tether alone explains leaves the drag as the design has it") {
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
   PowerModel model = flown_design();
   const auto tilt = TiltComparison::of(shown_by({0.03, 0.02, 5, 0}, 0.05, 0.001), model,
                                        hover_and_pass(30), 1e-4, notes);
@@ -103,16 +103,16 @@ TEST_CASE("a tilt that the tether alone explains leaves the drag as the design h
 }
 
 TEST_CASE("a tilt that tells no drag from none is not compared, and a note says what is missing") {
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
   const PowerModel model = flown_design();
   CHECK_FALSE(TiltComparison::of(shown_by(model.design.drone.drag, 0.6, 8), model,
                                  hover_and_pass(15), 1e-4, notes));
   REQUIRE(notes.size() == 1);
-  CHECK_THAT(notes.front(), Catch::Contains("passes at speed"));
+  CHECK_THAT(notes.front().sentence, Catch::Contains("passes at speed"));
 }
 
 TEST_CASE("rows of a tilt are noise of size 1 or less where the model is right") {
-  std::vector<std::string> notes;
+  std::vector<Warning> notes;
   const PowerModel model = flown_design();
   // Their mean is what the model predicts: asked for once, then shown.
   const double right = TiltComparison::of(shown_by(model.design.drone.drag, 0.6, 0.05), model,

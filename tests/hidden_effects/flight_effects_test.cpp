@@ -199,7 +199,7 @@ TEST_CASE("a pull over ground keeps its size and its side while the drone turns"
     const double aside = hidden.tether_pull * std::sin(turned);
     right += std::hypot(pull[0].value - ahead, pull[1].value - aside) < 0.15 ? 1 : 0;
     REQUIRE_FALSE(d.notes.empty());
-    CHECK(d.notes.back().find("mean heading") != std::string::npos);
+    CHECK(d.notes.back().sentence.find("mean heading") != std::string::npos);
   }
   CHECK(right >= 3);
 }

@@ -108,7 +108,7 @@ TEST_CASE("a log too short names nothing and says what it needs") {
   CHECK(d.findings.empty());
   CHECK(lists(d.not_testable, "propwash"));
   REQUIRE_FALSE(d.notes.empty());
-  CHECK(d.notes.back().find("too short") != std::string::npos);
+  CHECK(d.notes.back().sentence.find("too short") != std::string::npos);
 }
 
 TEST_CASE("the longer a flight, the less structure could hide in it") {
@@ -145,7 +145,7 @@ TEST_CASE("a stuck sensor is left out and noted, not explained") {
   CHECK(d.findings.empty());
   CHECK_FALSE(d.unexplained.detected);
   REQUIRE_FALSE(d.notes.empty());
-  CHECK(d.notes.front().find("stuck") != std::string::npos);
+  CHECK(d.notes.front().sentence.find("stuck") != std::string::npos);
 }
 
 TEST_CASE("outliers in one per cent of the samples hide nothing and invent nothing") {

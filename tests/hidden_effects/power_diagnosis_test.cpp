@@ -399,8 +399,9 @@ TEST_CASE("a stuck instrument is noticed and not taken for physics") {
   INFO(channel << ": " << summary(nothing));
   CHECK(nothing.findings.empty());
   CHECK_FALSE(nothing.unexplained.detected);
-  CHECK(std::any_of(nothing.notes.begin(), nothing.notes.end(), [&](const std::string& note) {
-    return note.find(channel) != std::string::npos && note.find("stuck") != std::string::npos;
+  CHECK(std::any_of(nothing.notes.begin(), nothing.notes.end(), [&](const Warning& note) {
+    return note.sentence.find(channel) != std::string::npos &&
+           note.sentence.find("stuck") != std::string::npos;
   }));
 }
 

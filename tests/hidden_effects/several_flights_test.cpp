@@ -63,8 +63,8 @@ FlightLog not_flown(double duration, double speed, double sway) {
 }
 
 bool has_note(const Diagnosis& d, const std::string& words) {
-  return std::any_of(d.notes.begin(), d.notes.end(), [&words](const std::string& note) {
-    return note.find(words) != std::string::npos;
+  return std::any_of(d.notes.begin(), d.notes.end(), [&words](const Warning& note) {
+    return note.sentence.find(words) != std::string::npos;
   });
 }
 

@@ -78,8 +78,9 @@ bool all_are(const std::vector<double>& values, double expected) {
 }
 
 bool says(const PowerLogReading& reading, const std::string& words) {
-  return std::ranges::any_of(
-      reading.notes, [&](const std::string& note) { return note.find(words) != note.npos; });
+  return std::ranges::any_of(reading.notes, [&](const Warning& note) {
+    return note.sentence.find(words) != std::string::npos;
+  });
 }
 
 }  // namespace

@@ -254,7 +254,7 @@ TEST_CASE(
   const PowerLogReading ground = read("time_s,vn_m_s,ve_m_s,bus_power_W\n1,3,-4,450\n");
   CHECK(ground.log.airspeed == std::vector<double>{5});
   REQUIRE(ground.notes.size() == 1);
-  CHECK_THAT(ground.notes.front(), Catch::Contains("ground speed is taken as airspeed"));
+  CHECK_THAT(ground.notes.front().sentence, Catch::Contains("ground speed is taken as airspeed"));
   CHECK_THROWS_WITH(read("time_s,bus_power_W\n1,450\n"),
                     Catch::Contains("column \"airspeed_m_s\" is missing"));
 }

@@ -295,6 +295,17 @@ TEST_CASE("a diagnosis of the page is that of the program") {
   CHECK_FALSE(told.at("figures").empty());
 }
 
+TEST_CASE("every code is explained in the program's words, others are refused with the closest") {
+  for (const char* code : {"available_power", "drag_estimated", "propwash", "log_stuck", "fail"}) {
+    const ordered_json page = answered({{"ask", "explain"}, {"code", code}});
+    CHECK(page.at("text") == program(std::string("explain ") + code));
+    CHECK(page.at("result") ==
+          ordered_json::parse(program(std::string("explain ") + code + " --format json")));
+  }
+  CHECK_THAT(only_message(replied({{"ask", "explain"}, {"code", "propwosh"}})),
+             Catch::Contains("did you mean \"propwash\""));
+}
+
 TEST_CASE("a log is told as by the program") {
   const Files files{{{"px4-flight.ulg", example("px4-flight.ulg")}}};
   const ordered_json told = answered({{"ask", "log"}, {"file", "px4-flight.ulg"}}, files);

@@ -1,7 +1,9 @@
 """Designs: read, changed in place, optimised; and every problem of a bad one."""
 
+import inspect
 import json
 import pickle
+import re
 import unittest
 
 import tethercalc
@@ -247,6 +249,15 @@ class Errors(unittest.TestCase):
 ROOT_OF_NOTHING = "/nowhere/at-all.json"
 
 
+def keys_in(value):
+    """All keys of an answer, however deep."""
+    if isinstance(value, list):
+        return {key for entry in value for key in keys_in(entry)}
+    if isinstance(value, dict):
+        return set(value).union(*map(keys_in, value.values()))
+    return set()
+
+
 class Studies(unittest.TestCase):
     def test_each_answer_is_the_commands(self):
         area = ["--set", "tether.cross_section_mm2=1.09"]
@@ -268,6 +279,32 @@ class Studies(unittest.TestCase):
                 self.assertEqual(answer.to_dict(), told)
                 self.assertEqual(dir(answer) + list(told), dir(answer) + list(answer.to_dict()))
                 self.assertIn("<pre>", answer._repr_html_())
+
+    def test_docstrings_name_only_parameters_and_keys_that_there_are(self):
+        flight = EXAMPLES / "simulated-flight.csv"
+        answers = {
+            tethercalc.evaluate: tethercalc.evaluate(PUBLISHED, 1.1),
+            tethercalc.compare: tethercalc.compare(PUBLISHED, "alike"),
+            tethercalc.envelope: tethercalc.envelope(PUBLISHED, 1.1),
+            tethercalc.shape: tethercalc.shape(PUBLISHED, area_mm2=1.1),
+            tethercalc.design: tethercalc.design(PUBLISHED, {"supply.voltage_V": "70..75"}),
+            tethercalc.drag: tethercalc.drag(
+                flight, 1550, air_density_kg_m3=1.225, pitch_offset_deg=0.8
+            ),
+            tethercalc.diagnose: tethercalc.diagnose(PUBLISHED, flight=flight, mass_g=1550),
+        }
+        for function, answer in answers.items():
+            known = keys_in(answer.to_dict()) | set(inspect.signature(function).parameters)
+            known |= set(tethercalc.__all__)
+            names = re.findall(r"`([A-Za-z_.0-9]+)`", function.__doc__)
+            self.assertGreater(len(names), 3, function.__name__)
+            for name in names:
+                with self.subTest(f"{function.__name__}: {name}"):
+                    self.assertTrue(set(name.split(".")) <= known)
+        columns = tethercalc.sweep(PUBLISHED, {"drone.mass_g": [1500]}).array.dtype.names
+        for name in ("status", "limited_by", "cross_section_mm2", "forward.total_power_W"):
+            self.assertIn(name, tethercalc.sweep.__doc__)
+            self.assertIn(name, columns)
 
     def test_a_figure_is_the_plot(self):
         svg = tethercalc.optimize(PUBLISHED).figure().svg

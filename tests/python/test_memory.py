@@ -7,8 +7,7 @@ import unittest
 import tethercalc
 from support import PUBLISHED
 
-#: Calls of the long run; in daily work a twentieth of it tells as much of a leak of a few bytes.
-CALLS = int(os.environ.get("TETHERCALC_MEMORY_CALLS", "50000"))
+CALLS = 1_000_000
 
 
 def resident() -> int:
@@ -42,9 +41,9 @@ class Memory(unittest.TestCase):
             except tethercalc.InputError:
                 pass
 
-        # 20 bytes a call would be seen, and no allocation is smaller.
-        self.assertLess(self.grown(CALLS, optimum), 20 * CALLS)
-        self.assertLess(self.grown(CALLS // 10, error), max(20 * CALLS // 10, 2**19))
+        # No allocation is smaller than 16 bytes: one left behind every tenth call would be seen.
+        self.assertLess(self.grown(CALLS, optimum), 2**20)
+        self.assertLess(self.grown(CALLS // 10, error), 2**20)
 
     def test_it_is_steady_over_sweeps_and_answers(self):
         def sweep(_):

@@ -112,7 +112,7 @@ TEST_CASE("every effect stands in the figure with its verdict") {
 
 TEST_CASE("a diagnosis without anything compared has no figure and says why") {
   Diagnosis d;
-  d.notes.push_back("the log is too short to judge");
+  d.notes.push_back({WarningKind::log_too_short, "the log is too short to judge"});
   CHECK_THROWS_WITH(diagnosis_figure("a.csv", d), "the log is too short to judge");
 }
 

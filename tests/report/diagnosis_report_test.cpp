@@ -71,7 +71,7 @@ TEST_CASE("a log too short has no error to report and says so without a NaN") {
   Diagnosis d = example();
   d.findings.clear();
   d.base.holdout_rmse = std::numeric_limits<double>::quiet_NaN();
-  d.notes = {"too short to tell an effect from chance"};
+  d.notes = {{WarningKind::log_too_short, "too short to tell an effect from chance"}};
   CHECK(diagnosis_json(d, nullptr)["base"]["holdout_rmse"].is_null());
   const std::string text = diagnosis_text(d, {});
   CHECK(text.find("nan") == std::string::npos);

@@ -67,6 +67,20 @@ TEST_CASE("each enumerator that answers name has a page under its own name") {
   }
 }
 
+TEST_CASE("each warning and note is told somewhere in the sources") {
+  std::string sources;
+  const auto root = std::filesystem::path(TETHERCALC_SOURCE_DIR) / "src";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().extension() == ".cpp") sources += contents_of(entry.path());
+  }
+  const std::vector<std::string> kinds = enumerators_of("model/warning.hpp", "WarningKind");
+  CHECK(kinds.size() == codes_of(CodeGroup::warnings).size());
+  for (const std::string& kind : kinds) {
+    INFO(kind);
+    CHECK(std::regex_search(sources, std::regex("WarningKind::" + kind + "\\b")));
+  }
+}
+
 TEST_CASE("each effect of both catalogues has a page that says what the catalogue says") {
   for (const Effect& effect : effect_catalogue()) {
     INFO(effect.id);
@@ -91,8 +105,9 @@ TEST_CASE("no two pages have one code and no part of a page is empty") {
       INFO(heading);
       REQUIRE(page.part(heading) != nullptr);
     }
-    // Of a warning that says what was done, or is not known, there may be none.
-    CHECK((page.part("Formula") != nullptr || page.group == CodeGroup::warnings));
+    // Of a warning or a record that says what was done, or is not known, there may be none.
+    CHECK((page.part("Formula") != nullptr || page.group == CodeGroup::warnings ||
+           page.group == CodeGroup::records));
     for (const ExplanationPart& part : page.parts) {
       INFO(part.heading);
       CHECK(!part.texts.empty());
@@ -139,7 +154,8 @@ TEST_CASE("each verdict with a page is a key of a diagnosis, and each list of ef
   }
   const auto json = diagnosis_json({}, nullptr);
   for (const auto& [key, value] : json.items()) {
-    if (value.is_array() && value.empty() && key != "notes" && key != "further") {
+    if (value.is_array() && value.empty() && key != "notes" && key != "note_codes" &&
+        key != "further") {
       INFO(key);
       CHECK(find_explanation(key) != nullptr);
     }

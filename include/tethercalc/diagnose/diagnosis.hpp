@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tethercalc/diagnose/drag_by_tilt.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
@@ -208,7 +209,7 @@ struct Diagnosis {
   std::vector<SpecChange> spec_changes;           ///< turn the spec into the extended one
   ErrorBudget budget;                             ///< of the base model
   std::vector<HoldoutComparison> further;         ///< quantities that decide nothing
-  std::vector<std::string> notes;  ///< what was done to the log: samples left out and why
+  std::vector<Warning> notes;  ///< what was done to the log: samples left out and why
   std::optional<DesignImpact> design_impact;  ///< where it was asked for
   std::vector<ComparedSeries> compared;       ///< for pictures: one a stage of the chain
   std::vector<FindingTrace> traces;           ///< for pictures: one a finding

@@ -10,6 +10,7 @@
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/io/autopilot_log.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
@@ -36,8 +37,8 @@ struct FlightLogReading {
   /// 360°, a velocity above 500 m/s, which flipped bits produce; and one that leaps there and back,
   /// by more than 20 g for the time between and 10 m/s.
   std::size_t samples_implausible = 0;
-  /// Sentences for the user about these and about damage to the log; empty where nothing was amiss.
-  std::vector<std::string> notes;
+  /// What is to be said of these and of damage to the log; empty where nothing was amiss.
+  std::vector<Warning> notes;
 };
 
 /// Reads attitude and velocity over time; `name` stands for the file in messages.
@@ -89,7 +90,7 @@ struct PowerLogReading {
   PowerLog log;        ///< what was read
   std::string source;  ///< "CSV", "BAT 0 + BAT 1 and XKF1 of EKF core 0"
   /// Sentences for the user: where the airspeed comes from, what was left out.
-  std::vector<std::string> notes{};
+  std::vector<Warning> notes{};
 };
 
 /// Reads power, height and airspeed over time; `name` stands for the file in messages.

@@ -17,7 +17,6 @@ enum class WarningKind {
   motor_flown,                ///< a motor that is known at its hover only
   motor_bus_power,            ///< all of the bus's power taken for the motors'
   motor_forward_power,        ///< what a motor drew in forward flight, beside its curve
-  motor_log_note,             ///< what was noticed in the log that a motor was learned from
   motor_mass_not_counted,     ///< motors compared as if all weighed the same
   motor_air_density,          ///< a motor's curve that counts in air it was not measured in
   drag_estimated,             ///< drag of a drone that never flew
@@ -26,19 +25,48 @@ enum class WarningKind {
   drag_at_bound,              ///< a fitted parameter at the end of its range
   drag_may_be_none,           ///< a flight that does not even tell that there is drag
   drag_not_converged,         ///< a fit that did not settle
+  air_density_assumed,        ///< a flight in air whose density nobody gave
+  pitch_offset_assumed,       ///< a flight whose autopilot is taken to know what level is
+  log_damaged,                ///< bytes of a log that could not be read
+  log_definition_rejected,    ///< messages of a log that cannot be as they are defined
+  log_values_implausible,     ///< samples with values that no flight can have
+  log_times_unordered,        ///< samples whose time does not increase
+  log_velocity_invalid,       ///< samples whose velocity their estimator does not trust
+  log_attitude_missing,       ///< samples without an attitude at their time
+  log_column_missing,         ///< a column of a flight that was taken for rest
+  log_wind_unused,            ///< wind or airspeed of a log that is no measurement
+  log_bus_chosen,             ///< the battery monitors that a power log is made of
+  log_airspeed_derived,       ///< an airspeed that was measured in part or not at all
+  log_ground_speed,           ///< ground speed taken as airspeed
+  log_flight_of_several,      ///< which flight of several is which log, and what of it is used
+  log_flights_joined,         ///< flights of one log judged together
+  log_not_flying,             ///< seconds on the ground or tilted too far
+  log_averaged,               ///< means judged instead of samples
+  log_spikes,                 ///< samples that stand out from their neighbours
+  log_stuck,                  ///< a channel that repeats one value
+  log_lag,                    ///< a channel on a clock of its own, shifted back
+  log_unchanging,             ///< a channel that never changes
+  log_too_short,              ///< too little to tell an effect from chance
+  log_mean_heading,           ///< which way "ahead" is
+  log_free_flight,            ///< a power log flown without its tether
+  log_ambient_missing,        ///< a cable whose surroundings nobody measured
+  tilt_drag_shown,            ///< drag over mass as the tilt shows it
+  tilt_drag_taken,            ///< the drag of the extended spec, from the tilt
+  tilt_tells_nothing,         ///< a tilt that tells no drag from none
+  tilt_missing,               ///< a flight too short to say how the drone leans
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 17;
+inline constexpr std::size_t warning_kind_count = 45;
 
-/// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` of the JSON answers have
-/// it.
+/// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
+/// JSON answers have it.
 [[nodiscard]] std::string_view warning_code(WarningKind kind);
 
 /// A warning as it is told.
 struct Warning {
-  WarningKind kind = WarningKind::motor_log_note;  ///< what it is about
-  std::string sentence;                            ///< with the numbers of this case
+  WarningKind kind{};    ///< what it is about
+  std::string sentence;  ///< with the numbers of this case
 };
 
 }  // namespace tethercalc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,12 @@ namespace tethercalc {
 /// All results. `front_area_m2`, `top_area_m2`, `linear_m_s` and the list `wind_m_s` hold {`value`,
 /// `standard_error_independent`, `standard_error`, `ci95`}, null where the parameter is held at its
 /// bound, which `at_bound` then names; `warnings` and `warning_codes` those of `drag_warnings`;
+/// `notes` and `note_codes` what was noticed in the logs and what was assumed;
 /// `drone.drag` is the block for a spec; `table` lists steady flight with the same objects;
 /// `autopilot` has, of `ardupilot` and `px4`, each of their parameters with its unit, or null as
 /// its value and why it is left out.
-[[nodiscard]] nlohmann::ordered_json drag_json(const DragIdentification& result);
+[[nodiscard]] nlohmann::ordered_json drag_json(const DragIdentification& result,
+                                               std::span<const Warning> notes = {});
 
 /// What is said of a fit beside its tables.
 struct DragSentences {

@@ -16,16 +16,18 @@ namespace tethercalc {
 enum class CodeGroup {
   answers,         ///< `status`: whether there is an optimum
   limits,          ///< `limited_by` and demands
-  warnings,        ///< `warning_codes`
+  warnings,        ///< `warning_codes` and `note_codes`
   verdicts,        ///< what a diagnosis says of an effect
   flight_effects,  ///< effects of the catalogue that flight logs show
   power_effects,   ///< those that logs of the power show
   cable,           ///< `outcome` of a hanging cable
   voltages,        ///< `voltage_class`
+  rule_verdicts,   ///< `verdict`: how a figure stands to a clause
+  records,         ///< `status` of a reference design
 };
 
 /// How many there are.
-inline constexpr std::size_t code_group_count = 8;
+inline constexpr std::size_t code_group_count = 10;
 
 /// "Limits and demands" …: a heading.
 [[nodiscard]] std::string_view group_title(CodeGroup group);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tethercalc/io/design_reader.hpp"
@@ -24,6 +25,9 @@ struct ReferenceCheck {
   /// True where there is a record and nothing drifted.
   [[nodiscard]] bool passed() const;
 };
+
+/// "ok", "drifted", "unrecorded" and "error": what `status` of the answers says.
+[[nodiscard]] std::span<const std::string_view> check_status_names();
 
 /// Computes the design of `file`, which messages call `spec`, and compares it with its record: an
 /// object from a result's name to `{"value": …, "relative_tolerance": …}`, or "absolute_tolerance"
