@@ -346,10 +346,11 @@ TEST_CASE("a supply pair alone is refused with the channels that make a stage") 
   log.bus_voltage.clear();
   log.bus_current.clear();
   CHECK_THROWS_WITH(diagnosis_of(log),
-                    Catch::Contains("the motors need height_m, airspeed_m_s, bus_voltage_V and "
-                                    "bus_current_A (or bus_power_W)") &&
-                        Catch::Contains("the tether supply_voltage_V, supply_current_A, "
-                                        "drone_voltage_V, height_m"));
+                    Catch::Contains("the motors need height_m, airspeed_m_s, bus_voltage_V, "
+                                    "bus_current_A;") &&
+                        Catch::Contains("the tether height_m, supply_voltage_V, "
+                                        "supply_current_A, drone_voltage_V;") &&
+                        Catch::Contains("bus_power_W will do"));
 }
 
 TEST_CASE("a power log that is too short is not judged") {
