@@ -118,11 +118,23 @@ TEST_CASE("where nothing is open no flight is planned") {
   CHECK(none.undecided.empty());
 }
 
+namespace {
+
+Suspected suspected(const std::string& effect) {
+  Suspected out;
+  out.effect = effect;
+  out.gain_percent = 12;
+  out.gain_se_percent = 3;
+  return out;
+}
+
+}  // namespace
+
 TEST_CASE("what belongs to moments of the logged flight is left open, and said so") {
   const Doubtful doubtful;
   Diagnosis diagnosis = doubtful.diagnosis;
   diagnosis.findings.clear();
-  diagnosis.suspected = {{"wind_step", 12, 3, {}, "", 0}};
+  diagnosis.suspected = {suspected("wind_step")};
   const NextFlight next = plan_next_flight(doubtful.design, {&doubtful.flight, 1}, doubtful.options,
                                            diagnosis, doubtful.limits);
   CHECK(next.manoeuvres.empty());
@@ -135,8 +147,7 @@ TEST_CASE("less time settles no more, and less than the shortest plan not all") 
   Doubtful doubtful;
   // As the log would have it, whatever this draw came to.
   doubtful.diagnosis.findings.clear();
-  doubtful.diagnosis.suspected = {{"pitch_trim", 12, 3, {}, "", 0},
-                                  {"fore_aft_asymmetry", 12, 3, {}, "", 0}};
+  doubtful.diagnosis.suspected = {suspected("pitch_trim"), suspected("fore_aft_asymmetry")};
   const NextFlight next = doubtful.plan();
   REQUIRE_FALSE(next.decides.empty());
   REQUIRE_FALSE(next.manoeuvres.empty());
@@ -162,7 +173,7 @@ TEST_CASE("a wind in the base model is to be told in detail where the flight tur
   Doubtful doubtful;
   doubtful.options.base = {"linear_drag", "wind"};
   doubtful.diagnosis.findings.clear();
-  doubtful.diagnosis.suspected = {{"pitch_trim", 12, 3, {}, "", 0}};
+  doubtful.diagnosis.suspected = {suspected("pitch_trim")};
   const NextFlight next = doubtful.plan();
   const bool turns =
       std::any_of(next.manoeuvres.begin(), next.manoeuvres.end(), [&](const Manoeuvre& m) {
