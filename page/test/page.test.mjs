@@ -76,6 +76,19 @@ onPage('an answer of no names what would help', async (page) => {
   for (const remedy of remedies) assert.ok(printed.includes(remedy), remedy);
 });
 
+onPage('what limits the answer and each warning are explained as the program explains them', async (page) => {
+  await field(page, 'flight.air_density_kg_m3').fill('0.9');
+  await field(page, 'flight.air_density_kg_m3').press('Tab');
+  const result = JSON.parse(programSays(['optimize', '-', '--set', 'flight.air_density_kg_m3=0.9', '--format', 'json'], example('holybro-x500.json')));
+  await page.getByText('What this means, and what to do').click();
+  const codes = await page.locator('#explained-codes h3 code').allTextContents();
+  assert.deepEqual(codes, [result.optimum.limited_by, ...new Set(result.warning_codes)]);
+  assert.ok(codes.length > 1);
+  const titles = await page.locator('#explained-codes h3').allTextContents();
+  for (const [i, code] of codes.entries()) assert.ok(programSays(['explain', code], '').includes(titles[i].replace(` ${code}`, '')), titles[i]);
+  assert.ok((await page.locator('#explained-codes p').count()) >= 3 * codes.length);
+});
+
 onPage("a value out of range is told beside its field in the program's words, and the page lives on", async (page) => {
   await field(page, 'drone.mass_g').fill('3');
   await field(page, 'drone.mass_g').press('Tab');
