@@ -98,6 +98,18 @@ class Progress {
   Clock::time_point next_ = start_ + std::chrono::milliseconds(200);
 };
 
+/// So many designs, over a minute of a thread at the best rate, are worth a word before they begin:
+/// a step with a zero too many looks like work.
+constexpr std::uint64_t large_sweep = 10'000'000;
+
+void tell_large(const RowRange& range) {
+  const std::uint64_t designs = range.end - range.begin;
+  if (designs < large_sweep) return;
+  remark(fmt::format(
+      "sweep: {} designs to compute; coarser steps or --sample make fewer, --shard splits them\n",
+      designs));
+}
+
 RowFormat row_format(const std::string& format) {
   if (format == "csv") return RowFormat::csv;
   if (format == "jsonl" || format == "json") return RowFormat::json_lines;
@@ -268,6 +280,7 @@ int run_sweep(const SweepOptions& options) {
   const Sweep sweep{space, base.design, SweepRows(space.axes(), format),
                     shard_rows(space.rows(), shard.part, shard.parts),
                     format == RowFormat::csv && shard.part == 1};
+  tell_large(sweep.range);
   RowFile file = to_standard_output(options) ? RowFile::standard_output()
                  : options.resume            ? RowFile::resume(options.file)
                                              : RowFile::create(options.file);

@@ -489,6 +489,11 @@ const Effect* find_effect(std::string_view id) {
   return found == effects.end() ? nullptr : &*found;
 }
 
+std::string in_words(std::string id) {
+  std::ranges::replace(id, '_', ' ');
+  return id;
+}
+
 std::string_view to_string(Stage stage) {
   constexpr std::array<std::string_view, 5> names{"supply", "tether", "converter", "motors",
                                                   "airframe"};  // in the order of the stages

@@ -172,7 +172,7 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
     const Effect& rival = log.effect(g);
     finding.indistinguishable_from.push_back(log.name(g));
     if (rival.to_separate == effect.to_separate) continue;
-    separators.push_back(fmt::format("{}: {}", log.name(g), rival.to_separate));
+    separators.push_back(fmt::format("{}: {}", in_words(log.name(g)), rival.to_separate));
   }
   // Where effects of a kind are told apart in one way, that is said once.
   if (separators.size() < found.indistinguishable.size()) {
@@ -201,7 +201,7 @@ NotIdentifiable not_identifiable(const LogModel& log, const Selection::Aliased& 
   if (!effect.aliased_because.empty()) {
     because = effect.aliased_because;
   } else if (!aliased.with.empty()) {
-    because = fmt::format("in this log it acts like {}", log.name(aliased.with.front()));
+    because = fmt::format("in this log it acts like {}", in_words(log.name(aliased.with.front())));
   }
   return {effect.id, std::move(because), log.flight_of(aliased.group)};
 }

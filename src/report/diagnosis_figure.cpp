@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "report/figure_data.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
@@ -164,8 +165,8 @@ std::vector<Origin> origins(const Diagnosis& d) {
   for (std::size_t s = 0; s < chain.size(); ++s) {
     for (std::size_t k = 0; k < d.findings.size() && k < d.budget.findings.size(); ++k) {
       if (d.findings[k].stage != chain[s]) continue;
-      out.push_back(
-          {d.findings[k].stage + ": " + d.findings[k].effect, d.budget.findings[k], colours[s]});
+      out.push_back({d.findings[k].stage + ": " + in_words(d.findings[k].effect),
+                     d.budget.findings[k], colours[s]});
     }
   }
   out.push_back({"unexplained", d.budget.unexplained, Colour::ink});
@@ -190,13 +191,13 @@ std::vector<std::string> verdicts(const Diagnosis& d) {
   const auto tell = [&out](const std::string& effect, std::size_t flight,
                            const std::string& verdict) {
     const std::string where = flight == 0 ? "" : fmt::format(" (flight {})", flight);
-    out.push_back(effect + where + ": " + verdict);
+    out.push_back(in_words(effect) + where + ": " + verdict);
   };
   for (const Finding& f : d.findings) {
     tell(f.effect, f.flight,
          fmt::format("found, {} ± {} %", fixed(f.gain_percent, 1), fixed(f.gain_se_percent, 1)));
     for (const std::string& rival : f.indistinguishable_from) {
-      tell(rival, 0, "would explain as well as " + f.effect);
+      tell(rival, 0, "would explain as well as " + in_words(f.effect));
     }
   }
   for (const Suspected& s : d.suspected) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "report/result_values.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
 
 namespace tethercalc {
 
@@ -79,8 +80,14 @@ std::string with_interval(const ParameterEstimate& p) {
 
 /// An effect by its id, with the flight where it belongs to one of several.
 template <typename Told>
-std::string name_of(const Told& told) {
+std::string id_of(const Told& told) {
   return told.flight > 0 ? fmt::format("{} (flight {})", told.effect, told.flight) : told.effect;
+}
+
+/// The same in words.
+template <typename Told>
+std::string name_of(const Told& told) {
+  return in_words(id_of(told));
 }
 
 /// An effect in words, with the flight where it belongs to one of several.
@@ -212,7 +219,8 @@ class Story {
         significant(f.holdout_rmse_after, 3), d_.unit, f.gain_percent, f.gain_se_percent);
     if (!f.indistinguishable_from.empty()) {
       text += fmt::format(" This log is explained as well by {}. To tell them apart: {}",
-                          fmt::join(f.indistinguishable_from, " or "), with_stop(f.to_separate));
+                          in_words(fmt::format("{}", fmt::join(f.indistinguishable_from, " or "))),
+                          with_stop(f.to_separate));
     }
     paragraph(text);
   }
@@ -459,7 +467,7 @@ std::string diagnosis_csv(const std::vector<Finding>& findings) {
       "effect,stage,parameter,value,unit,ci95_lower,ci95_upper,gain_percent,gain_se_percent\n";
   for (const Finding& f : findings) {
     for (const ParameterEstimate& p : f.parameters) {
-      out += csv_line({name_of(f), f.stage, p.name, p.value, p.unit, p.ci95_lower, p.ci95_upper,
+      out += csv_line({id_of(f), f.stage, p.name, p.value, p.unit, p.ci95_lower, p.ci95_upper,
                        f.gain_percent, f.gain_se_percent});
     }
   }

@@ -218,7 +218,9 @@ std::span<const Explanation> explanations() {
   return pages;
 }
 
-const Explanation* find_explanation(std::string_view code) {
+const Explanation* find_explanation(std::string_view words) {
+  std::string code(words);
+  std::ranges::replace(code, ' ', '_');
   const auto pages = explanations();
   const auto found = std::ranges::find(pages, code, &Explanation::code);
   return found == pages.end() ? nullptr : &*found;

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "report/result_values.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
 
 namespace tethercalc {
 namespace {
 
 std::string name_of(const std::string& effect, std::size_t flight) {
-  return flight > 0 ? fmt::format("{} (flight {})", effect, flight) : effect;
+  return flight > 0 ? fmt::format("{} (flight {})", in_words(effect), flight) : in_words(effect);
 }
 
 /// A manoeuvre, and how often it is flown.
@@ -33,7 +34,8 @@ std::vector<Repeated> counted(const NextFlight& flight) {
 std::string decided(const Decision& d) {
   std::string text = name_of(d.effect, d.flight);
   if (d.told_from.empty()) return text + ", so far only suspected";
-  return text + fmt::format(", so far not to be told from {}", fmt::join(d.told_from, " or "));
+  return text + fmt::format(", so far not to be told from {}",
+                            in_words(fmt::format("{}", fmt::join(d.told_from, " or "))));
 }
 
 }  // namespace
@@ -128,7 +130,7 @@ std::string next_flight_text(const NextFlight& flight, const std::string& file,
     if (own) {
       std::vector<std::string> names;
       for (const Decision& d : flight.decides) {
-        if (d.own_in_each_flight) names.push_back(d.effect);
+        if (d.own_in_each_flight) names.push_back(in_words(d.effect));
       }
       out += wrapped(fmt::format(
           "{} may differ from flight to flight: of the next one it will be told, what the logged "

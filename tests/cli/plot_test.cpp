@@ -135,7 +135,7 @@ TEST_CASE("the figure of a power log's diagnosis is drawn") {
       {"plot", "diagnosis", spec->string(), "--power", log->string(), "--output", file});
   INFO(run.err);
   CHECK(run.exit_code == 0);
-  CHECK_THAT(file_text(file), Contains("converter_efficiency_curve"));
+  CHECK_THAT(file_text(file), Contains("converter efficiency curve"));
   CHECK(layout_problems(file_text(file)) == std::vector<std::string>{});
 }
 

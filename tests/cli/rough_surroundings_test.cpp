@@ -119,6 +119,13 @@ TEST_CASE("a reader that has enough ends the program without a word") {
   CHECK(std::count(sweep.out.begin(), sweep.out.end(), '\n') == 3);
 }
 
+TEST_CASE("a sweep of very many designs says how many before it begins") {
+  const Ran run = run_shell(command + " sweep " + shell_quoted(published) +
+                            " --vary tether.length_m=19:100:0.000001 | head -n 2");
+  CHECK_THAT(run.err, Contains("81000001 designs to compute"));
+  CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 2);
+}
+
 TEST_CASE("what may not be read is refused with a reason, by check too") {
   const TemporaryFolder folder;
   const fs::path locked = folder.path() / "locked";

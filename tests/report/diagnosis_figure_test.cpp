@@ -76,13 +76,13 @@ TEST_CASE("the error budget names stage and effect, and all shares stand in word
   const Figure figure = diagnosis_figure("power.csv", power_diagnosis());
   const std::string svg = render(figure, FigureFormat::svg, {});
   for (const char* words :
-       {"tether: contact_resistance", "88.9 %", "unexplained", "1.1 %", "noise", "10.0 %",
+       {"tether: contact resistance", "88.9 %", "unexplained", "1.1 %", "noise", "10.0 %",
         "supply current (A)", "measured less predicted (V)", "measured (V)", "before: 1.65 V",
         "after: 0.0290 V", "voltage lost in the tether, predicted (V)"}) {
     INFO(words);
     CHECK(shows(svg, words));
   }
-  CHECK_THAT(figure.description, Contains("tether: contact_resistance 88.9 %"));
+  CHECK_THAT(figure.description, Contains("tether: contact resistance 88.9 %"));
 }
 
 TEST_CASE("every effect stands in the figure with its verdict") {
@@ -99,10 +99,10 @@ TEST_CASE("every effect stands in the figure with its verdict") {
   const Figure figure = diagnosis_figure("power.csv", d);
   const std::string svg = render(figure, FigureFormat::svg, {});
   for (const char* words :
-       {"contact_resistance: found, 60.2 ± 4.1 %",
-        "spooled_length: would explain as well as contact_resistance",
-        "extra_mass: suspected, 3.1 ± 1.2 %", "tether_drag: ruled out beyond 0.31",
-        "air_density: ruled out beyond 0.041 kg/m³", "converter_efficiency_curve: not testable",
+       {"contact resistance: found, 60.2 ± 4.1 %",
+        "spooled length: would explain as well as contact resistance",
+        "extra mass: suspected, 3.1 ± 1.2 %", "tether drag: ruled out beyond 0.31",
+        "air density: ruled out beyond 0.041 kg/m³", "converter efficiency curve: not testable",
         "wind (flight 2): not identifiable"}) {
     CHECK_THAT(figure.description, Contains(words));
     CHECK_THAT(svg, Contains(std::string(words).substr(0, 45)));

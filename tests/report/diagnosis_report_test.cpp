@@ -84,8 +84,8 @@ TEST_CASE("the story tells finding, uncertainty, rival and gain") {
   CHECK(text.find("Drag in proportion to speed (linear_drag) would help by 34.1 ± 2.5 %") !=
         std::string::npos);
   CHECK(text.find("0.42 m/s") != std::string::npos);
-  for (const char* part : {"wind_m_s = -1.20 m/s", "-1.30 to -1.10", "20.0 ± 2.0 %", "pitch_trim",
-                           "hover through all headings", "36.0 %", "vertical_coupling"}) {
+  for (const char* part : {"wind_m_s = -1.20 m/s", "-1.30 to -1.10", "20.0 ± 2.0 %", "pitch trim",
+                           "hover through all headings", "36.0 %", "vertical coupling"}) {
     INFO(part);
     CHECK(text.find(part) != std::string::npos);
   }

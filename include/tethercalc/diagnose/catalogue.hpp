@@ -122,6 +122,9 @@ struct Effect {
 /// The entry of `id`, or null.
 [[nodiscard]] const Effect* find_effect(std::string_view id);
 
+/// An id as a sentence has it: "tether sag" of "tether_sag", with what follows it, as a flight.
+[[nodiscard]] std::string in_words(std::string id);
+
 /// "supply", "tether", "converter", "motors" or "airframe".
 [[nodiscard]] std::string_view to_string(Stage stage);
 

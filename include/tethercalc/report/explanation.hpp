@@ -59,8 +59,8 @@ struct Explanation {
 /// parameters are those of the catalogue. The texts are `data/explain/`.
 [[nodiscard]] std::span<const Explanation> explanations();
 
-/// The page of `code`, or null.
-[[nodiscard]] const Explanation* find_explanation(std::string_view code);
+/// The page of a code, which may have spaces for its underscores as texts write it; or null.
+[[nodiscard]] const Explanation* find_explanation(std::string_view words);
 
 /// The same; throws InputError with the closest code where there is none.
 [[nodiscard]] const Explanation& explanation_of(const std::string& code);
