@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
@@ -132,7 +133,7 @@ onPage('hostile names stay texts', async (page) => {
 
 onPage('the link holds the design, and the pinned one, for another page', async (page) => {
   await page.getByRole('button', { name: 'Pin this design' }).first().click();
-  await field(page, 'tether.length_m').fill('45');
+  await field(page, 'tether.length_m').fill('20');
   await field(page, 'tether.length_m').press('Tab');
   await page.waitForFunction(() => !document.getElementById('undo').disabled && location.hash.length > 50);
   await page.waitForTimeout(200);
@@ -146,7 +147,7 @@ onPage('the link holds the design, and the pinned one, for another page', async 
 });
 
 onPage('half a link is told, and the page lives on', async (page) => {
-  await field(page, 'tether.length_m').fill('45');
+  await field(page, 'tether.length_m').fill('20');
   await field(page, 'tether.length_m').press('Tab');
   await page.waitForTimeout(200);
   const hash = await page.evaluate(() => location.hash);
@@ -236,6 +237,40 @@ onPage('what a log of an autopilot holds is told as it is dropped, packed or not
   await page.locator('.learned pre').waitFor({ timeout: 60_000 });
   const text = await page.locator('.learned pre').textContent();
   assert.match(text, /134729 bytes, 4806 messages/);
+});
+
+/** The example log of PX4 with the messages of its flight again and again, until it is so large. */
+function longLog(bytes) {
+  const log = readFileSync(join(root, 'examples/px4-flight.ulg'));
+  const messages = [];
+  let began = 16;  // a ULog's head; then each message has its size, its type and its contents
+  while (began + 3 <= log.length) {
+    const end = began + 3 + log.readUInt16LE(began);
+    messages.push([String.fromCharCode(log[began + 2]), log.subarray(began, end)]);
+    began = end;
+  }
+  const flown = Buffer.concat(messages.filter(([type]) => type === 'D').map(([, message]) => message));
+  return Buffer.concat([log, ...Array(Math.ceil((bytes - log.length) / flown.length)).fill(flown)]);
+}
+
+onPage('a log of 200 MB is read as the program reads it, and the page stays at hand', async (page) => {
+  const folder = mkdtempSync(join(tmpdir(), 'tethercalc-'));
+  try {
+    const file = join(folder, 'long.ulg');
+    writeFileSync(file, longLog(200e6));
+    await page.getByRole('tab', { name: 'Learn from a log' }).click();
+    await page.locator('#log-files').setInputFiles(file);
+    await page.locator('.learned pre').waitFor({ timeout: 100_000 });
+    const held = (text) => [text.match(/\d+ bytes, \d+ messages/)?.[0], ...text.match(/vehicle_\w+ +\d+ .*/g) ?? []];
+    const printed = held(programSays(['log', file], ''));
+    assert.match(printed[0], /^200\d{6} bytes, 7\d{6} messages$/);
+    assert.deepEqual(held(await page.locator('.learned pre').textContent()), printed);
+    await field(page, 'tether.length_m').fill('20');
+    await field(page, 'tether.length_m').press('Tab');
+    assert.match(await page.locator('#headline').textContent(), /^Fly 0\.\d+ mm² of aluminium\.$/);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
 });
 
 onPage('a file that is no log is told in words', async (page) => {
