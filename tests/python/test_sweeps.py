@@ -110,6 +110,9 @@ class Sweeps(unittest.TestCase):
                 pareto=["total_power_W", "tether_mass_g"],
             )
 
+        # A job in the background of a shell begins with the signal ignored.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         for work in (sweep, search):
             with self.subTest(work.__name__):
                 timer = threading.Timer(0.15, os.kill, (os.getpid(), signal.SIGINT))
