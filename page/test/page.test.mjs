@@ -133,7 +133,7 @@ onPage('hostile names stay texts', async (page) => {
 
 onPage('the link holds the design, and the pinned one, for another page', async (page) => {
   await page.getByRole('button', { name: 'Pin this design' }).first().click();
-  await field(page, 'tether.length_m').fill('20');
+  await field(page, 'tether.length_m').fill('45');
   await field(page, 'tether.length_m').press('Tab');
   await page.waitForFunction(() => !document.getElementById('undo').disabled && location.hash.length > 50);
   await page.waitForTimeout(200);
@@ -147,7 +147,7 @@ onPage('the link holds the design, and the pinned one, for another page', async 
 });
 
 onPage('half a link is told, and the page lives on', async (page) => {
-  await field(page, 'tether.length_m').fill('20');
+  await field(page, 'tether.length_m').fill('45');
   await field(page, 'tether.length_m').press('Tab');
   await page.waitForTimeout(200);
   const hash = await page.evaluate(() => location.hash);
