@@ -101,7 +101,8 @@ TEST_CASE("report --rules has every clause of the command on its page") {
   const Ran run = run_tethercalc({"report", published, "--rules", "us", "--output", page});
   CHECK(run.exit_code == 0);
   const std::string html = file_text(page);
-  for (const json& clause : rules_of(published, "us")["clauses"]) {
+  const json rules = rules_of(published, "us");
+  for (const json& clause : rules["clauses"]) {
     CHECK_THAT(html, Contains(clause["document"].get<std::string>() + ", " +
                               clause["clause"].get<std::string>()));
   }
