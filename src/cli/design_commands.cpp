@@ -209,8 +209,11 @@ int run_shape(const ShapeOptions& options, const Output& output) {
       [&] { return cable_shape_text(asked.file, asked.area, request, answer, style_for(output)); },
       [&] { return cable_shape_json(asked.file, asked.area, answer); },
       [&] { return cable_shape_csv(answer); });
-  const auto outcome = cable_outcome_names()[static_cast<std::size_t>(answer.outcome)];
-  point_to_explanations({std::string(outcome)}, spec_warnings(asked.file), output);
+  std::vector<std::string> codes;
+  if (answer.outcome != CableOutcome::hangs) {
+    codes.emplace_back(cable_outcome_names()[static_cast<std::size_t>(answer.outcome)]);
+  }
+  point_to_explanations(std::move(codes), spec_warnings(asked.file), output);
   return answer.outcome == CableOutcome::hangs && answer.hangs_free ? done : answer_is_no;
 }
 
