@@ -226,8 +226,7 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
     try {
       const DesignFile file = read_design(name, overrides);
       text += printable(file.file) + ": valid\n";
-      std::vector<Warning> warnings = file.warnings;
-      if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
+      const std::vector<Warning> warnings = spec_warnings(file);
       for (const Warning& warning : warnings) {
         text += "  Note: " + printable(warning.sentence) + "\n";
       }

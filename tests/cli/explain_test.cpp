@@ -127,19 +127,23 @@ TEST_CASE("a warning has one code whichever command tells it") {
   const std::string drone = project_file("examples/hexacopter-400v.json");
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"optimize"},
+           {"validate"},
            {"evaluate", "--area-mm2", "0.2"},
            {"envelope", "--area-mm2", "0.2"},
            {"shape", "--area-mm2", "0.2"},
            {"design", "--free", "drone.motor=tmotor-mn5008-340kv-18in,tmotor-mn3508-380kv-15in"}}) {
     INFO(words[0]);
-    std::vector<std::string> arguments{words[0], drone, "--format", "json"};
+    std::vector<std::string> arguments{words[0],   drone, "--set", "flight.air_density_kg_m3=1",
+                                       "--format", "json"};
     arguments.insert(arguments.end(), words.begin() + 1, words.end());
     const Ran run = run_tethercalc(arguments);
     INFO(run.err);
-    const json answer = json::parse(run.out);
+    const json printed = json::parse(run.out);
+    const json& answer = printed.is_array() ? printed.at(0) : printed;
     CHECK(answer["warnings"].size() == answer["warning_codes"].size());
     const auto codes = answer["warning_codes"].get<std::set<std::string>>();
     CHECK(codes.count("drag_estimated") == 1);
+    CHECK(codes.count("motor_air_density") == 1);
     CHECK(codes.count("motor_mass_not_counted") == (words[0] == "design" ? 1 : 0));
   }
 }
