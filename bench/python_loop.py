@@ -1,6 +1,6 @@
 """What a loop in Python over 10 000 designs costs beside the optimum itself, in µs a design.
 
-PYTHONPATH=build/python/python /usr/bin/python3 bench/python_loop.py SPEC
+PYTHONPATH=build/release/python /usr/bin/python3 bench/python_loop.py SPEC
 
 The optimum itself is measured by a sweep on one thread over the same designs, which has no Python in it
 but writes a record a design and makes the design's change."""

@@ -1,4 +1,4 @@
-// A whole design, the reach of a given cable, and how it hangs.
+// A whole design, the reach of a given cable, how it hangs, and what published rules ask.
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -7,9 +7,13 @@
 #include "bindings/design_object.hpp"
 #include "io/design_options.hpp"
 #include "tethercalc/files/read_files.hpp"
+#include "tethercalc/io/rule_books.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
+#include "tethercalc/report/explanation.hpp"
 #include "tethercalc/report/result_figures.hpp"
+#include "tethercalc/report/rules_report.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc::python {
 namespace {
@@ -106,6 +110,20 @@ Answer shape_of(const py::object& spec, Texts area_mm2, std::optional<double> he
   return shape(spec, options);
 }
 
+Answer ruled(const py::object& spec, const std::string& book) {
+  const auto file = design_of(spec)->file();
+  const RuleBook asked = rule_book(book, "book");
+  const auto study = std::make_shared<const RuleStudy>(interruptible([=](const StopFlag&) {
+    return study_rules({file->design, ruled_area(optimum_of(file->design))}, asked);
+  }));
+  return {[=] { return rules_text(file->name, *study, {}); },
+          [=] { return rules_json(file->name, *study); }, [=] { return rules_csv(*study); }};
+}
+
+std::string explain(const std::optional<std::string>& code) {
+  return code ? explanation_text(explanation_of(*code), {}) : explanation_list_text({});
+}
+
 }  // namespace
 
 void bind_cables(py::module_& module) {
@@ -129,6 +147,12 @@ void bind_cables(py::module_& module) {
   module.def("_compare", comparison, py::arg("spec"), py::arg("motors"));
   module.def("_design", whole_design, py::arg("spec"), py::arg("free"), py::arg("minimize"),
              py::arg("subject_to"), py::arg("standard"), py::arg("pareto"), py::arg("seed"));
+  module.def("_rules", ruled, py::arg("spec"), py::arg("book"));
+  module.def(
+      "explain", explain, py::arg("code") = py::none(),
+      "The page of a code of an answer, such as \"available_power\" or \"propwash\": what it "
+      "means, why it comes about and what to do, with formula and source. Without a code, all "
+      "there are.");
   module.def("_envelope", envelope, py::arg("spec"), py::arg("area_mm2"));
   module.def("_shape", shape_of, py::arg("spec"), py::arg("area_mm2"), py::arg("height_m"),
              py::arg("offset_m"), py::arg("wind_m_s"), py::arg("wind_from_deg"),

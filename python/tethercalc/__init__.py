@@ -24,6 +24,7 @@ from ._core import (
     OperatingPoint,
     Optimum,
     Sweep,
+    explain,
     fields,
     load,
     optimize,
@@ -49,10 +50,12 @@ __all__ = [
     "drag",
     "envelope",
     "evaluate",
+    "explain",
     "fields",
     "load",
     "optimize",
     "read_log",
+    "rules",
     "shape",
     "sweep",
 ]
@@ -186,6 +189,17 @@ def envelope(spec: Spec, area_mm2: Area = None) -> Answer:
     it; `curves` has one of them over another.
     """
     return _core._envelope(spec, _areas(area_mm2))
+
+
+def rules(spec: Spec, book: str) -> Answer:
+    """How a design's figures stand to published rules: "eu-c3", "uk", "us" or "electrical".
+
+    The cable is the spec's own, else the optimum. `counts` has how many clauses `pass`, `fail` and
+    are `unknown`; `clauses` each with `document`, `clause`, `edition`, `text`, our `value` (least
+    and greatest), `limit`, `margin_percent`, `verdict` and `because`. A pass is no more than that
+    the figure is within the clause's number.
+    """
+    return _core._rules(spec, book)
 
 
 def shape(

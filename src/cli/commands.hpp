@@ -178,8 +178,10 @@ enum class ExplanationForm { text, json, markdown };
 /// closest code where there is none.
 int run_explain(const std::string& code, ExplanationForm form, const Output& output);
 
-/// Says to a person at a terminal where more is told of `codes`: those that have a page.
-void point_to_explanations(const std::vector<std::string>& codes, const Output& output);
+/// Says to a person at a terminal where more is told of `codes`, those that have a page, and of
+/// `warnings`.
+void point_to_explanations(std::vector<std::string> codes, std::span<const Warning> warnings,
+                           const Output& output);
 
 /// Says it on standard error.
 void note_on_error(const Warning& note);

@@ -119,9 +119,8 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
   emit(
       output, [&] { return optimize_text(file, answer, style_for(output)); },
       [&] { return optimize_json(file, answer); }, [&] { return optimize_csv(answer); });
-  std::vector<std::string> codes{std::string(limit_name(answer.result.limited_by))};
-  for (const Warning& warning : all_warnings(file)) codes.emplace_back(warning_code(warning.kind));
-  point_to_explanations(codes, output);
+  point_to_explanations({std::string(limit_name(answer.result.limited_by))}, all_warnings(file),
+                        output);
   return answer.result.feasible ? done : answer_is_no;
 }
 
@@ -138,6 +137,7 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
   emit(
       output, [&] { return evaluate_text(file, table, style_for(output)); },
       [&] { return evaluate_json(file, table); }, [&] { return evaluate_csv(table); });
+  point_to_explanations({}, all_warnings(file), output);
   return done;
 }
 
@@ -159,6 +159,7 @@ int run_design(const SpecOptions& spec, const DesignRequest& request, const Outp
       output, [&] { return design_text(file, request, answer, style_for(output)); },
       [&] { return design_json(file, request, answer); },
       [&] { return design_csv(request, answer); });
+  point_to_explanations({}, design_warnings(file, answer), output);
   return answer.answer.feasible ? done : answer_is_no;
 }
 
@@ -170,6 +171,11 @@ int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_
   emit(
       output, [&] { return envelope_text(file, answer, style_for(output)); },
       [&] { return envelope_json(file, answer); }, [&] { return envelope_csv(answer); });
+  std::vector<std::string> codes;
+  for (const ReachResult& result : answer.greatest) {
+    if (result.end && result.end->bounded) codes.emplace_back(limit_name(result.end->limit));
+  }
+  point_to_explanations(std::move(codes), all_warnings(file), output);
   return answer.any() ? done : answer_is_no;
 }
 
@@ -203,6 +209,11 @@ int run_shape(const ShapeOptions& options, const Output& output) {
       [&] { return cable_shape_text(asked.file, asked.area, request, answer, style_for(output)); },
       [&] { return cable_shape_json(asked.file, asked.area, answer); },
       [&] { return cable_shape_csv(answer); });
+  std::vector<std::string> codes;
+  if (answer.outcome != CableOutcome::hangs) {
+    codes.emplace_back(cable_outcome_names()[static_cast<std::size_t>(answer.outcome)]);
+  }
+  point_to_explanations(std::move(codes), spec_warnings(asked.file), output);
   return answer.outcome == CableOutcome::hangs && answer.hangs_free ? done : answer_is_no;
 }
 
@@ -215,8 +226,7 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
     try {
       const DesignFile file = read_design(name, overrides);
       text += printable(file.file) + ": valid\n";
-      std::vector<Warning> warnings = file.warnings;
-      if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
+      const std::vector<Warning> warnings = spec_warnings(file);
       for (const Warning& warning : warnings) {
         text += "  Note: " + printable(warning.sentence) + "\n";
       }

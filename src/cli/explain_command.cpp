@@ -23,8 +23,10 @@ int run_explain(const std::string& code, ExplanationForm form, const Output& out
   return done;
 }
 
-void point_to_explanations(const std::vector<std::string>& codes, const Output& output) {
+void point_to_explanations(std::vector<std::string> codes, std::span<const Warning> warnings,
+                           const Output& output) {
   if (output.format != Format::table || !output.file.empty() || !shows_progress()) return;
+  for (const Warning& warning : warnings) codes.emplace_back(warning_code(warning.kind));
   std::vector<std::string> told;
   for (const std::string& code : codes) {
     if (find_explanation(code) == nullptr || std::ranges::count(told, code) > 0) continue;

@@ -187,13 +187,6 @@ DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
                       flown_as(options.flight, design), logs_in_files(), note_on_error);
 }
 
-/// The conductor that rules are held against: the spec's own, else the optimum, if there is one.
-std::optional<double> ruled_area(const DesignOptimum& optimum) {
-  if (optimum.design.tether.cross_section) return optimum.design.tether.cross_section;
-  if (!optimum.result.feasible) return std::nullopt;
-  return optimum.result.area;
-}
-
 std::string shell_word(std::string_view word) {
   constexpr std::string_view plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,%+@-";

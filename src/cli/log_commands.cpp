@@ -231,6 +231,7 @@ int run_drag(const DragOptions& options, const Output& output) {
   emit(
       output, [&] { return drag_text(result, style_for(output)); },
       [&] { return drag_json(result, notes); }, [&] { return drag_csv(result); });
+  point_to_explanations({}, notes, output);
   return done;
 }
 
@@ -262,12 +263,14 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   }
   tell(told, planned ? options.next_flight_file : "", output);
   std::vector<std::string> codes;
+  std::vector<Warning> notes;
   for (const auto* diagnosis :
        {told.flight ? &*told.flight : nullptr, told.power ? &*told.power : nullptr}) {
     if (diagnosis == nullptr) continue;
     for (const Finding& finding : diagnosis->findings) codes.push_back(finding.effect);
+    notes.insert(notes.end(), diagnosis->notes.begin(), diagnosis->notes.end());
   }
-  point_to_explanations(codes, output);
+  point_to_explanations(codes, notes, output);
   return told.next_flight && !planned && !told.next_flight->undecided.empty() ? answer_is_no : done;
 }
 

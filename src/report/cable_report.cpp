@@ -150,9 +150,7 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   add_hover(hovers, "straight", study.straight);
   out += TitledTable{"The drone holding its place", hovers}.text(style);
   out += wrapped(difference_sentence(study));
-  if (const auto drag = drag_estimate_warning(file.design)) {
-    out += wrapped("Note: " + drag->sentence);
-  }
+  for (const Warning& warning : spec_warnings(file)) out += wrapped("Note: " + warning.sentence);
   TextTable stations({"along\nm", "x\nm", "y\nm", "height\nm", "tension\nN"});
   for (const CablePoint& p : stations_of(study.shape)) {
     stations.add({fixed(p.s, 2), fixed(p.position.x, 2), fixed(p.position.y, 2),
@@ -200,6 +198,7 @@ ordered_json cable_shape_json(const DesignFile& file, double area, const ShapeSt
                    {"drone_m", vector_json(study.drone)},
                    {"wind_m_s", vector_json(study.air.wind)}};
   add_estimates(out, file.design);
+  add_warnings(out, spec_warnings(file));
   if (study.outcome != CableOutcome::hangs) return out;
   out["length_m"] = study.loads.length;
   out["hangs_free"] = study.hangs_free;

@@ -140,20 +140,26 @@ std::string confidence_text(const DesignStudy& study) {
                             minimum.agreeing >= 2 ? "" : ": there may be a better one elsewhere");
 }
 
-/// What of the design is an estimate, and by how much it may be off.
-std::vector<std::string> estimate_sentences(const Design& design) {
-  std::vector<std::string> out;
-  if (const auto percent = power_uncertainty_percent(design)) {
-    out.push_back(
-        fmt::format("Note: the motor is an estimate, not measured: its power may be off by about "
-                    "{} % either way (power_uncertainty_percent)",
-                    significant(*percent, 3)));
-  }
-  if (const auto drag = drag_estimate_warning(design)) out.push_back("Note: " + drag->sentence);
-  return out;
-}
-
 }  // namespace
+
+std::vector<Warning> design_warnings(const DesignFile& file, const DesignStudy& study) {
+  const bool motor_chosen = study.problem.frees("drone.motor");
+  DesignFile found = file;
+  found.design = study.answer.best.design;
+  if (motor_chosen) {
+    found.warnings.clear();
+    if (const auto percent = power_uncertainty_percent(found.design)) {
+      found.warnings.push_back(
+          {WarningKind::motor_estimated,
+           fmt::format("the motor is an estimate, not measured: its power may be off by about {} % "
+                       "either way (power_uncertainty_percent)",
+                       significant(*percent, 3))});
+    }
+  }
+  std::vector<Warning> warnings = all_warnings(found);
+  if (motor_chosen) warnings.push_back(motor_mass_warning());
+  return warnings;
+}
 
 std::string design_text(const DesignFile& file, const DesignRequest& request,
                         const DesignStudy& study, const TextStyle& style) {
@@ -189,10 +195,9 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
       out += wrapped(sentence);
     }
   }
-  for (const std::string& sentence : estimate_sentences(answer.best.design)) {
-    out += wrapped(sentence);
+  for (const Warning& warning : design_warnings(file, study)) {
+    out += wrapped("Note: " + warning.sentence);
   }
-  if (study.problem.frees("drone.motor")) out += wrapped("Note: " + motor_mass_warning().sentence);
   if (!study.prices.empty()) {
     out += "\n" + style.bold("What binds, and what more of it would change") + "\n";
     for (const ShadowPrice& price : study.prices) {
@@ -238,7 +243,7 @@ ordered_json design_json(const DesignFile& file, const DesignRequest& request,
   const bool exists = std::isfinite(answer.best.area);
   ordered_json out{
       {"name", file.name},
-      {"status", answer.feasible ? "optimal" : "infeasible"},
+      {"status", status_name(answer.feasible)},
       {"minimize", request.minimize},
       {"value", number_or_null(answer.feasible ? answer.minimum.value : nan)},
       {"free", free_values(study, answer.values)},
@@ -259,6 +264,7 @@ ordered_json design_json(const DesignFile& file, const DesignRequest& request,
       {"pareto", front},
       {"spec", answer.feasible ? ready_spec(file, study) : ordered_json(nullptr)}};
   add_estimates(out, answer.best.design);
+  add_warnings(out, design_warnings(file, study));
   if (!answer.feasible) {
     out["missed"] = json_list(answer.missed, [](const DemandState& demand) {
       return ordered_json{{"demand", demand.name},

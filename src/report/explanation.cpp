@@ -180,7 +180,7 @@ std::string_view group_title(CodeGroup group) { return words_of(group).title; }
 std::vector<std::string> codes_of(CodeGroup group) {
   switch (group) {
     case CodeGroup::answers:
-      return {std::string(status_name(true)), std::string(status_name(false))};
+      return as_strings(design_status_names());
     case CodeGroup::limits:
       return limits_and_demands();
     case CodeGroup::warnings: {

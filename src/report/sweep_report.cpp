@@ -88,7 +88,7 @@ void put_row(Row& row, std::span<const SweepAxis> axes, const SweepRow& swept) {
     }
   }
   const bool limited = !(outcome.given_area && outcome.feasible);
-  row.words(!outcome.feasible ? "infeasible" : outcome.given_area ? "feasible" : "optimal");
+  row.words(status_name(outcome.feasible, outcome.given_area));
   row.words(limited ? limit_name(outcome.limited_by) : "");
   row.words(limited ? condition_name(outcome.limiting_condition) : "");
   row.number(outcome.area() / unit::square_millimetre);
@@ -259,8 +259,7 @@ SweepRecords::SweepRecords(std::span<const SweepAxis> axes) : axes_(axes.begin()
     limits.push_back(limit_name(static_cast<Limit>(i)));
   }
   RecordColumn* words = &columns_[axes_.size()];  // the first three results
-  words[0].characters =
-      longest(std::array<std::string_view, 3>{"infeasible", "feasible", "optimal"});
+  words[0].characters = longest(design_status_names());
   words[1].characters = longest(limits);
   words[2].characters =
       longest(std::array{condition_name(Condition::hover), condition_name(Condition::forward)});

@@ -55,7 +55,15 @@ std::string_view limit_name(Limit limit) {
   return names.at(static_cast<std::size_t>(limit));
 }
 
-std::string_view status_name(bool feasible) { return feasible ? "optimal" : "infeasible"; }
+namespace {
+constexpr std::array<std::string_view, 3> statuses{"optimal", "feasible", "infeasible"};
+}  // namespace
+
+std::string_view status_name(bool feasible, bool given_cable) {
+  return statuses.at(!feasible ? 2 : given_cable ? 1 : 0);
+}
+
+std::span<const std::string_view> design_status_names() { return statuses; }
 
 std::vector<NamedResult> optimum_results(const Optimization& result) {
   std::vector<NamedResult> results{

@@ -135,6 +135,12 @@ std::size_t RuleStudy::count(RuleVerdict verdict) const {
   return static_cast<std::size_t>(std::ranges::count(checks, verdict, &RuleCheck::verdict));
 }
 
+std::optional<double> ruled_area(const DesignOptimum& optimum) {
+  if (optimum.design.tether.cross_section) return optimum.design.tether.cross_section;
+  if (!optimum.result.feasible) return std::nullopt;
+  return optimum.result.area;
+}
+
 RuleValue rule_value(const RuleRequest& request, RuleFigure figure) {
   const Design& design = request.design;
   const auto mass = masses(request);

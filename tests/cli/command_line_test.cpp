@@ -79,6 +79,16 @@ TEST_CASE("the manual page has every command") {
   CHECK_THAT(page.out, Contains("\\-\\-set PATH=VALUE"));
 }
 
+TEST_CASE("the list of changes names every command, and README shows each that answers") {
+  const std::string changes = file_text(project_file("CHANGELOG.md"));
+  const std::string readme = file_text(project_file("README.md"));
+  REQUIRE(commands().size() > 20);
+  for (const std::string& name : commands()) {
+    CHECK_THAT(changes, Contains("`" + name + "`"));
+    CHECK_THAT(readme, Contains("tethercalc " + name) || Contains("`" + name));
+  }
+}
+
 TEST_CASE("bash completes commands, options, fields and names of the library") {
   CHECK_THAT(completed({"tethercalc", "op"}), Contains("\noptimize\n") && !Contains("sweep"));
   CHECK_THAT(completed({"tethercalc", "sweep", "--sa"}), Contains("\n--sample\n"));

@@ -8,7 +8,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 PUBLISHED = EXAMPLES / "holybro-x500.json"
-COMMAND = os.environ.get("TETHERCALC_COMMAND", str(ROOT / "build/python/tethercalc"))
+COMMAND = os.environ.get("TETHERCALC_COMMAND", str(ROOT / "build/release/tethercalc"))
 
 
 def command(*arguments: object) -> str:

@@ -266,6 +266,7 @@ class Studies(unittest.TestCase):
             (tethercalc.evaluate(PUBLISHED, ["AWG18", 1.5]), ["evaluate", PUBLISHED, "--area-mm2", "AWG18,1.5"]),
             (tethercalc.compare(PUBLISHED, "alike"), ["compare", PUBLISHED, "--motors", "alike"]),
             (tethercalc.envelope(given), ["envelope", PUBLISHED, *area]),
+            (tethercalc.rules(PUBLISHED, "us"), ["rules", PUBLISHED, "--rules", "us"]),
             (tethercalc.shape(given, wind_m_s=8), ["shape", PUBLISHED, "--wind", 8, *area]),
             (
                 tethercalc.design(PUBLISHED, {"supply.voltage_V": "40..100"}),
@@ -287,6 +288,7 @@ class Studies(unittest.TestCase):
             tethercalc.compare: tethercalc.compare(PUBLISHED, "alike"),
             tethercalc.envelope: tethercalc.envelope(PUBLISHED, 1.1),
             tethercalc.shape: tethercalc.shape(PUBLISHED, area_mm2=1.1),
+            tethercalc.rules: tethercalc.rules(PUBLISHED, "eu-c3"),
             tethercalc.design: tethercalc.design(PUBLISHED, {"supply.voltage_V": "70..75"}),
             tethercalc.drag: tethercalc.drag(
                 flight, 1550, air_density_kg_m3=1.225, pitch_offset_deg=0.8
@@ -305,6 +307,17 @@ class Studies(unittest.TestCase):
         for name in ("status", "limited_by", "cross_section_mm2", "forward.total_power_W"):
             self.assertIn(name, tethercalc.sweep.__doc__)
             self.assertIn(name, columns)
+
+    def test_a_code_is_explained_as_by_the_command(self):
+        self.assertEqual(tethercalc.explain("propwash"), command("explain", "propwash"))
+        self.assertEqual(tethercalc.explain(), command("explain"))
+        for finding in tethercalc.diagnose(
+            PUBLISHED, flight=EXAMPLES / "simulated-flight.csv", mass_g=1550
+        ).findings:
+            self.assertIn(finding.title, tethercalc.explain(finding.effect))
+        with self.assertRaises(tethercalc.InputError) as caught:
+            tethercalc.explain("propwosh")
+        self.assertIn("propwash", str(caught.exception))
 
     def test_a_figure_is_the_plot(self):
         svg = tethercalc.optimize(PUBLISHED).figure().svg

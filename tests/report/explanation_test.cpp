@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "support/printed_codes.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -167,10 +168,17 @@ TEST_CASE("codes in recorded results and in the outputs that documents show have
       "\"(limited_by|outcome|effect|status)\":\\s*(\\{\\s*\"value\":\\s*)?\"([a-z_]+)\"");
   const std::filesystem::path root = TETHERCALC_SOURCE_DIR;
   std::size_t seen = 0;
-  for (const char* folder : {"docs", "examples/reference"}) {
+  test::Codes in_rows;
+  for (const char* folder : {".", "docs", "examples/reference"}) {
     for (const auto& entry : std::filesystem::directory_iterator(root / folder)) {
       if (!entry.is_regular_file()) continue;
       const std::string text = contents_of(entry.path());
+      // Rows of CSV, each below the last line that names columns.
+      for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
+        std::istringstream lines(text.substr(at));
+        test::collect_csv_codes(lines, in_rows);
+        if (text.find('\n', at) == text.npos) break;
+      }
       for (auto it = std::sregex_iterator(text.begin(), text.end(), code);
            it != std::sregex_iterator(); ++it) {
         INFO(entry.path().string() << ": " << (*it)[3]);
@@ -180,6 +188,11 @@ TEST_CASE("codes in recorded results and in the outputs that documents show have
     }
   }
   CHECK(seen > 20);
+  CHECK(in_rows.count("available_power") == 1);  // of a sweep in README.md
+  for (const std::string& printed : in_rows) {
+    INFO(printed);
+    CHECK(find_explanation(printed) != nullptr);
+  }
 }
 
 TEST_CASE("a misspelt code is refused with the closest one") {

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "support/printed_codes.hpp"
+
 namespace tethercalc::test {
 
 /// A folder that is removed with everything in it at the end of its scope.
@@ -80,14 +82,17 @@ inline Ran run_shell(const std::string& line) {
           file_text(err)};
 }
 
-/// Runs `tethercalc` with `arguments`, `input` on standard input.
+/// Runs `tethercalc` with `arguments`, `input` on standard input. Every code of its answer has a
+/// page, but for effects of files, which nobody but their authors can explain.
 inline Ran run_tethercalc(const std::vector<std::string>& arguments,
                           const std::string& input = {}) {
   const TemporaryFolder folder;
   write_file(folder.path() / "in", input);
   std::string line = shell_quoted(TETHERCALC_COMMAND);
   for (const std::string& argument : arguments) line += " " + shell_quoted(argument);
-  return run_shell(line + " <" + shell_quoted((folder.path() / "in").string()));
+  Ran run = run_shell(line + " <" + shell_quoted((folder.path() / "in").string()));
+  if (std::count(arguments.begin(), arguments.end(), "--effects") == 0) require_pages(run.out);
+  return run;
 }
 
 /// A file of the project by its path from the root.

@@ -147,6 +147,11 @@ struct Answer {
                                                  const DesignRequest& request,
                                                  const DesignStudy& study);
 
+/// What is to be known of the design found. Of a motor that the search chose the reader of the spec
+/// noted nothing: that it is an estimate is told, and what no comparison of motors counts.
+[[nodiscard]] std::vector<Warning> design_warnings(const DesignFile& file,
+                                                   const DesignStudy& study);
+
 /// A header and one row: the free fields, whether the design is feasible, and the objective.
 [[nodiscard]] std::string design_csv(const DesignRequest& request, const DesignStudy& study);
 

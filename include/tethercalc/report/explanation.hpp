@@ -14,7 +14,7 @@ namespace tethercalc {
 
 /// What a code is of.
 enum class CodeGroup {
-  answers,         ///< `status`: whether there is an optimum
+  answers,         ///< `status`: whether there is an optimum, or a given cable will do
   limits,          ///< `limited_by` and demands
   warnings,        ///< `warning_codes` and `note_codes`
   verdicts,        ///< what a diagnosis says of an effect

@@ -28,7 +28,9 @@ struct OperatingPointField {
 
 [[nodiscard]] std::string_view condition_name(Condition condition);  ///< "hover", "forward"
 [[nodiscard]] std::string_view limit_name(Limit limit);              ///< "minimum_power", …
-[[nodiscard]] std::string_view status_name(bool feasible);           ///< "optimal", "infeasible"
+/// "optimal" or "infeasible"; of a cable that was given, "feasible" or "infeasible".
+[[nodiscard]] std::string_view status_name(bool feasible, bool given_cable = false);
+[[nodiscard]] std::span<const std::string_view> design_status_names();  ///< all three
 
 /// A number in its practical unit, or a word; nothing where the result does not exist.
 using ResultValue = std::variant<std::monostate, double, std::string>;

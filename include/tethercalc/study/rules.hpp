@@ -106,6 +106,11 @@ struct RuleRequest {
   std::optional<double> area;  ///< m² of one conductor; nothing: what needs it is missing
 };
 
+struct DesignOptimum;
+
+/// The conductor that rules are held against: the spec's own, else the optimum, if there is one.
+[[nodiscard]] std::optional<double> ruled_area(const DesignOptimum& optimum);
+
 /// The answer.
 struct RuleStudy {
   RuleBook book;                  ///< as asked about
