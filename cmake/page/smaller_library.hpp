@@ -1,5 +1,5 @@
-// What would bring the streams and locales of the C++ library into the page's program, without them.
-// Force-included where that is compiled.
+// What would bring the streams and locales of the C++ library into the page's program, without
+// them. Force-included where that is compiled.
 #pragma once
 
 #include <string>
