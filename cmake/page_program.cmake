@@ -22,6 +22,22 @@ file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
 list(FILTER data_files EXCLUDE REGEX "/(schema|rules)/")
 list(SORT data_files)
 
+# A tenth of the program would be the destruction of what an exception leaves behind on its way. Where none is
+# caught that is left out; page/call.js begins anew with a fresh program before what is left over counts.
+set(catches "catch \\(|succeeds\\(")
+set(catching_sources)
+foreach(file IN LISTS physics_sources word_sources)
+  file(STRINGS "${file}" caught REGEX "${catches}")
+  if(caught)
+    list(APPEND catching_sources "${file}")
+  endif()
+endforeach()
+list(REMOVE_ITEM physics_sources ${catching_sources})
+list(REMOVE_ITEM word_sources ${catching_sources})
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+  ${physics_sources} ${word_sources} ${catching_sources})
+set(without_cleaning -fignore-exceptions)
+
 # A room is compiled as one file, as in src/CMakeLists.txt.
 function(compile_for_page target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -39,13 +55,14 @@ function(compile_for_page target)
     FMT_HEADER_ONLY FMT_USE_LONG_DOUBLE=0 TETHERCALC_WITHOUT_DESIGN_SEARCH NDEBUG)
   # Exceptions are caught by their types without RTTI, too.
   target_compile_options(${target} PRIVATE -fwasm-exceptions -fno-rtti -fno-math-errno
-    -Wno-defaulted-function-deleted "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp")
+    -Wno-defaulted-function-deleted "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp"
+    "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/smaller_library.hpp")
 endfunction()
 
 # What sliders wait for is optimised for speed, the rest for its size.
 add_library(page_physics STATIC ${physics_sources})
 compile_for_page(page_physics)
-target_compile_options(page_physics PRIVATE -O2)
+target_compile_options(page_physics PRIVATE -O2 ${without_cleaning})
 
 # Emscripten 3.1.6 inlines nothing at -Oz unless told to, and calls are larger than most of what they call.
 set(small -Oz -finline-functions)
@@ -54,12 +71,15 @@ embed_data(page_words ${data_files})
 include(src/page/example_specs.cmake)
 embed_files(page_words example_specs "${PROJECT_SOURCE_DIR}/examples" ${example_specs})
 compile_for_page(page_words)
-target_compile_options(page_words PRIVATE ${small})
+target_compile_options(page_words PRIVATE ${small} ${without_cleaning})
+add_library(page_catching STATIC ${catching_sources})
+compile_for_page(page_catching)
+target_compile_options(page_catching PRIVATE ${small})
 
 add_executable(page_program "${source}/page/browser_program.cpp")
 compile_for_page(page_program)
 target_compile_options(page_program PRIVATE ${small})
-target_link_libraries(page_program PRIVATE page_words page_physics)
+target_link_libraries(page_program PRIVATE page_words page_catching page_physics)
 set_target_properties(page_program PROPERTIES SUFFIX .js LINK_DEPENDS "${source}/page/call.js")
 target_link_options(page_program PRIVATE -Oz -fwasm-exceptions --no-entry
   "SHELL:--extern-post-js ${source}/page/call.js"

@@ -25,12 +25,11 @@ const module = (name, contents, loader) => ({ name, setup(builder) {
   builder.onLoad({ filter: /.*/, namespace: name }, () => ({ contents, loader }));
 } });
 const program = module('tethercalc-program', `${readFileSync(options.loader, 'utf8')}\nexport default loadCalculator;`, 'js');
-const text = async (entry, plugins = []) => (await build({ bundle: true, minify: true, format: 'iife', target: 'es2022',
+const text = async (entry) => (await build({ bundle: true, minify: true, format: 'iife', target: 'es2022',
   write: false, charset: 'utf8', legalComments: 'inline', logLevel: 'error', platform: 'browser', external: ['fs', 'path', 'crypto'],
-  plugins: [program, ...plugins], entryPoints: [join(here, 'src', entry)] })).outputFiles[0].text;
+  plugins: [program], entryPoints: [join(here, 'src', entry)] })).outputFiles[0].text;
 
-const worker = await text('worker.js');
-const script = inlined(await text('main.js', [module('worker-source', worker, 'text')]));
+const script = inlined(await text('entry.js'));
 const css = (await build({ stdin: { contents: readFileSync(join(here, 'node_modules/uplot/dist/uPlot.min.css'), 'utf8') +
   readFileSync(join(here, 'styles.css'), 'utf8'), loader: 'css' }, minify: true, write: false })).outputFiles[0].text;
 

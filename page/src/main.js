@@ -10,7 +10,6 @@ import { buildLearn } from './learn.js';
 import { editObject, editTable } from './value_dialog.js';
 import { packedProgram } from './packed_program.js';
 import { problemWords } from './problems.js';
-import workerSource from 'worker-source';
 
 const views = [['sizes', 'Sizes'], ['whatif', 'What if'], ['motors', 'Motors'], ['envelope', 'Envelope'],
   ['cable', 'Cable'], ['learn', 'Learn from a log'], ['spec', 'Spec']];
@@ -450,15 +449,15 @@ function wire() {
 }
 
 /** A fresh worker, so that one that was stopped leaves nothing behind. */
-function startWorker(program) {
-  const address = URL.createObjectURL(new Blob([workerSource], { type: 'text/javascript' }));
+function startWorker(program, script) {
+  const address = URL.createObjectURL(new Blob([script], { type: 'text/javascript' }));
   const worker = new Worker(address);
   URL.revokeObjectURL(address);
   worker.postMessage({ program });
   return worker;
 }
 
-async function start() {
+async function begin(script) {
   let theme = 'auto';
   try { theme = localStorage.getItem('theme') ?? 'auto'; } catch { /* as above */ }
   const program = await packedProgram(byId('program'));
@@ -471,7 +470,7 @@ async function start() {
   controls = buildControls(byId('fields'), about, { change, edit });
   const learnPlace = el('div');
   places.set('learn', learnPlace);
-  learn = buildLearn(learnPlace, { startWorker: () => startWorker(program), spec: () => state.spec,
+  learn = buildLearn(learnPlace, { startWorker: () => startWorker(program, script), spec: () => state.spec,
     take(spec) { setSpec(spec); say('The design now has what the log shows.'); scrollTo({ top: 0 }); } });
   wire();
   setTheme(themes.includes(theme) ? theme : 'auto');
@@ -488,7 +487,8 @@ async function start() {
   performance.mark('first answer');
 }
 
-start().catch((error) => {
+/** `script`: this one's text, for workers. */
+export const start = (script) => begin(script).catch((error) => {
   setText(byId('headline'), 'The calculator does not start in this browser.');
   byId('notices').replaceChildren(el('p', { class: 'note bad' },
     `It needs WebAssembly and CompressionStream, as current browsers have them (${error?.message ?? error}).`));

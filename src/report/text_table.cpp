@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "report/characters.hpp"
 
@@ -88,10 +87,14 @@ std::string significant(double value, int digits) {
 }
 
 std::string wrapped(const std::string& text, std::size_t width, const std::string& indent) {
-  std::istringstream words(text);
+  // Not a stream: it would bring the library's locales into the page's program.
+  constexpr const char* blanks = " \t\n\v\f\r";
   std::string out;
   std::string line = indent;
-  for (std::string word; words >> word;) {
+  for (std::size_t begin = text.find_first_not_of(blanks); begin != std::string::npos;) {
+    const std::size_t end = std::min(text.find_first_of(blanks, begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    begin = text.find_first_not_of(blanks, end);
     const bool first = line.size() == indent.size();
     if (!first && columns_of(line) + 1 + columns_of(word) > int(width)) {
       out += line + "\n";

@@ -151,6 +151,11 @@ try {
   for (const hostile of ['', '{', '\u0000', '[['.repeat(5000), JSON.stringify({ ask: 'optimize', spec: '{'.repeat(100000) })]) {
     assert.ok(JSON.parse(call(hostile)).problems);
   }
+  // What exceptions leave behind goes with the program, which begins anew between calls.
+  for (let i = 0; i < 300; ++i) {
+    assert.ok(JSON.parse(call(JSON.stringify({ ask: 'optimize', spec: '{"drone": {"mass_g": -1}}' }))).problems);
+    await new Promise((resume) => { setImmediate(resume); });
+  }
   assert.equal(ask({ ask: 'optimize', spec }).headline, 'Fly 1.089 mm² of aluminium.');
   console.log(`${numbers} numbers compared, the greatest difference ${greatest.toExponential(1)}`);
 } finally {
