@@ -172,9 +172,11 @@ TEST_CASE("a log that is cut off while it is read ends the program with a reason
     }
     write_file(log, text);
   }
-  const Ran ran =
-      run_shell(command + " drag " + shell_quoted(log) +
-                " --mass-g 1500 & sleep 0.05; truncate -s 100 " + shell_quoted(log) + "; wait $!");
+  // Cut off once it is mapped: how long a program takes to begin is not known.
+  const std::string mapped =
+      "for k in $(seq 1000); do grep -q long.csv /proc/$!/maps && break; sleep 0.01; done";
+  const Ran ran = run_shell(command + " drag " + shell_quoted(log) + " --mass-g 1500 & " + mapped +
+                            "; truncate -s 100 " + shell_quoted(log) + "; wait $!");
   CHECK(ran.exit_code == 2);
   CHECK_THAT(ran.err, Contains("long.csv: was shortened while it was read"));
 }
