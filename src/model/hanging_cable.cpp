@@ -139,32 +139,46 @@ constexpr std::array<std::array<double, stages - 1>, stages> stage_weights{{
     {-1777. / 4100, 0, 0, -341. / 164, 4496. / 1025, -289. / 82, 2193. / 4100, 51. / 82, 33. / 164,
      12. / 41, 1},
 }};
+constexpr std::size_t first_weighed = 5;
 constexpr std::array<double, stages> step_weights{
     0, 0, 0, 0, 0, 34. / 105, 9. / 35, 9. / 35, 9. / 280, 9. / 280, 41. / 840, 41. / 840};
 
 /// One step of `h`. `change` writes how a state changes, by its first `rows`.
 template <int rows, class StateType, class System>
 void take_step(const System& change, StateType& state, double h) {
+  constexpr Eigen::Index columns = StateType::ColsAtCompileTime;
   std::array<StateType, stages> changes;
+  // Number by number: a pair of numbers that was just written one by one is slow to load at once.
   const auto take_stage = [&]<std::size_t stage, std::size_t... before>(
-                              std::integral_constant<std::size_t, stage>,
-                              std::index_sequence<before...>) {
+      std::integral_constant<std::size_t, stage>, std::index_sequence<before...>) {
     StateType at = state;
-    const auto add = [&]<std::size_t j>(std::integral_constant<std::size_t, j>) {
-      constexpr double weight = stage_weights[stage][j];
-      if constexpr (weight != 0) {
-        at.template topRows<rows>() += (h * weight) * changes[j].template topRows<rows>();
+    for (Eigen::Index column = 0; column < columns; ++column) {
+      for (Eigen::Index row = 0; row < rows; ++row) {
+        double sum = 0;
+        [[maybe_unused]] const auto add =
+            [&]<std::size_t j>(std::integral_constant<std::size_t, j>) {
+              constexpr double weight = stage_weights[stage][j];
+              if constexpr (weight != 0) sum += weight * changes[j](row, column);
+            };
+        (add(std::integral_constant<std::size_t, before>()), ...);
+        at(row, column) += h * sum;
       }
-    };
-    (add(std::integral_constant<std::size_t, before>()), ...);
+    }
     change(at, changes[stage]);
   };
   [&]<std::size_t... stage>(std::index_sequence<stage...>) {
     (take_stage(std::integral_constant<std::size_t, stage>(), std::make_index_sequence<stage>()),
      ...);
-  }(std::make_index_sequence<stages>());
-  for (std::size_t j = 0; j < stages; ++j) {
-    if (step_weights[j] != 0) state += (h * step_weights[j]) * changes[j];
+  }
+  (std::make_index_sequence<stages>());
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    for (Eigen::Index row = 0; row < all_rows; ++row) {
+      double sum = 0;
+      for (std::size_t j = first_weighed; j < stages; ++j) {
+        sum += step_weights[j] * changes[j](row, column);
+      }
+      state(row, column) += h * sum;
+    }
   }
 }
 
@@ -272,7 +286,8 @@ struct CableSolver::Problem {
     w.velocity = air_velocity(p.position);
     w.along = dot(w.velocity, p.direction);
     w.normal = w.velocity - w.along * p.direction;
-    w.speed = norm(w.normal);
+    // The direction has the length 1. Its part along the wind is known before `normal`.
+    w.speed = std::sqrt(std::max(0.0, dot(w.velocity, w.velocity) - w.along * w.along));
     w.drag = drag * w.speed;
     w.drag_slope = drag;
     if (reynolds > 0) {
@@ -281,7 +296,7 @@ struct CableSolver::Problem {
       w.drag_slope *= cylinder.coefficient + cylinder.slope * reynolds * w.speed;
     }
     w.load = Vector3{0, 0, weight} - w.drag * w.normal;
-    w.load_along = dot(w.load, p.direction);
+    w.load_along = weight * p.direction.z;  // drag is across the cable
     return w;
   }
   /// How far a step may go towards the corner in the drag where the wind comes along the cable.
@@ -507,20 +522,41 @@ Start moved(const Start& from, const Unknowns<n>& step) {
   return to;
 }
 
-/// Steps with one inverse, as long as each is less than a quarter of the one before. The last is
-/// taken at the ends by their derivatives.
+/// The inverse `of` how misses follow unknowns, made to hold for a step and the change of the miss
+/// that it led to (Broyden's method).
+template <int n>
+void learn(std::array<double, 49>& of, const Unknowns<n>& step, const Unknowns<n>& change) {
+  constexpr double of_rounding = 1e-7;
+  if (step.norm() < of_rounding) return;
+  Eigen::Map<Square<n>> inverse(of.data());
+  const Unknowns<n> expected = inverse * change;
+  const double along = step.dot(expected);
+  if (!(std::abs(along) > 0.5 * step.squaredNorm())) return;
+  const Square<n> correction = (step - expected) * (step.transpose() * inverse) / along;
+  inverse += correction;
+}
+
+/// Steps with one inverse, corrected by what they led to, as long as each is less than a quarter of
+/// the one before. The last is taken at the ends by their derivatives. The first may be known
+/// beforehand by the `miss` that it is to mend.
 template <int n, class Problem, class Start>
-std::optional<Start> refined(const Problem& problem, Start at) {
-  const Eigen::Map<const Square<n>> inverse(at.inverse.data());
+std::optional<Start> refined(const Problem& problem, Start at,
+                             std::optional<Unknowns<n>> miss = std::nullopt) {
   double before = 0.3;
+  Unknowns<n> last_step = Unknowns<n>::Zero();
+  Unknowns<n> last_miss = Unknowns<n>::Zero();
   for (int i = 0; i < 12; ++i) {
-    const auto ends = ends_of<n, 0>(problem, at, fine);
-    if (!ends) return std::nullopt;
-    const Unknowns<n> step = -(inverse * miss_of<n>(problem, *ends));
+    std::optional<EndStates<0>> ends;
+    if (!miss) {
+      ends = ends_of<n, 0>(problem, at, fine);
+      if (!ends) return std::nullopt;
+      miss = miss_of<n>(problem, *ends);
+      if (i > 0) learn<n>(at.inverse, last_step, *miss - last_miss);
+    }
+    const Unknowns<n> step = -(Eigen::Map<const Square<n>>(at.inverse.data()) * *miss);
     const double size = size_of<n>(step);
     if (!(size < 0.25 * before)) return std::nullopt;
-    // Each step leaves of the error what it left of the step before, a quarter at most.
-    if (size < small_step || (i > 0 && size < 1e-5 && size * size < 0.02 * small_step * before)) {
+    if (ends && size < small_step) {
       const Point station = point_at(ends->station.data());
       const Point drone = point_at(ends->drone.data());
       at = moved<n>(at, step);
@@ -535,7 +571,11 @@ std::optional<Start> refined(const Problem& problem, Start at) {
       return at;
     }
     at = moved<n>(at, step);
-    before = size;
+    last_step = step;
+    last_miss = *miss;
+    miss.reset();
+    // A step that was known beforehand is not the size of an error.
+    before = ends ? size : std::max(size, 0.1 * before);
   }
   return std::nullopt;
 }
@@ -784,6 +824,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
   const bool alike = last_ && paid_out.length.has_value() == paid_out_.length.has_value() &&
                      air.profile == air_.profile &&
                      (air.drone_velocity == Vector3{}) == (air_.drone_velocity == Vector3{});
+  const bool only_the_drone_moved = cable == cable_ && air == air_ && paid_out == paid_out_;
   cable_ = cable;
   air_ = air;
   paid_out_ = paid_out;
@@ -805,8 +846,18 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
                       cable.axial_stiffness);
     return still_ ? CableOutcome::hangs : CableOutcome::not_found;
   }
-  if (last_) last_ = in_units_of(p, before, *last_);
-  if (last_) last_ = p.even() ? refined<in_even>(p, *last_) : refined<in_any>(p, *last_);
+  if (last_) {
+    last_ = in_units_of(p, before, *last_);
+    const auto from_last = [&]<int n>(std::integral_constant<int, n>) {
+      std::optional<Unknowns<n>> miss;
+      if (only_the_drone_moved) {
+        miss = equations<n>({}, (before.metre / p.metre) * before.drone - p.drone, 0);
+      }
+      return refined<n>(p, *last_, miss);
+    };
+    last_ = p.even() ? from_last(std::integral_constant<int, in_even>())
+                     : from_last(std::integral_constant<int, in_any>());
+  }
   if (!last_) last_ = anew<Last>(p);
   if (last_) return CableOutcome::hangs;
   return p.winch && winch_is_too_weak(p) ? CableOutcome::tension_too_low : CableOutcome::not_found;
