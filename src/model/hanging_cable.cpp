@@ -5,10 +5,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/numeric/odeint/algebra/array_algebra.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "model/constants.hpp"
 #include "tethercalc/model/catenary.hpp"
@@ -90,9 +89,9 @@ struct Point {
   double length = 0;
 };
 
-/// A point and `columns` of its derivatives, as numbers one after the other.
+/// A point and `columns` of its derivatives, one a column.
 template <std::size_t columns>
-using State = std::array<double, 8 * (1 + columns)>;
+using State = Eigen::Array<double, 8, 1 + static_cast<int>(columns)>;
 
 Point operator*(double k, const Point& p) {
   return {k * p.direction, k * p.tension, k * p.position, k * p.length};
@@ -111,15 +110,82 @@ void put(double* n, const Point& p) {
   n[7] = p.length;
 }
 
-/// In steps of order 8 (Fehlberg 1968, NASA TR R-287) from 0 to `end`, each as long as
-/// `longest_step` says of the state. The pair's own estimate of its error is of no use: it is zero
-/// for an integral, and places are integrals of the direction.
-template <class StateType, class System, class LongestStep>
-bool integrate(const System& system, StateType& state, double end,
+/// The numbers of a column.
+template <class StateType>
+auto* column_of(StateType& state, std::size_t k) {
+  return state.data() + 8 * k;
+}
+
+/// Of the state, what the change along the cable depends on: direction and tension where the air is
+/// the same everywhere, else the place too. The other rows are integrals.
+constexpr int all_rows = 8;
+constexpr int rows_in_even_air = 4;
+
+constexpr std::size_t stages = 12;
+/// Order 8 (Fehlberg 1968, NASA TR R-287) without the stage that his estimate of the error alone
+/// uses: it is zero for an integral, and places are integrals of the direction.
+constexpr std::array<std::array<double, stages - 1>, stages> stage_weights{{
+    {},
+    {2. / 27},
+    {1. / 36, 1. / 12},
+    {1. / 24, 0, 1. / 8},
+    {5. / 12, 0, -25. / 16, 25. / 16},
+    {1. / 20, 0, 0, 1. / 4, 1. / 5},
+    {-25. / 108, 0, 0, 125. / 108, -65. / 27, 125. / 54},
+    {31. / 300, 0, 0, 0, 61. / 225, -2. / 9, 13. / 900},
+    {2, 0, 0, -53. / 6, 704. / 45, -107. / 9, 67. / 90, 3},
+    {-91. / 108, 0, 0, 23. / 108, -976. / 135, 311. / 54, -19. / 60, 17. / 6, -1. / 12},
+    {3. / 205, 0, 0, 0, 0, -6. / 41, -3. / 205, -3. / 41, 3. / 41, 6. / 41},
+    {-1777. / 4100, 0, 0, -341. / 164, 4496. / 1025, -289. / 82, 2193. / 4100, 51. / 82, 33. / 164,
+     12. / 41, 1},
+}};
+constexpr std::size_t first_weighed = 5;
+constexpr std::array<double, stages> step_weights{
+    0, 0, 0, 0, 0, 34. / 105, 9. / 35, 9. / 35, 9. / 280, 9. / 280, 41. / 840, 41. / 840};
+
+/// One step of `h`. `change` writes how a state changes, by its first `rows`.
+template <int rows, class StateType, class System>
+void take_step(const System& change, StateType& state, double h) {
+  constexpr Eigen::Index columns = StateType::ColsAtCompileTime;
+  std::array<StateType, stages> changes;
+  // Number by number: a pair of numbers that was just written one by one is slow to load at once.
+  const auto take_stage = [&]<std::size_t stage, std::size_t... before>(
+      std::integral_constant<std::size_t, stage>, std::index_sequence<before...>) {
+    StateType at = state;
+    for (Eigen::Index column = 0; column < columns; ++column) {
+      for (Eigen::Index row = 0; row < rows; ++row) {
+        double sum = 0;
+        [[maybe_unused]] const auto add =
+            [&]<std::size_t j>(std::integral_constant<std::size_t, j>) {
+              constexpr double weight = stage_weights[stage][j];
+              if constexpr (weight != 0) sum += weight * changes[j](row, column);
+            };
+        (add(std::integral_constant<std::size_t, before>()), ...);
+        at(row, column) += h * sum;
+      }
+    }
+    change(at, changes[stage]);
+  };
+  [&]<std::size_t... stage>(std::index_sequence<stage...>) {
+    (take_stage(std::integral_constant<std::size_t, stage>(), std::make_index_sequence<stage>()),
+     ...);
+  }
+  (std::make_index_sequence<stages>());
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    for (Eigen::Index row = 0; row < all_rows; ++row) {
+      double sum = 0;
+      for (std::size_t j = first_weighed; j < stages; ++j) {
+        sum += step_weights[j] * changes[j](row, column);
+      }
+      state(row, column) += h * sum;
+    }
+  }
+}
+
+/// In steps of order 8 from 0 to `end`, each as long as `longest_step` says of the state.
+template <int rows, class StateType, class System, class LongestStep>
+bool integrate(const System& change, StateType& state, double end,
                const LongestStep& longest_step) {
-  namespace odeint = boost::numeric::odeint;
-  odeint::runge_kutta_fehlberg78<StateType, double, StateType, double, odeint::array_algebra>
-      stepper;
   double at = 0;
   for (int i = 0; i < most_steps_along; ++i) {
     const double rest = end - at;
@@ -127,10 +193,8 @@ bool integrate(const System& system, StateType& state, double end,
     if (!std::isfinite(step)) return false;
     // Two halves rather than a whole and a scrap.
     const double taken = step >= rest ? rest : 2 * step > rest ? 0.5 * rest : step;
-    stepper.do_step(system, state, at, taken);
-    if (taken == rest) {
-      return std::all_of(state.begin(), state.end(), [](double n) { return std::isfinite(n); });
-    }
+    take_step<rows>(change, state, taken);
+    if (taken == rest) return state.allFinite();
     at += taken;
   }
   return false;
@@ -222,7 +286,8 @@ struct CableSolver::Problem {
     w.velocity = air_velocity(p.position);
     w.along = dot(w.velocity, p.direction);
     w.normal = w.velocity - w.along * p.direction;
-    w.speed = norm(w.normal);
+    // The direction has the length 1. Its part along the wind is known before `normal`.
+    w.speed = std::sqrt(std::max(0.0, dot(w.velocity, w.velocity) - w.along * w.along));
     w.drag = drag * w.speed;
     w.drag_slope = drag;
     if (reynolds > 0) {
@@ -231,7 +296,7 @@ struct CableSolver::Problem {
       w.drag_slope *= cylinder.coefficient + cylinder.slope * reynolds * w.speed;
     }
     w.load = Vector3{0, 0, weight} - w.drag * w.normal;
-    w.load_along = dot(w.load, p.direction);
+    w.load_along = weight * p.direction.z;  // drag is across the cable
     return w;
   }
   /// How far a step may go towards the corner in the drag where the wind comes along the cable.
@@ -248,7 +313,8 @@ struct CableSolver::Problem {
     }
     const double pressure = drag * dot(w.velocity, w.velocity);
     if (pressure < 1e-9) return step;
-    return std::min(step, std::max(0.3 * w.speed / norm(w.velocity), accuracy.shortest));
+    const double turn = norm(w.load - w.load_along * p.direction) + 0.02;
+    return std::min(step, std::max(0.3 * w.speed / (norm(w.velocity) * turn), accuracy.shortest));
   }
   /// By σ.
   [[nodiscard]] Point change(const Point& p, const Wind& w) const {
@@ -309,22 +375,22 @@ constexpr std::size_t columns_of(int unknowns) { return static_cast<std::size_t>
 template <int unknowns, std::size_t columns, class Problem, class Start>
 std::optional<State<columns>> followed(const Problem& problem, const Start& start, double sigma,
                                        const Accuracy& accuracy) {
-  State<columns> state{};
+  State<columns> state = State<columns>::Zero();
   put(state.data(), {start.direction, start.tension, start.position, 0});
   if constexpr (columns > 0) {
     const auto sideways = across(start.direction);
-    put(&state[8], {sideways[0], 0, {}, 0});
-    put(&state[16], {sideways[1], 0, {}, 0});
-    put(&state[24], {{}, start.tension, {}, 0});
+    put(&state(0, 1), {sideways[0], 0, {}, 0});
+    put(&state(0, 2), {sideways[1], 0, {}, 0});
+    put(&state(0, 3), {{}, start.tension, {}, 0});
     if constexpr (unknowns == in_any) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        put(&state[8 * (4 + axis)], {{}, 0, axis_direction(axis), 0});
+        put(column_of(state, 4 + axis), {{}, 0, axis_direction(axis), 0});
       }
     }
   }
   if (sigma == 0) return state;
   const double sign = sigma < 0 ? -1 : 1;
-  const auto system = [&problem, sign](const State<columns>& at, State<columns>& change, double) {
+  const auto system = [&problem, sign](const State<columns>& at, State<columns>& change) {
     const Point p = point_at(at.data());
     const auto wind = problem.wind_at(p);
     put(change.data(), sign * problem.change(p, wind));
@@ -333,8 +399,8 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
       if (k > columns_of(unknowns)) {
         air_change = problem.air_change(p.position, k - 1 - columns_of(unknowns));
       }
-      put(&change[8 * k],
-          sign * problem.change_of_change(p, wind, point_at(&at[8 * k]), air_change));
+      put(column_of(change, k),
+          sign * problem.change_of_change(p, wind, point_at(column_of(at, k)), air_change));
     }
   };
   const double longest = std::min(accuracy.step, std::abs(sigma) / 3);
@@ -342,7 +408,8 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
     if (problem.steps_left && --*problem.steps_left < 0) return nan;
     return std::min(longest, problem.step_before_corner(point_at(at.data()), accuracy));
   };
-  if (!integrate(system, state, std::abs(sigma), longest_step)) return std::nullopt;
+  constexpr int rows = unknowns == in_even ? rows_in_even_air : all_rows;
+  if (!integrate<rows>(system, state, std::abs(sigma), longest_step)) return std::nullopt;
   return state;
 }
 
@@ -407,7 +474,7 @@ template <int n, std::size_t columns, class Problem, class Start>
 std::array<BothEnds, n> by_each_unknown(const Problem& problem, const EndStates<columns>& ends,
                                         const Start& start) {
   const auto derivative = [&ends](std::size_t k) {
-    return BothEnds{point_at(&ends.station[8 * k]), point_at(&ends.drone[8 * k])};
+    return BothEnds{point_at(column_of(ends.station, k)), point_at(column_of(ends.drone, k))};
   };
   const Point station = point_at(ends.station.data());
   const Point drone = point_at(ends.drone.data());
@@ -455,19 +522,41 @@ Start moved(const Start& from, const Unknowns<n>& step) {
   return to;
 }
 
-/// Steps with one inverse, as long as each is less than a quarter of the one before. The last is
-/// taken at the ends by their derivatives.
+/// The inverse `of` how misses follow unknowns, made to hold for a step and the change of the miss
+/// that it led to (Broyden's method).
+template <int n>
+void learn(std::array<double, 49>& of, const Unknowns<n>& step, const Unknowns<n>& change) {
+  constexpr double of_rounding = 1e-7;
+  if (step.norm() < of_rounding) return;
+  Eigen::Map<Square<n>> inverse(of.data());
+  const Unknowns<n> expected = inverse * change;
+  const double along = step.dot(expected);
+  if (!(std::abs(along) > 0.5 * step.squaredNorm())) return;
+  const Square<n> correction = (step - expected) * (step.transpose() * inverse) / along;
+  inverse += correction;
+}
+
+/// Steps with one inverse, corrected by what they led to, as long as each is less than a quarter of
+/// the one before. The last is taken at the ends by their derivatives. The first may be known
+/// beforehand by the `miss` that it is to mend.
 template <int n, class Problem, class Start>
-std::optional<Start> refined(const Problem& problem, Start at) {
-  const Eigen::Map<const Square<n>> inverse(at.inverse.data());
+std::optional<Start> refined(const Problem& problem, Start at,
+                             std::optional<Unknowns<n>> miss = std::nullopt) {
   double before = 0.3;
+  Unknowns<n> last_step = Unknowns<n>::Zero();
+  Unknowns<n> last_miss = Unknowns<n>::Zero();
   for (int i = 0; i < 12; ++i) {
-    const auto ends = ends_of<n, 0>(problem, at, fine);
-    if (!ends) return std::nullopt;
-    const Unknowns<n> step = -(inverse * miss_of<n>(problem, *ends));
+    std::optional<EndStates<0>> ends;
+    if (!miss) {
+      ends = ends_of<n, 0>(problem, at, fine);
+      if (!ends) return std::nullopt;
+      miss = miss_of<n>(problem, *ends);
+      if (i > 0) learn<n>(at.inverse, last_step, *miss - last_miss);
+    }
+    const Unknowns<n> step = -(Eigen::Map<const Square<n>>(at.inverse.data()) * *miss);
     const double size = size_of<n>(step);
     if (!(size < 0.25 * before)) return std::nullopt;
-    if (size < small_step) {
+    if (ends && size < small_step) {
       const Point station = point_at(ends->station.data());
       const Point drone = point_at(ends->drone.data());
       at = moved<n>(at, step);
@@ -482,7 +571,11 @@ std::optional<Start> refined(const Problem& problem, Start at) {
       return at;
     }
     at = moved<n>(at, step);
-    before = size;
+    last_step = step;
+    last_miss = *miss;
+    miss.reset();
+    // A step that was known beforehand is not the size of an error.
+    before = ends ? size : std::max(size, 0.1 * before);
   }
   return std::nullopt;
 }
@@ -731,6 +824,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
   const bool alike = last_ && paid_out.length.has_value() == paid_out_.length.has_value() &&
                      air.profile == air_.profile &&
                      (air.drone_velocity == Vector3{}) == (air_.drone_velocity == Vector3{});
+  const bool only_the_drone_moved = cable == cable_ && air == air_ && paid_out == paid_out_;
   cable_ = cable;
   air_ = air;
   paid_out_ = paid_out;
@@ -752,8 +846,18 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
                       cable.axial_stiffness);
     return still_ ? CableOutcome::hangs : CableOutcome::not_found;
   }
-  if (last_) last_ = in_units_of(p, before, *last_);
-  if (last_) last_ = p.even() ? refined<in_even>(p, *last_) : refined<in_any>(p, *last_);
+  if (last_) {
+    last_ = in_units_of(p, before, *last_);
+    const auto from_last = [&]<int n>(std::integral_constant<int, n>) {
+      std::optional<Unknowns<n>> miss;
+      if (only_the_drone_moved) {
+        miss = equations<n>({}, (before.metre / p.metre) * before.drone - p.drone, 0);
+      }
+      return refined<n>(p, *last_, miss);
+    };
+    last_ = p.even() ? from_last(std::integral_constant<int, in_even>())
+                     : from_last(std::integral_constant<int, in_any>());
+  }
   if (!last_) last_ = anew<Last>(p);
   if (last_) return CableOutcome::hangs;
   return p.winch && winch_is_too_weak(p) ? CableOutcome::tension_too_low : CableOutcome::not_found;
@@ -784,12 +888,12 @@ namespace {
 template <class Problem>
 void follow_by_length(const Problem& problem, Point from, const std::vector<double>& at,
                       std::vector<Point>& out) {
-  State<0> state{};
+  State<0> state;
   put(state.data(), from);
   for (const double target : at) {
     const double way = target - point_at(state.data()).length;
     const double sign = way < 0 ? -1 : 1;
-    const auto system = [&problem, sign](const State<0>& s, State<0>& change, double) {
+    const auto system = [&problem, sign](const State<0>& s, State<0>& change) {
       const Point p = point_at(s.data());
       put(change.data(), (sign / p.tension) * problem.change(p, problem.wind_at(p)));
     };
@@ -797,7 +901,7 @@ void follow_by_length(const Problem& problem, Point from, const std::vector<doub
       const Point p = point_at(s.data());
       return p.tension * std::min(fine.step, problem.step_before_corner(p, fine));
     };
-    integrate(system, state, std::abs(way), longest_step);
+    integrate<all_rows>(system, state, std::abs(way), longest_step);
     out.push_back(point_at(state.data()));
   }
 }
@@ -882,8 +986,8 @@ CableSolver::Derivatives CableSolver::derivatives() const {
   const auto ends = ends_of<in_any, columns_of(in_any) + 6>(p, *last_, fine);
   const Point station = point_at(ends->station.data());
   const Point drone = point_at(ends->drone.data());
-  const auto at_station = [&](std::size_t k) { return point_at(&ends->station[8 * k]); };
-  const auto at_drone = [&](std::size_t k) { return point_at(&ends->drone[8 * k]); };
+  const auto at_station = [&](std::size_t k) { return point_at(column_of(ends->station, k)); };
+  const auto at_drone = [&](std::size_t k) { return point_at(column_of(ends->drone, k)); };
   const auto by = by_each_unknown<in_any>(p, *ends, *last_);
   const Square<in_any> inverse = changes_of_miss<in_any>(p, station, by).inverse();
   const auto force = [&](std::size_t column, const Vector3& moved) {

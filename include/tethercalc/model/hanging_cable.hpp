@@ -31,6 +31,8 @@ struct Cable {
 
   /// N, EA: relative stretch is tension over this. Nothing: it does not stretch.
   std::optional<double> axial_stiffness{};
+
+  auto operator<=>(const Cable&) const = default;  ///< member by member
 };
 
 /// A drag coefficient.
