@@ -37,6 +37,15 @@ list(REMOVE_ITEM word_sources ${catching_sources})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
   ${physics_sources} ${word_sources} ${catching_sources})
 set(without_cleaning -fignore-exceptions)
+# A header's catch would be lost in the files that include it; this one is told by its function's name.
+file(GLOB_RECURSE headers_of_rooms "${source}/*.hpp" "${PROJECT_SOURCE_DIR}/include/*.hpp")
+list(REMOVE_ITEM headers_of_rooms "${source}/io/checked_values.hpp")
+foreach(file IN LISTS headers_of_rooms)
+  file(STRINGS "${file}" caught REGEX "catch \\(")
+  if(caught)
+    message(FATAL_ERROR "${file} catches an exception: it belongs into a .cpp, see catches above")
+  endif()
+endforeach()
 
 # A room is compiled as one file, as in src/CMakeLists.txt.
 function(compile_for_page target)

@@ -124,10 +124,12 @@ try {
     const took = performance.now() - began;
     const expected = JSON.parse(command('diagnose', specFile, `--${kind}`, log, '--format', 'json'));
     assert.deepEqual(found.result.findings.map(({ effect }) => effect), expected.findings.map(({ effect }) => effect));
-    same(found.result.findings, expected.findings, name, 9);
+    // Fits stand upon fits there, each of which ends where steps no longer matter.
+    same(found.result.findings, expected.findings, name, 8);
     console.log(`diagnosis of ${name}: ${found.result.findings.map(({ effect }) => effect).join(', ') || 'nothing found'} in ${took.toFixed(0)} ms`);
   };
   compareDiagnosis(join(project, 'examples/holybro-x500.json'), 'flight', join(project, 'examples/simulated-flight.csv'));
+  if (flight && existsSync(flight)) compareDiagnosis(join(project, 'examples/holybro-x500.json'), 'flight', flight);
 
   const slider = { ask: 'optimize_and_figures', spec, kinds: ['optimum'], brief: true };
   const times = [];
