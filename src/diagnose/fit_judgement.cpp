@@ -58,7 +58,9 @@ double largest_share(const Record& record, const MatrixXd& others, const VectorX
   if (!(all > 0)) return 0;
   double least_left = all;
   for (std::size_t b = 0; b < record.blocks(); ++b) {
-    const MatrixXd rows = others.middleRows(record.block_begin(b), record.block_size(b));
+    MatrixXd rows(record.block_size(b), others.cols());
+    // Without columns there is no memory of which a part could be taken.
+    if (others.cols() > 0) rows = others.middleRows(record.block_begin(b), record.block_size(b));
     const VectorXd part = column.segment(record.block_begin(b), record.block_size(b));
     least_left = std::min(
         least_left, own_information(gram - rows.transpose() * rows, cross - rows.transpose() * part,
