@@ -70,6 +70,28 @@ void take_within(Optimization& result, const Flights& flights, const IntervalSet
   }
 }
 
+/// Where the optimum is the least power and that lies beside a leap of a reserve battery, rounding
+/// may take it across: then as little to the side as brings the power back.
+void step_back_from_leap(Optimization& result, const Flights& flights) {
+  const MinimumPower& least = result.minimum_power;
+  const bool at_hover = flights.hover.design().requirements.power_at == Condition::hover;
+  const auto is_least = [&](const Optimization& tried) {
+    const OperatingPoint& priced = at_hover ? tried.hover : tried.forward;
+    return tried.feasible && priced.total_power <= least.power * (1 + same_edge);
+  };
+  if (result.area != least.area || is_least(result)) return;
+  Optimization tried = result;
+  for (double share = 1e-14; share < 1e-7; share *= 10) {  // leaps are found to about 1e-12
+    for (const double beside : {least.area * (1 - share), least.area * (1 + share)}) {
+      take(tried, flights, beside);
+      if (!is_least(tried)) continue;
+      tried.minimum_power.area = beside;
+      result = tried;
+      return;
+    }
+  }
+}
+
 bool at_tilt_limit(const OperatingPoint& point, const Design& design) {
   return std::abs(point.pitch) >= design.requirements.max_pitch * (1 - same_edge);
 }
@@ -244,6 +266,7 @@ Optimization optimum_of(const Flights& flights) {
   }
   if (!result.feasible) search_feasible_areas(result, flights);
   if (result.feasible) {
+    step_back_from_leap(result, flights);
     name_limit(result, flights);
   } else {
     result.area = nan;
