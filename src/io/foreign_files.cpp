@@ -38,6 +38,14 @@ bool is_telemetry(std::span<const std::byte> content, std::size_t before_each) {
   return packets == enough || (packets > 0 && at == content.size() + before_each);
 }
 
+/// No control characters but those that lay a text out.
+bool is_text(std::string_view begin) {
+  return std::all_of(begin.begin(), begin.end(), [](char c) {
+    return static_cast<unsigned char>(c) >= ' ' ||
+           std::string_view("\t\n\r\f").find(c) != std::string_view::npos;
+  });
+}
+
 }  // namespace
 
 std::string foreign_kind(std::span<const std::byte> content) {
@@ -87,6 +95,7 @@ std::string foreign_kind(std::span<const std::byte> content) {
     return "is a GPX track, which holds places but no attitude; give the .bin or .ulg of the "
            "autopilot";
   }
+  if (!is_text(head.substr(0, 64))) return "";
   if (begin == '{' || begin == '[') return "is JSON, not a log";
   if (begin == '<') return "is XML or HTML, not a log";
   return "";

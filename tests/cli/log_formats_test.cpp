@@ -290,7 +290,9 @@ TEST_CASE("what is no log is named by what it is") {
             "is a KML track"},
            {"{\"fileType\": \"Plan\"}", "is JSON"},
            {"Flew well today.\n", "is a text, but not one of an autopilot's log"},
-           {noise, "is no log: no message of ArduPilot or PX4 was found in its 100000 bytes"}}) {
+           {noise, "is no log: no message of ArduPilot or PX4 was found in its 100000 bytes"},
+           {"<" + noise, "is no log: no message of ArduPilot"},
+           {"{" + noise, "is no log: no message of ArduPilot"}}) {
     const std::string file = (folder.path() / "file").string();
     write_file(file, content);
     const Ran run = run_tethercalc({"log", file});
