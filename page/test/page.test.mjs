@@ -82,6 +82,7 @@ onPage('what limits the answer and each warning are explained as the program exp
   await field(page, 'flight.air_density_kg_m3').press('Tab');
   const result = JSON.parse(programSays(['optimize', '-', '--set', 'flight.air_density_kg_m3=0.9', '--format', 'json'], example('holybro-x500.json')));
   await page.getByText('What this means, and what to do').click();
+  await page.locator('#explained-codes h3 code').first().waitFor();
   const codes = await page.locator('#explained-codes h3 code').allTextContents();
   assert.deepEqual(codes, [result.optimum.limited_by, ...new Set(result.warning_codes)]);
   assert.ok(codes.length > 1);

@@ -453,10 +453,7 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
   return sentences;
 }
 
-namespace {
-
-/// What is said of a motor's curve that the density of the air does not reach. The curve is silent
-/// at the published method's density, which is a little above the standard atmosphere's.
+// The published method's density, a little above the standard atmosphere's, gives no warning.
 std::optional<Warning> density_warning(const Design& design) {
   constexpr double standard_density = 1.225;  // kg/m³, ISO 2533
   constexpr double noticeable = 0.03;
@@ -477,8 +474,6 @@ std::optional<Warning> density_warning(const Design& design) {
           significant(100 * std::abs(power), 2), power > 0 ? "more" : "less",
           significant(100 * std::abs(ratio - 1), 2), ratio < 1 ? "less" : "more")};
 }
-
-}  // namespace
 
 std::optional<Warning> drag_estimate_warning(const Design& design) {
   const AirframeDrag& drag = design.drone.drag;

@@ -355,6 +355,25 @@ std::vector<std::string> refused_motors(std::span<const MotorOptimum> ranking) {
   return refused;
 }
 
+namespace {
+
+/// What holds of all motors of a comparison, or of some for the same reason.
+std::vector<Warning> comparison_warnings(const DesignFile& file,
+                                         std::span<const MotorOptimum> ranking) {
+  std::vector<Warning> warnings{motor_mass_warning()};
+  if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
+  for (const MotorOptimum& entry : ranking) {
+    if (auto density = density_warning(entry.design)) {
+      warnings.push_back(std::move(*density));
+      break;
+    }
+  }
+  for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
+}  // namespace
+
 std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> ranking,
                          const TextStyle& style) {
   const TitledTable motors = motor_table(file.design, ranking);
@@ -363,15 +382,12 @@ std::string compare_text(const DesignFile& file, std::span<const MotorOptimum> r
   const std::vector<std::string> refused = refused_motors(ranking);
   if (!refused.empty()) out += "\n" + style.bold("Not feasible") + "\n";
   for (const std::string& motor : refused) out += "  " + motor + "\n";
-  std::string notes = wrapped(motor_mass_warning().sentence, 96, "  ");
-  for (const MotorOptimum& entry : ranking) {
-    for (const Warning& warning : entry.motor.warnings) {
-      notes += wrapped(warning.sentence, 96, "  ");
-    }
-  }
-  if (const auto drag = drag_estimate_warning(file.design)) {
-    notes += wrapped(drag->sentence, 96, "  ");
-  }
+  std::string notes;
+  const auto add = [&](std::span<const Warning> warnings) {
+    for (const Warning& warning : warnings) notes += wrapped(warning.sentence, 96, "  ");
+  };
+  add(comparison_warnings(file, ranking));
+  for (const MotorOptimum& entry : ranking) add(entry.motor.warnings);
   return out + "\n" + style.bold("Notes") + "\n" + notes;
 }
 
@@ -389,10 +405,8 @@ ordered_json compare_json(const DesignFile& file, std::span<const MotorOptimum> 
     add_warnings(row, entry.motor.warnings);
     return row;
   });
-  std::vector<Warning> warnings{motor_mass_warning()};
-  if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
   ordered_json out{{"name", file.name}, {"motors", rows}};
-  add_warnings(out, warnings);
+  add_warnings(out, comparison_warnings(file, ranking));
   return out;
 }
 

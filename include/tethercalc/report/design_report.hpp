@@ -66,6 +66,9 @@ namespace tethercalc {
 /// What the heat balance of this design does not know and the user should.
 [[nodiscard]] std::vector<Warning> cable_warnings(const Design& design);
 
+/// What is said of a motor's curve that the density of the air does not reach.
+[[nodiscard]] std::optional<Warning> density_warning(const Design& design);
+
 /// That the drag is an estimate, which one, and by how much it may be off; nothing where it is not.
 [[nodiscard]] std::optional<Warning> drag_estimate_warning(const Design& design);
 
