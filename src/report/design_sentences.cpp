@@ -453,7 +453,6 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
   return sentences;
 }
 
-// The published method's density, a little above the standard atmosphere's, gives no warning.
 std::optional<Warning> density_warning(const Design& design) {
   constexpr double standard_density = 1.225;  // kg/m³, ISO 2533
   constexpr double noticeable = 0.03;

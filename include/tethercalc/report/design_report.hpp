@@ -66,7 +66,9 @@ namespace tethercalc {
 /// What the heat balance of this design does not know and the user should.
 [[nodiscard]] std::vector<Warning> cable_warnings(const Design& design);
 
-/// What is said of a motor's curve that the density of the air does not reach.
+/// That the density of the air does not reach the motor's curve, and what that comes to; nothing
+/// where the bench's density is stated, and where the air's is within 3 % of the standard
+/// atmosphere's 1.225 kg/m³ or that of the published method.
 [[nodiscard]] std::optional<Warning> density_warning(const Design& design);
 
 /// That the drag is an estimate, which one, and by how much it may be off; nothing where it is not.
