@@ -339,6 +339,15 @@ std::string description_of(std::span<const MotorOptimum> ranking) {
   return out + ".";
 }
 
+/// Logarithmic where motors are so unlike that the small ones would be a heap at its beginning.
+plot::Axis thrust_axis(const plot::Range& thrusts) {
+  plot::Axis axis{.label = "thrust of one motor (g)", .range = {0, 1.08 * thrusts.hi}};
+  constexpr double unlike = 30;
+  axis.logarithmic = thrusts.lo > 0 && thrusts.hi > unlike * thrusts.lo;
+  if (axis.logarithmic) axis.range = {thrusts.lo / 1.08, 1.15 * thrusts.hi};
+  return axis;
+}
+
 }  // namespace
 
 Figure optimum_figure(const std::string& name, const OptimumStudy& study, const AreaCurve& curve) {
@@ -350,10 +359,8 @@ Figure optimum_figure(const std::string& name, const OptimumStudy& study, const 
 }
 
 Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranking) {
-  plot::Panel panel{.x = {.label = "thrust of one motor (g)"},
-                    .y = {.label = "efficiency (g/W)"},
-                    .lines = 20.5,
-                    .legend_heads = {"mm²", "W"}};
+  plot::Panel panel{
+      .y = {.label = "efficiency (g/W)"}, .lines = 20.5, .legend_heads = {"mm²", "W"}};
   std::vector<double> thrusts;
   std::vector<double> efficiencies;
   std::vector<plot::Layer> assumptions;
@@ -379,7 +386,7 @@ Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranki
   for (const auto& more : {assumptions, marks, explained_marks(file.design.requirements)}) {
     panel.layers.insert(panel.layers.end(), more.begin(), more.end());
   }
-  panel.x.range = {0, 1.08 * plot::extent(thrusts).hi};
+  panel.x = thrust_axis(plot::extent(thrusts));
   panel.y.range = plot::with_margin(plot::extent(efficiencies), 0.1);
   return {.id = "motors",
           .title = "Motors for " + file.name,

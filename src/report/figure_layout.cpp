@@ -248,7 +248,8 @@ class Typesetter {
   template <typename Other>
   void beside_layer(const PlacedPanel& /*placed*/, const Other& /*layer*/) {}
 
-  /// Labels at the ends of curves, each at the nearest place where it covers nothing.
+  /// Labels at the ends of curves, each at the nearest place where it covers nothing; none where
+  /// that would be too far from its curve to tell whose it is.
   void label_curves(const PlacedPanel& placed) {
     std::vector<Place> taken;
     for (const Layer& layer : placed.panel->layers) {
@@ -275,9 +276,10 @@ class Typesetter {
                                       text_width(words), taken, labels);
       const auto last = nearest_free(placed.frame, on_paper(placed, parts.back().back()),
                                      text_width(words), taken, labels);
-      const Place at = first.first < last.first ? first.second : last.second;
-      labels.push_back(label_box(at, text_width(words)));
-      text(words, {at.x, at.y + middle_px}, Anchor::middle);
+      const auto& nearest = first && (!last || first->distance < last->distance) ? first : last;
+      if (!nearest) continue;
+      labels.push_back(label_box(nearest->at, text_width(words)));
+      text(words, {nearest->at.x, nearest->at.y + middle_px}, Anchor::middle);
     }
   }
 
@@ -300,8 +302,13 @@ class Typesetter {
             middle.y + 0.5 * font_px};
   }
 
-  /// How far from `end` the nearest free middle of a label is, and where.
-  static std::pair<double, Place> nearest_free(const Box& frame, Place end, double width,
+  struct FreePlace {
+    double distance = 0;
+    Place at{};
+  };
+
+  /// The free middle of a label that is nearest to `end`, if one is near.
+  static std::optional<FreePlace> nearest_free(const Box& frame, Place end, double width,
                                                const std::vector<Place>& taken,
                                                const std::vector<Box>& labels) {
     const auto is_free = [&](const Box& box) {
@@ -315,15 +322,15 @@ class Typesetter {
       };
       return std::ranges::none_of(taken, covers) && std::ranges::none_of(labels, meets);
     };
-    constexpr double farthest = 60;
+    constexpr double farthest = 30;
     for (double distance = 2; distance < farthest; distance += 1.5) {
       for (const double angle : {0.0, -0.6, 0.6, -1.2, 1.2, -1.9, 1.9, -2.5, 2.5, 3.1}) {
         const Place at{end.x + (distance + width / 2) * std::cos(angle),
                        end.y + (distance + font_px / 2) * std::sin(angle)};
-        if (is_free(label_box(at, width))) return {distance, at};
+        if (is_free(label_box(at, width))) return FreePlace{distance, at};
       }
     }
-    return {farthest, {std::clamp(end.x, frame.left + width / 2, frame.right - width / 2), end.y}};
+    return std::nullopt;
   }
 
   void colour_scale(PlacedPanel& placed) {

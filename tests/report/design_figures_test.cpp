@@ -179,6 +179,7 @@ TEST_CASE("no label covers another in the figures of any reference design") {
     check_layout(figure_of(file));
     check_layout(
         motors_figure(file, compare_motors(file.design, alike_motors(motors, file.motor))));
+    check_layout(motors_figure(file, compare_motors(file.design, motors)));
   }
 }
 
