@@ -275,7 +275,7 @@ const std::array all_spec_fields{
     SpecField{"/flight/wind_profile", wind_profile, "", any_number, "\"uniform\"",
               "How the wind grows with height over ground.", 1,
               at<&Design::flight, &Flight::wind_profile>},
-    SpecField{"/flight/wind_exponent", number, "", between(0, 1), "0.142857142857142857",
+    SpecField{"/flight/wind_exponent", number, "", between(0, 1), "0.14285714285714285",
               "Exponent of the power law; 1/7 over open land.", 1,
               at<&Design::flight, &Flight::wind_exponent>},
     SpecField{"/flight/roughness_length_m", number, "m", between(1e-6, 10), "0.03",

@@ -35,6 +35,17 @@ std::string element(std::string_view name, std::string_view text,
   return fmt::format("<{0}{1}>{2}</{0}>", name, attributes, markup_text(text));
 }
 
+/// The name of a row; one of joined words may be broken where a word of three letters follows.
+std::string row_name(std::string_view name, std::string_view attributes) {
+  std::string out = markup_text(name);
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (std::size_t i = out.size(); i-- > 1;) {
+    const bool joint = out[i - 1] == '.' || out[i - 1] == '_';
+    if (joint && std::ranges::all_of(out.substr(i, 3), is_letter)) out.insert(i, "<wbr/>");
+  }
+  return fmt::format("<th{}>{}</th>", attributes, out);
+}
+
 /// Titles of columns may take two lines.
 std::string title_text(const std::string& title) {
   std::string out = markup_text(title);
@@ -62,7 +73,7 @@ std::string body_row(const TextTable& table, const TextTable::Row& row) {
     const std::string& cell = row.cells[c];
     const bool number = table.columns()[c].align == TextTable::Align::right;
     const char* kind = number ? "n" : columns_of(cell) <= longest_word ? "word" : "prose";
-    out += c == 0 ? element("th", cell, fmt::format(" scope=\"row\" class=\"{}\"", kind))
+    out += c == 0 ? row_name(cell, fmt::format(" scope=\"row\" class=\"{}\"", kind))
                   : element("td", cell, fmt::format(" class=\"{}\"", kind));
   }
   return out + "</tr>\n";
