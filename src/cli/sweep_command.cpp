@@ -272,8 +272,8 @@ int run_sweep(const SweepOptions& options) {
   std::optional<SampleRequest> sample;
   if (options.sample) sample = {*options.sample, options.method, options.seed};
   const SweepSpace space = read_sweep_space(options.varied, base, sample);
-  if (const auto drag = drag_estimate_warning(base.design)) {
-    remark("sweep: " + drag->sentence + "\n");
+  for (const Warning& warning : spec_warnings(base)) {
+    remark("sweep: " + warning.sentence + "\n");
   }
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 

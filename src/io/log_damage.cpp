@@ -4,6 +4,10 @@
 
 namespace tethercalc {
 
+std::string samples_left_out(std::size_t count) {
+  return fmt::format("{} sample{} left out", count, count == 1 ? "" : "s");
+}
+
 void note_damage(const LogContents& contents, std::vector<Warning>& notes) {
   if (contents.skipped_bytes > 0) {
     notes.push_back(

@@ -228,14 +228,14 @@ Samples read_samples(const AutopilotLog& log, const EstimatorMessage& from) {
 
 void note_removed(FlightLogReading& reading) {
   if (reading.samples_implausible > 0) {
-    reading.notes.push_back({WarningKind::log_values_implausible,
-                             fmt::format("{} samples left out: values that no flight can have",
-                                         reading.samples_implausible)});
+    reading.notes.push_back(
+        {WarningKind::log_values_implausible,
+         samples_left_out(reading.samples_implausible) + ": values that no flight can have"});
   }
   if (reading.samples_out_of_order > 0) {
-    reading.notes.push_back({WarningKind::log_times_unordered,
-                             fmt::format("{} samples left out: their time does not increase",
-                                         reading.samples_out_of_order)});
+    reading.notes.push_back(
+        {WarningKind::log_times_unordered,
+         samples_left_out(reading.samples_out_of_order) + ": their time does not increase"});
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 
+#include "io/log_damage.hpp"
 #include "io/longest_increasing.hpp"
 #include "tethercalc/io/input_error.hpp"
 
@@ -205,14 +206,12 @@ Px4Motion px4_motion(const AutopilotLog& log, int core) {
   if (invalid > 0) {
     motion.notes.push_back(
         {WarningKind::log_velocity_invalid,
-         fmt::format("{} samples left out: the estimator itself calls their velocity invalid",
-                     invalid)});
+         samples_left_out(invalid) + ": the estimator itself calls their velocity invalid"});
   }
   if (alone > 0) {
-    motion.notes.push_back(
-        {WarningKind::log_attitude_missing,
-         fmt::format("{} samples left out: no attitude within {} s before and after", alone,
-                     longest_step)});
+    motion.notes.push_back({WarningKind::log_attitude_missing,
+                            fmt::format("{}: no attitude within {} s before and after",
+                                        samples_left_out(alone), longest_step)});
   }
   note_wind(log.contents(), motion);
   return motion;

@@ -60,9 +60,11 @@ const std::array all_spec_fields{
     SpecField{"/drone/auxiliary_power_W", number, "W", between(0, 1e5), "0",
               "Power of flight controller and payload, at the converter's input.", 1,
               at<&Design::drone, &Drone::auxiliary_power>},
-    SpecField{"/drone/drag/front_area_m2", number, "m²", between(0, 100), "",
-              "Drag area of the level drone, drag coefficient included.", 1,
-              at<&Design::drone, &Drone::drag, &AirframeDrag::front_area>},
+    SpecField{
+        "/drone/drag/front_area_m2", number, "m²", between(0, 100), "",
+        "Drag area of the level drone, drag coefficient included. Without drone.drag all of it is "
+        "estimated from the mass.",
+        1, at<&Design::drone, &Drone::drag, &AirframeDrag::front_area>},
     SpecField{"/drone/drag/top_area_m2", number, "m²", between(0, 100), "",
               "Drag area of the drone tilted by 90°, drag coefficient included.", 1,
               at<&Design::drone, &Drone::drag, &AirframeDrag::top_area>},

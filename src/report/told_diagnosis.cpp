@@ -42,8 +42,8 @@ ToldDiagnosis told_diagnosis(const AskedDiagnosis& asked, const LogsAsked& optio
     study.power->notes.insert(study.power->notes.begin(), asked.power_notes.begin(),
                               asked.power_notes.end());
   }
-  if (auto drag = drag_estimate_warning(file.design)) {
-    (study.power ? study.power : study.flight)->notes.push_back(std::move(*drag));
+  for (Warning& warning : spec_warnings(file)) {
+    (study.power ? study.power : study.flight)->notes.push_back(std::move(warning));
   }
   // Checked as if a person had written it.
   DesignFile extended = read_design_document(spec_with(file, study.extended), file.file, file.load);

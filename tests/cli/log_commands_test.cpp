@@ -477,7 +477,7 @@ TEST_CASE("one sample of an impossible velocity is left out and told, and moves 
   write_file(bad, with.str());
   write_file(good, without.str());
   const Ran run = drag({bad}, known);
-  CHECK_THAT(run.err, Contains("1 samples left out: values that no flight can have"));
+  CHECK_THAT(run.err, Contains("1 sample left out: values that no flight can have"));
   json told = drag_of({bad}, known);
   json silent = drag_of({good}, known);
   CHECK_THAT(told.at("note_codes").dump(), Contains("log_values_implausible"));

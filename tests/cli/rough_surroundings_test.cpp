@@ -94,6 +94,17 @@ TEST_CASE("with --output /dev/stdout, what others have written before stays") {
   CHECK(std::count(swept.begin(), swept.end(), '\n') == 6);
 }
 
+TEST_CASE("what replaces a file keeps who may read it, and no right to run as its owner") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "spec.json";
+  write_file(file, "{}");
+  constexpr auto readable = fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read;
+  fs::permissions(file, readable | fs::perms::set_uid | fs::perms::set_gid);
+  CHECK(run_tethercalc({"init", "--force", "--output", file.string()}).exit_code == 0);
+  CHECK(file_text(file) == run_tethercalc({"init"}).out);
+  CHECK(fs::status(file).permissions() == readable);
+}
+
 TEST_CASE("a socket stays what it is when --output names it") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "s").string();

@@ -157,6 +157,19 @@ TEST_CASE("a sweep in which nothing varies or nothing flies has no figure and sa
       Contains("no row with a value"));
 }
 
+TEST_CASE("a quantity that is the same in every row is drawn at its value") {
+  std::string text = "drone.mass_g,supply.voltage_V" + ending;
+  for (const char* place : {"1500,60", "1500,70", "1600,60", "1600,70"}) {
+    text += std::string(place) + ",optimal,1,300.5,\n";
+  }
+  const Figure figure = sweep_figure(parse_sweep_csv(text, "a.csv"));
+  for (const FigureFormat format : {FigureFormat::svg, FigureFormat::text}) {
+    const std::string drawn = render(figure, format, {});
+    CHECK_THAT(drawn, Contains("300.5"));
+    CHECK_THAT(drawn, !Contains("nan") && !Contains("inf"));
+  }
+}
+
 TEST_CASE("the unit in a field's name is the unit on the axis") {
   CHECK(axis_label("supply.voltage_V") == "supply voltage (V)");
   CHECK(axis_label("forward.received_voltage_V") == "forward received voltage (V)");
