@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "identify/linear_algebra.hpp"
 #include "identify/statistics.hpp"
 
 namespace tethercalc {
@@ -18,8 +18,8 @@ constexpr double largest_expo = 1;  // of the documented range, −1 to 1
 
 /// Places within the range, and thrusts.
 struct PlacedRows {
-  Eigen::VectorXd place;
-  Eigen::VectorXd thrust;
+  VectorXd place;
+  VectorXd thrust;
 };
 
 PlacedRows within(std::span<const ThrottledThrust> rows, const SpinRange& range) {
@@ -27,9 +27,9 @@ PlacedRows within(std::span<const ThrottledThrust> rows, const SpinRange& range)
   std::ranges::copy_if(rows, std::back_inserter(kept), [&](const ThrottledThrust& row) {
     return row.output >= range.least && row.output <= range.most;
   });
-  const auto count = static_cast<Eigen::Index>(kept.size());
-  PlacedRows out{Eigen::VectorXd(count), Eigen::VectorXd(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
+  const auto count = static_cast<Index>(kept.size());
+  PlacedRows out{VectorXd(count), VectorXd(count)};
+  for (Index i = 0; i < count; ++i) {
     const ThrottledThrust& row = kept[static_cast<std::size_t>(i)];
     out.place[i] = (row.output - range.least) / (range.most - range.least);
     out.thrust[i] = row.thrust;
@@ -48,15 +48,14 @@ void check_rows(const PlacedRows& rows, const SpinRange& range) {
 }
 
 /// The powers 0 to `degree` of the places.
-Eigen::MatrixXd powers_of(const Eigen::VectorXd& place, int degree) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Ones(place.size(), degree + 1);
+MatrixXd powers_of(const VectorXd& place, int degree) {
+  MatrixXd out = MatrixXd::Ones(place.size(), degree + 1);
   for (int k = 1; k <= degree; ++k) out.col(k) = out.col(k - 1).cwiseProduct(place);
   return out;
 }
 
-double squares_left(const Eigen::MatrixXd& powers, const Eigen::VectorXd& thrust) {
-  const Eigen::VectorXd fitted = powers * powers.colPivHouseholderQr().solve(thrust);
-  return (thrust - fitted).squaredNorm();
+double squares_left(const MatrixXd& powers, const VectorXd& thrust) {
+  return (thrust - powers * least_squares(powers, thrust)).squaredNorm();
 }
 
 }  // namespace
@@ -64,8 +63,8 @@ double squares_left(const Eigen::MatrixXd& powers, const Eigen::VectorXd& thrust
 ThrustExpo fit_thrust_expo(std::span<const ThrottledThrust> rows, const SpinRange& range) {
   const PlacedRows placed = within(rows, range);
   check_rows(placed, range);
-  const Eigen::MatrixXd powers = powers_of(placed.place, 2);
-  const Eigen::VectorXd b = powers.colPivHouseholderQr().solve(placed.thrust);
+  const MatrixXd powers = powers_of(placed.place, 2);
+  const VectorXd b = least_squares(powers, placed.thrust);
   const double rise = b[1] + b[2];
   if (!(rise > 0)) throw UnsuitableThrottle("thrust does not rise with throttle");
   const auto count = static_cast<double>(placed.place.size());
@@ -76,7 +75,7 @@ ThrustExpo fit_thrust_expo(std::span<const ThrottledThrust> rows, const SpinRang
   expo.value = b[2] / rise;
   expo.degrees_of_freedom = count - 3;
   const Eigen::Vector3d gradient(0, -b[2] / (rise * rise), b[1] / (rise * rise));
-  const Eigen::Vector3d solved = (powers.transpose() * powers).ldlt().solve(gradient);
+  const VectorXd solved = solve_symmetric(powers.transpose() * powers, gradient);
   expo.standard_error_independent =
       std::sqrt(squares / expo.degrees_of_freedom * gradient.dot(solved));
   expo.standard_error = expo.standard_error_independent;
