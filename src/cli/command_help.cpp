@@ -220,6 +220,15 @@ std::string fish_completion(std::span<const CommandHelp> commands) {
   return out;
 }
 
+/// What completes the value of `option`: after the "=" of a field no space is wanted.
+std::string zsh_words(const OptionHelp& option, const std::vector<std::string>& words) {
+  const std::string all = fmt::format("{}", fmt::join(words, " "));
+  if (!option.value.starts_with("PATH=")) return ":word:(" + all + ")";
+  std::string literal;  // _arguments takes this one for a command of the shell
+  for (const char c : all) literal += c == '$' ? "\\$" : std::string(1, c);
+  return ":word:compadd -S \"\" - " + literal;
+}
+
 std::string zsh_completion(std::span<const CommandHelp> commands) {
   std::string cases;
   std::string list;
@@ -240,8 +249,7 @@ std::string zsh_completion(std::span<const CommandHelp> commands) {
         cases += fmt::format(" \\\n        '*{}[{}]", name, help.substr(1, help.size() - 2));
         if (!option.value.empty()) {
           const auto words = whole_words(option, commands);
-          cases +=
-              words.empty() ? ":file:_files" : fmt::format(":word:({})", fmt::join(words, " "));
+          cases += words.empty() ? ":file:_files" : zsh_words(option, words);
         }
         cases += "'";
       }
@@ -268,7 +276,8 @@ _tethercalc() {{
   case $command in
 {}  esac
 }}
-compdef _tethercalc tethercalc
+# Loaded by the first key that asks for it, the file is the function; else it is sourced.
+if [ "$funcstack[1]" = _tethercalc ]; then _tethercalc "$@"; else compdef _tethercalc tethercalc; fi
 )",
       list, cases);
 }

@@ -107,6 +107,44 @@ TEST_CASE("bash completes commands, options, fields and names of the library") {
   CHECK_THAT(unknown.err, Contains("did you mean \"bash\"?"));
 }
 
+TEST_CASE("fish completes commands, options, fields and names of the library") {
+  const TemporaryFolder folder;
+  const auto proposed = [&](const std::string& line) {
+    const Ran ran = run_shell("HOME=" + shell_quoted(folder.path().string()) + " fish -c " +
+                              shell_quoted("'" + command + "' completion fish | source; " +
+                                           "complete -C " + shell_quoted("tethercalc " + line)));
+    INFO(ran.err);
+    CHECK(ran.err.empty());
+    return "\n" + ran.out;
+  };
+  CHECK_THAT(proposed("optimi"), Contains("\noptimize\t"));
+  CHECK_THAT(proposed("optimize my.json --form"), Contains("\n--format\t"));
+  CHECK_THAT(proposed("optimize my.json --set supply.vol"), Contains("\nsupply.voltage_V=\t"));
+  CHECK_THAT(proposed("compare my.json --motors holy"), Contains("\nholybro-air2216-920kv-10in\t"));
+  CHECK_THAT(proposed("explain propw"), Contains("\npropwash"));
+}
+
+TEST_CASE("zsh completes at the first key, and leaves no space behind a field") {
+  const TemporaryFolder folder;
+  write_file(folder.path() / "_tethercalc", run_tethercalc({"completion", "zsh"}).out);
+  // A shell in a terminal; each step waits for what it must show, and the limit ends what never
+  // does.
+  const auto shows = [&](const std::string& typed, const std::string& shown) {
+    const std::string script =
+        "zmodload zsh/zpty; zpty z zsh -f -i\n"
+        "zpty -w z \"fpath=(" +
+        folder.path().string() +
+        " \\$fpath); autoload -Uz compinit; compinit -u -D; print rea''dy\"\n"
+        "zpty -r z out '*ready*'\n"
+        "zpty -w -n z 'tethercalc " +
+        typed + "'$'\\t'\nzpty -w -n z '|'\nzpty -r z out '*" + shown + "*'\nzpty -d z\n";
+    return run_shell("timeout 60 zsh -f -c " + shell_quoted(script)).exit_code == 0;
+  };
+  CHECK(shows("optimi", "tethercalc optimize *|"));
+  CHECK(shows("compare my.json --motors holy", "holybro-air2216-920kv-10in*|"));
+  CHECK(shows("optimize my.json --set supply.vol", "supply.voltage_V=|"));
+}
+
 TEST_CASE("all that is wrong with what was typed is told at once, and with the spec, too") {
   const Ran ran = run_tethercalc(
       {"optimize", published, "--format", "yaml", "--outptu", "x", "--set", "drone.mass_g=-3"});
