@@ -42,7 +42,7 @@ const hash = (source) => `'sha256-${createHash('sha256').update(source).digest('
 function packed(wasm) {
   const streams = streamsOf(wasm);
   if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
-  const lzma = execFileSync('xz', ['--format=lzma', '--lzma1=preset=9e,lc=4,lp=0,pb=0', '--stdout'], { input: streams, maxBuffer: 1 << 28 });
+  const lzma = execFileSync('xz', ['--format=lzma', '--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=200', '--stdout'], { input: streams, maxBuffer: 1 << 28 });
   lzma.writeBigUInt64LE(BigInt(streams.length), 5);
   return lzma;
 }

@@ -1,15 +1,17 @@
 // A WebAssembly module as streams of like bytes (instructions here, indices of variables there …) and back: LZMA
 // packs them a tenth smaller than the mixture. It takes the instructions that the program has, no vectors or threads.
 
-// The streams: variables by where they are read for a load and elsewhere, numbers by whether they are added to what
-// lies below them.
-const [rest, instructions, variables, addresses, functions, offsets, numbers, summands, labels, constants, count] = Array(11).keys();
+// The streams. A variable that a load reads is an address; numbers lie by what the next instruction does with them.
+const [rest, instructions, variables, addresses, functions, offsets, numbers, summands, stored, passed, labels, constants, count] = Array(13).keys();
 
 const code = 10; // the section of the functions' bodies
-const add = 0x6a;
 const end = 0x0b;
 const isBlock = (instruction) => instruction >= 0x02 && instruction <= 0x06 && instruction !== 0x05;
 const isLoad = (instruction) => instruction >= 0x28 && instruction <= 0x35;
+const isStore = (instruction) => instruction >= 0x36 && instruction <= 0x3e;
+const add = 0x6a;
+const call = 0x10;
+const numbersFor = (next) => (next === add ? summands : isStore(next) ? stored : next === call ? passed : numbers);
 
 /** What to move behind each instruction that has operands. */
 const operands = Array(256);
@@ -19,7 +21,7 @@ put(0x02, 0x04, label); // block, loop, if
 put(0x06, 0x09, label); // try, catch, throw, rethrow
 put(0x0c, 0x0d, label);
 put(0x0e, 0x0e, (way) => { for (let others = way.whole(labels); others >= 0; --others) way.whole(labels); });
-put(0x10, 0x10, (way) => way.whole(functions));
+put(call, call, (way) => way.whole(functions));
 put(0x11, 0x11, (way) => { way.whole(functions); way.whole(functions); });
 put(0x18, 0x18, label); // delegate
 put(0x1c, 0x1c, (way) => way.bytes(labels, way.whole(labels)));
@@ -28,7 +30,7 @@ put(0x21, 0x22, (way) => way.whole(variables));
 put(0x23, 0x24, label);
 put(0x28, 0x3e, (way) => { way.whole(instructions); way.whole(offsets); }); // the alignment goes with the instruction
 put(0x3f, 0x40, label);
-put(0x41, 0x41, (way) => way.whole(way.next() === add ? summands : numbers));
+put(0x41, 0x41, (way) => way.whole(numbersFor(way.next())));
 put(0x42, 0x42, (way) => way.whole(numbers));
 put(0x43, 0x43, (way) => way.bytes(constants, 4));
 put(0x44, 0x44, (way) => way.bytes(constants, 8));
