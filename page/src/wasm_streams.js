@@ -88,7 +88,7 @@ export function moduleOf(packed) {
   const places = new Uint32Array(count + 1).fill(4 * (count + 1));
   lengths.forEach((length, i) => { places[i + 1] = places[i] + length; });
   const endOfRest = places[rest + 1];
-  const module = new Uint8Array(size + 16); // there is a little before the sizes are put before what they are of
+  const module = new Uint8Array(size);
   let at = 0;
   moveModule(wayOf((stream) => (module[at++] = packed[places[stream]++]), {
     more: () => places[rest] < endOfRest,
@@ -105,5 +105,5 @@ export function moduleOf(packed) {
       at += bytes.length;
     },
   }));
-  return module.subarray(0, size);
+  return module;
 }
