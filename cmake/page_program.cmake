@@ -61,17 +61,19 @@ function(compile_for_page target)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/include" "${source}")
   target_include_directories(${target} SYSTEM PRIVATE "${headers}" "${headers}/eigen3")
   target_compile_definitions(${target} PRIVATE TETHERCALC_VERSION="${PROJECT_VERSION}"
-    FMT_HEADER_ONLY FMT_USE_LONG_DOUBLE=0 TETHERCALC_WITHOUT_DESIGN_SEARCH NDEBUG)
-  # Exceptions are caught by their types without RTTI, too.
-  target_compile_options(${target} PRIVATE -fwasm-exceptions -fno-rtti -fno-math-errno
+    FMT_HEADER_ONLY FMT_USE_LONG_DOUBLE=0 FMT_USE_FLOAT=0
+    EIGEN_UNROLLING_LIMIT=16 TETHERCALC_WITHOUT_DESIGN_SEARCH NDEBUG)
+  # Exceptions are caught by their types without RTTI, too. There is one thread, which never ends.
+  target_compile_options(${target} PRIVATE -flto -fwasm-exceptions -fno-rtti -fno-math-errno
+    -fno-threadsafe-statics -fno-c++-static-destructors
     -Wno-defaulted-function-deleted "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/newer_library.hpp"
     "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/smaller_library.hpp")
 endfunction()
 
-# What sliders wait for is optimised for speed, the rest for its size.
+# What sliders wait for is optimised a little more for speed than the rest.
 add_library(page_physics STATIC ${physics_sources})
 compile_for_page(page_physics)
-target_compile_options(page_physics PRIVATE -O2 ${without_cleaning})
+target_compile_options(page_physics PRIVATE -Os ${without_cleaning})
 
 # Emscripten 3.1.6 inlines nothing at -Oz unless told to, and calls are larger than most of what they call.
 set(small -Oz -finline-functions)
@@ -90,7 +92,7 @@ compile_for_page(page_program)
 target_compile_options(page_program PRIVATE ${small})
 target_link_libraries(page_program PRIVATE page_words page_catching page_physics)
 set_target_properties(page_program PROPERTIES SUFFIX .js LINK_DEPENDS "${source}/page/call.js")
-target_link_options(page_program PRIVATE -Oz -fwasm-exceptions --no-entry
+target_link_options(page_program PRIVATE -Oz -flto -fwasm-exceptions --no-entry
   "SHELL:--extern-post-js ${source}/page/call.js"
   -sMODULARIZE=1 -sEXPORT_NAME=createProgram -sENVIRONMENT=web,worker -sFILESYSTEM=0
   -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sINITIAL_MEMORY=16MB -sTOTAL_STACK=1MB

@@ -5,12 +5,13 @@
 // The loader defines loadCalculator(compiled module) → promise of call(request, files).
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
+import { moduleOf, streamsOf } from './src/wasm_streams.js';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values: options } = parseArgs({ options: {
@@ -37,10 +38,12 @@ const css = (await build({ stdin: { contents: readFileSync(join(here, 'node_modu
 function inlined(source) { return source.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--'); }
 const hash = (source) => `'sha256-${createHash('sha256').update(source).digest('base64')}'`;
 
-/** The file as .lzma, with its size in the head: xz leaves that open there. */
-function packed(file) {
-  const lzma = execFileSync('xz', ['--format=lzma', '--lzma1=preset=9e,lc=4,lp=0,pb=0', '--stdout', file], { maxBuffer: 1 << 28 });
-  lzma.writeBigUInt64LE(BigInt(statSync(file).size), 5);
+/** The program as packed_program.js unpacks it: its streams as .lzma, with their size in the head, which xz leaves open. */
+function packed(wasm) {
+  const streams = streamsOf(wasm);
+  if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
+  const lzma = execFileSync('xz', ['--format=lzma', '--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=200', '--stdout'], { input: streams, maxBuffer: 1 << 28 });
+  lzma.writeBigUInt64LE(BigInt(streams.length), 5);
   return lzma;
 }
 
@@ -48,7 +51,7 @@ const parts = {
   policy: ["default-src 'none'", `script-src ${hash(script)} 'wasm-unsafe-eval'`, `style-src ${hash(css)}`,
     'worker-src blob:', 'img-src data: blob:', "connect-src 'none'", "base-uri 'none'", "form-action 'none'"].join('; '),
   style: css,
-  program: packed(options.program).toString('base64'),
+  program: packed(readFileSync(options.program)).toString('base64'),
   script,
 };
 const page = readFileSync(join(here, 'index.html'), 'utf8').replace(/\{\{(\w+)\}\}/g, (whole, name) => parts[name]);

@@ -6,6 +6,7 @@
 
 // fmt separates thousands by this instead of asking a locale; nothing here asks it for separators.
 #define FMT_STATIC_THOUSANDS_SEPARATOR ','
+#include <fmt/format.h>
 
 namespace boost::math::policies::detail {
 
@@ -14,11 +15,11 @@ template <class T>
 std::string prec_format(const T& val);
 template <>
 inline std::string prec_format(const double& val) {
-  return std::to_string(val);
+  return fmt::format("{}", val);
 }
 template <>
 inline std::string prec_format(const long double& val) {
-  return std::to_string(double(val));
+  return fmt::format("{}", double(val));
 }
 
 }  // namespace boost::math::policies::detail

@@ -37,7 +37,7 @@ export function buildControls(place, about, { change, edit }) {
     for (const field of common) section.append(control(field));
     if (rest.length) {
       const more = el('details', { class: 'more' },
-        el('summary', {}, common.length ? `more of the ${title.toLowerCase()}` : `${title.toLowerCase()}: all fields`,
+        el('summary', {}, common.length ? `more ${title.startsWith('About') ? '' : 'of the '}${title.toLowerCase()}` : `${title.toLowerCase()}: all fields`,
           el('span', { class: 'count' }, ` ${rest.length}`)));
       let group = null;
       for (const field of rest) {

@@ -7,6 +7,8 @@ import { chromium } from 'playwright-core';
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 export const pageFile = process.env.TETHERCALC_PAGE ?? join(root, 'build/page/tethercalc.html');
+/** What the project reads but does not ship; tests that need it are skipped where it is absent. */
+export const referenceData = process.env.TETHERCALC_REFERENCE_DATA ?? join(root, '../shared');
 const program = process.env.TETHERCALC_PROGRAM ?? join(root, 'build/release/tethercalc');
 
 /** Without the page or a browser there is nothing to test. */
@@ -54,6 +56,17 @@ export async function typeSpec(page, text) {
   await page.getByRole('tab', { name: 'Spec', exact: true }).click();
   await page.locator('#spec-text').fill(text);
   await page.locator('#headline').click(); // leaves the box
+}
+
+/** Drops a file upon the page, as from a folder. */
+export async function drop(page, file) {
+  const input = await page.evaluateHandle(() => Object.assign(document.createElement('input'), { type: 'file' }));
+  await input.setInputFiles(file);
+  await input.evaluate(({ files }) => {
+    const dataTransfer = new DataTransfer();
+    for (const dropped of files) dataTransfer.items.add(dropped);
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, bubbles: true, cancelable: true }));
+  });
 }
 
 /** What the item of "Save" gives, as a text. */

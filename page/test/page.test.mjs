@@ -1,19 +1,20 @@
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { gzipSync } from 'node:zlib';
 import { createRequire } from 'node:module';
-import { example, field, launch, missing, open, pageFile, programSays, root, saved, typeSpec } from './browser.mjs';
+import { goldenSpecs } from '../../tests/page/golden_designs.mjs';
+import { drop, example, field, launch, missing, open, pageFile, programSays, referenceData, root, saved, typeSpec } from './browser.mjs';
 
 const skip = missing();
 let browser;
 before(async () => { if (!skip) browser = await launch(); });
 after(() => browser?.close());
 
-/** A test on a page of its own, which must have logged no error and asked for nothing. */
-const onPage = (name, body, options = {}) => test(name, { skip, timeout: 120_000 }, async () => {
+/** A test on a page of its own, which must have logged no error and asked for nothing. `without`: what is missing for it. */
+const onPage = (name, body, { without = false, ...options } = {}) => test(name, { skip: skip || without, timeout: 120_000 }, async () => {
   const opened = await open(browser, options);
   try {
     await body(opened.page);
@@ -36,10 +37,9 @@ function assertDigits(found, expected, path = '') {
 /** The table of numbers as saved, cell by cell as numbers where they are some. */
 const cells = (csv) => csv.trim().split('\n').map((line) => line.split(',').map((cell) => (cell !== '' && Number.isFinite(Number(cell)) ? Number(cell) : cell)));
 
-// A little above what docs/page-program.md says of it.
-test('the page is one file of at most 585 kB with gzip', { skip }, () => {
+test('the page is one file of at most 500 kB with gzip', { skip }, () => {
   const page = readFileSync(pageFile);
-  assert.ok(gzipSync(page, { level: 9 }).length <= 585_000);
+  assert.ok(gzipSync(page, { level: 9 }).length <= 500_000);
   assert.doesNotMatch(page.toString(), /(src|href)=["']?https?:/);
 });
 
@@ -54,6 +54,17 @@ for (const name of ['hexacopter-400v.json', 'headroom-range.json']) {
     assertDigits(cells(await saved(page, 'Table')), cells(programSays(['optimize', '--format', 'csv', '-'], example(name))));
   });
 }
+
+const goldens = goldenSpecs(referenceData);
+onPage("the golden designs have the program's digits when opened as files", async (page) => {
+  assert.equal(goldens.length, 60);
+  for (const [i, golden] of goldens.entries()) {
+    const spec = JSON.stringify({ ...JSON.parse(golden), name: `golden ${i}` });
+    await page.locator('#open-spec').setInputFiles({ name: 'golden.json', mimeType: 'application/json', buffer: Buffer.from(spec) });
+    await page.waitForFunction((name) => document.getElementById('design-name').textContent === name, `golden ${i}`);
+    assertDigits(cells(await saved(page, 'Table')), cells(programSays(['optimize', '--format', 'csv', '-'], spec)), `golden ${i}`);
+  }
+}, { without: goldens.length === 0 && 'the golden designs are not there' });
 
 onPage("fields typed one by one give the program's digits for the same --set", async (page) => {
   const set = { 'drone.mass_g': '1533', 'tether.length_m': '47.5', 'supply.voltage_V': '131', 'flight.airspeed_m_s': '6.25' };
@@ -298,6 +309,34 @@ onPage("a power log dropped on the page gives the program's diagnosis", async (p
   assert.ok(ruledOut(printed).length > 500);
   assert.equal(ruledOut(await page.locator('.learned pre').textContent()), ruledOut(printed));
 });
+
+const flight = join(referenceData, 'data/x500-flight.bin');
+const withoutFlight = !existsSync(flight) && 'the published flight is not there';
+
+onPage('the published flight, dropped on the page, has the drag that the program finds', async (page) => {
+  await drop(page, flight);
+  await page.locator('.learned pre').waitFor({ timeout: 60_000 });
+  await page.locator('#learn-mass_g').fill('1549');
+  await page.locator('#learn-pitch_offset_deg').fill('1.4955439766569403');
+  await page.getByRole('button', { name: 'Drag', exact: true }).click();
+  await page.getByRole('heading', { name: 'The drag that it shows' }).waitFor({ timeout: 60_000 });
+  const given = ['drag', flight, '--mass-g', '1549', '--pitch-offset-deg', '1.4955439766569403', '--air-density', '1.293'];
+  assert.equal(await page.locator('.learned pre').textContent(), programSays(given, ''));
+  await page.getByRole('button', { name: 'Use in this design' }).click();
+  const { drag } = JSON.parse(await saved(page, 'Spec')).drone;
+  const found = JSON.parse(programSays([...given, '--format', 'json'], ''));
+  // The fit ends where steps no longer matter, not at the same last digits.
+  for (const name of ['front_area_m2', 'top_area_m2', 'linear_m_s']) assert.ok(Math.abs(drag[name] / found[name].value - 1) < 1e-9, name);
+}, { without: withoutFlight });
+
+onPage("the published flight, dropped on the page, has the program's diagnosis", async (page) => {
+  await drop(page, flight);
+  await page.locator('.learned pre').waitFor({ timeout: 60_000 });
+  await page.getByRole('button', { name: 'Diagnose', exact: true }).click();
+  await page.getByRole('heading', { name: 'What the simulation gets wrong' }).waitFor({ timeout: 100_000 });
+  const printed = programSays(['diagnose', '-', '--flight', flight], example('holybro-x500.json'));
+  assert.equal(await page.locator('.learned pre').textContent(), printed);
+}, { without: withoutFlight });
 
 onPage('a cancelled calculation leaves the page as it was', async (page) => {
   await typeSpec(page, flown());

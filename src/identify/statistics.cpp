@@ -13,7 +13,9 @@ namespace tethercalc {
 namespace {
 
 // Long double takes three times as long to compile, for digits nobody sees.
-using Plain = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+// Boost's functions call each other with this order of both, so that each is compiled once.
+using Plain = boost::math::policies::policy<boost::math::policies::promote_float<false>,
+                                            boost::math::policies::promote_double<false>>;
 
 template <class Distribution>
 double tail(const Distribution& distribution, double value) {

@@ -241,7 +241,7 @@ double awg_area(int gauge) {
 }
 
 void add_metric_sizes(std::vector<WireSize>& sizes, const char* standard,
-                      const nlohmann::json& areas_mm2) {
+                      const nlohmann::ordered_json& areas_mm2) {
   for (const double area : areas_mm2) {
     sizes.push_back({standard, fmt::format("{} mm²", area), area * unit::square_millimetre});
   }
@@ -338,9 +338,10 @@ InsulationEntry find_insulation(const std::string& reference, const TextLoader& 
 }
 
 std::vector<WireSize> wire_sizes() {
-  const nlohmann::json tables = nlohmann::json::parse(embedded_file("wire_sizes.json"));
+  const nlohmann::ordered_json tables =
+      nlohmann::ordered_json::parse(embedded_file("wire_sizes.json"));
   std::vector<WireSize> sizes;
-  const nlohmann::json& awg = tables.at("awg");
+  const nlohmann::ordered_json& awg = tables.at("awg");
   for (int gauge = awg.at("from"); gauge <= awg.at("to").get<int>(); ++gauge) {
     sizes.push_back({"AWG", fmt::format("AWG {}", gauge), awg_area(gauge)});
   }

@@ -26,7 +26,7 @@ RuleFigure figure_named(const std::string& name) {
   throw std::logic_error("no figure of a rule is called " + name);
 }
 
-void set_comparison(const nlohmann::json& json, RuleClause& clause) {
+void set_comparison(const nlohmann::ordered_json& json, RuleClause& clause) {
   constexpr std::pair<const char*, RuleComparison> comparisons[] = {
       {"less_than", RuleComparison::less_than},
       {"at_most", RuleComparison::at_most},
@@ -40,7 +40,7 @@ void set_comparison(const nlohmann::json& json, RuleClause& clause) {
 }
 
 /// A clause of `book`, whose document and edition it has unless it names its own.
-RuleClause clause_of(const nlohmann::json& json, const nlohmann::json& book) {
+RuleClause clause_of(const nlohmann::ordered_json& json, const nlohmann::ordered_json& book) {
   const auto own_or = [&](const char* key) {
     return (json.contains(key) ? json : book).at(key).get<std::string>();
   };
@@ -59,17 +59,17 @@ RuleClause clause_of(const nlohmann::json& json, const nlohmann::json& book) {
 }
 
 RuleBook book_of(const std::string& id) {
-  const nlohmann::json json = nlohmann::json::parse(
+  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(
       embedded_file(std::string(rules_folder) + id + std::string(rules_suffix)));
   RuleBook book{id,
                 json.at("title").get<std::string>(),
                 json.at("scope").get<std::string>(),
                 json.at("left_out").get<std::string>(),
                 {}};
-  for (const nlohmann::json& clause : json.at("clauses")) {
+  for (const nlohmann::ordered_json& clause : json.at("clauses")) {
     book.clauses.push_back(clause_of(clause, json));
   }
-  for (const nlohmann::json& other : json.value("with", nlohmann::json::array())) {
+  for (const nlohmann::ordered_json& other : json.value("with", nlohmann::ordered_json::array())) {
     const RuleBook taken_in = book_of(other.get<std::string>());
     book.clauses.insert(book.clauses.end(), taken_in.clauses.begin(), taken_in.clauses.end());
     book.scope += " " + taken_in.title + ": " + taken_in.scope;

@@ -77,10 +77,10 @@ class JsonText {
     std::optional<Member> found;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto [begin, end] = all[i].key;
-      const bool same =
-          begin == end
-              ? key == std::to_string(i)
-              : nlohmann::json::parse(text_.substr(begin, end - begin)).get<std::string>() == key;
+      const bool same = begin == end
+                            ? key == std::to_string(i)
+                            : nlohmann::ordered_json::parse(text_.substr(begin, end - begin))
+                                      .get<std::string>() == key;
       if (same) found = all[i];
     }
     return found;
@@ -120,7 +120,7 @@ std::string with_new_member(std::string_view text, Extent holder, std::span<cons
   const std::vector<Member> members = json.members(holder);
   std::string written;
   for (const std::string& key : keys) {
-    written += nlohmann::json(key).dump() + ": " + (&key == &keys.back() ? "" : "{ ");
+    written += nlohmann::ordered_json(key).dump() + ": " + (&key == &keys.back() ? "" : "{ ");
   }
   written += value.dump();
   for (std::size_t i = 1; i < keys.size(); ++i) written += " }";

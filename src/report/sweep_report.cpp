@@ -36,7 +36,7 @@ class RowText {
   /// Empty text stands for none.
   void words(std::string_view value) {
     text_ += *opening_++;
-    text_ += csv_ ? csv_text(value) : value.empty() ? "null" : nlohmann::json(value).dump();
+    text_ += csv_ ? csv_text(value) : value.empty() ? "null" : nlohmann::ordered_json(value).dump();
   }
 
   /// Both points, with the numbers that they share printed once and copied: printing is what costs

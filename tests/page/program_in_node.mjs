@@ -9,6 +9,7 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
+import { goldenSpecs } from './golden_designs.mjs';
 
 const [loader, wasm, tethercalc, project, shared] = process.argv.slice(2);
 const load = new Function(`${readFileSync(loader, 'utf8')}\nreturn loadCalculator;`)();
@@ -52,26 +53,6 @@ function same(found, expected, where, digits = 12) {
   }
 }
 
-/** The spec of a golden design, whose motors and materials are numbers of its own. */
-function goldenSpec(inputs, motors) {
-  const points = Object.entries(motors[inputs.motor]).filter(([throttle]) => throttle !== 'name')
-    .map(([throttle, [grams, efficiency]]) => ({ throttle_percent: Number(throttle), thrust_g: grams, efficiency_g_per_W: efficiency }))
-    .sort((a, b) => a.throttle_percent - b.throttle_percent);
-  const copper = inputs.conductor === 'copper';
-  return {
-    name: 'golden',
-    drone: { mass_g: inputs.drone_mass_g, motor_count: inputs.motor_count, motor: { points }, auxiliary_power_W: inputs.payload_power_W,
-      drag: { front_area_m2: inputs.drag_front_area_m2, top_area_m2: inputs.drag_top_area_m2, linear_m_s: inputs.drag_linear_m_s } },
-    tether: { length_m: inputs.tether_length_m,
-      conductor: { resistivity_20C_ohm_mm2_per_m: copper ? 0.0178 : 0.0278, temperature_coefficient_per_K: 0, density_g_cm3: copper ? 8.9 : 2.7 },
-      insulation: { material: { density_g_cm3: inputs.insulation_density_g_cm3 }, thickness_mm: inputs.insulation_thickness_mm } },
-    supply: { voltage_V: inputs.supply_voltage_V,
-      converter: { efficiency: inputs.converter_efficiency, min_input_voltage_V: inputs.converter_min_input_voltage_V } },
-    flight: { airspeed_m_s: inputs.airspeed_m_s, air_density_kg_m3: inputs.air_density_kg_m3, gravity_m_s2: inputs.gravity_m_s2 },
-    requirements: { thrust_headroom: inputs.thrust_headroom },
-  };
-}
-
 function compareDesign(name, spec, digits = 12) {
   const file = join(folder, 'spec.json');
   writeFileSync(file, spec);
@@ -91,15 +72,9 @@ try {
   }
   const spec = example('holybro-x500.json');
 
-  const golden = shared && join(shared, 'data/golden/reference-designs.json');
-  if (golden && existsSync(golden)) {
-    const data = JSON.parse(readFileSync(golden, 'utf8').replaceAll(/\bNaN\b/g, 'null'));
-    const designs = data.designs ?? data.cases;
-    designs.forEach((design, i) => compareDesign(`golden ${i}`, JSON.stringify(goldenSpec(design.inputs ?? design, data.motors), null, 1)));
-    console.log(`${designs.length} golden designs`);
-  } else {
-    console.log('the golden designs are not there');
-  }
+  const golden = goldenSpecs(shared);
+  golden.forEach((text, i) => compareDesign(`golden ${i}`, text));
+  console.log(golden.length ? `${golden.length} golden designs` : 'the golden designs are not there');
 
   const compareDrag = (log, ...options) => {
     const bytes = readFileSync(log);
