@@ -40,6 +40,7 @@ std::vector<Row> rows() {
           {"propwash", &HiddenFlight::propwash, 0.12, 0.8, false, ""},
           {"vertical_coupling", &HiddenFlight::vertical_coupling, 0.04, 0.2, true, ""},
           {"tether_pull", &HiddenFlight::tether_pull, 0.3, 1.5, true, ""},
+          {"growing_pull", &HiddenFlight::growing_pull, 0.004, 0.04, false, ""},
           {"wind_step", &HiddenFlight::wind_step, 1.5, 4, true, ""},
           {"wind_wave", &HiddenFlight::wind_wave, 1, 3, true, ""},
           {"mass_drop", &HiddenFlight::mass_drop, 12, 40, false, ""},

@@ -307,11 +307,25 @@ std::vector<Effect> flight_effects() {
        .flight_phase = FlightPhase::force,
        .on_flight =
            [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.drag.size(); ++i) pull(p, i, x[0], x[1]);
+           }},
+
+      {.id = "growing_pull",
+       .title = "A pull back that grows with the distance",
+       .mechanism = "The tether pulls the drone back to its station, the more the further it is "
+                    "away: a longer cable hangs flatter and carries more of its weight sideways.",
+       .parameters = {{.name = "pull_N_m", .unit = "N/m", .lower = 0, .upper = 50, .scale = 0.01}},
+       .to_separate = "fly the same passes near the station and far from it: what belongs to the "
+                      "drone or to the air does not know where the station stands",
+       .change = "F_D → F_D + k·(x cos(ψ − ψ̄) + y sin(ψ − ψ̄)), (x, y) the place from the mean one, "
+                 "along the mean heading ψ̄ and to its right",
+       .channel = "place",
+       .own_in_each_flight = true,
+       .flight_phase = FlightPhase::force,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.drag.size(); ++i) {
-               const double c = p.record.along_heading[i];
-               const double s = p.record.right_of_heading[i];
-               p.drag[i] -= x[0] * c + x[1] * s;
-               p.side_drag[i] -= x[1] * c - x[0] * s;
+               pull(p, i, -x[0] * p.record.place_along[i], -x[0] * p.record.place_right[i]);
              }
            }},
 

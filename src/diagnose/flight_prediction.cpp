@@ -3,6 +3,7 @@
 #include "diagnose/flight_prediction.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "identify/flight_units.hpp"
 
@@ -18,6 +19,32 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// Picard iterations of the open-loop speed. The error shrinks like (λT)^n/n!, with λ ≈ 0.4 1/s for
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
+
+/// A speed added up, less its mean.
+std::vector<double> place(const std::vector<double>& time, const std::vector<double>& speed) {
+  std::vector<double> place(speed.size(), 0.0);
+  for (std::size_t i = 1; i < speed.size(); ++i) {
+    place[i] = place[i - 1] + (speed[i - 1] + speed[i]) / 2 * (time[i] - time[i - 1]);
+  }
+  const double mean =
+      std::accumulate(place.begin(), place.end(), 0.0) / static_cast<double>(place.size());
+  for (double& x : place) x -= mean;
+  return place;
+}
+
+/// Fills `place_along` and `place_right`.
+void add_places(FlightRecord& record) {
+  std::vector<double> along(record.size());
+  std::vector<double> right(record.size());
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double c = record.along_heading[i];
+    const double s = record.right_of_heading[i];
+    along[i] = record.forward_speed[i] * c - record.right_speed[i] * s;
+    right[i] = record.forward_speed[i] * s + record.right_speed[i] * c;
+  }
+  record.place_along = place(record.time, along);
+  record.place_right = place(record.time, right);
+}
 
 }  // namespace
 
@@ -47,6 +74,7 @@ FlightRecord flight_record(const Observations& observations, double mass, double
     record.along_heading.push_back(std::cos(yaw - record.mean_heading));
     record.right_of_heading.push_back(std::sin(yaw - record.mean_heading));
   }
+  add_places(record);
   record.yaw_rate = yaw_rate(observations);
   record.both_axes = shows_both_axes(observations, gravity);
   record.mass = mass;
@@ -63,9 +91,10 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
   FlightRecord part = record;
   for (auto series :
        {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
-        &FlightRecord::along_heading, &FlightRecord::right_of_heading, &FlightRecord::forward_speed,
-        &FlightRecord::right_speed, &FlightRecord::headwind, &FlightRecord::crosswind,
-        &FlightRecord::down_speed, &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
+        &FlightRecord::along_heading, &FlightRecord::right_of_heading, &FlightRecord::place_along,
+        &FlightRecord::place_right, &FlightRecord::forward_speed, &FlightRecord::right_speed,
+        &FlightRecord::headwind, &FlightRecord::crosswind, &FlightRecord::down_speed,
+        &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
         &FlightRecord::yaw_rate}) {
     const auto begin = (record.*series).begin();
     (part.*series)
@@ -98,6 +127,13 @@ void blow(FlightPrediction& p, std::size_t i, double along, double right) {
   const double c = p.record.along_heading[i];
   const double s = p.record.right_of_heading[i];
   blow_at_drone(p, i, along * c + right * s, right * c - along * s);
+}
+
+void pull(FlightPrediction& p, std::size_t i, double along, double right) {
+  const double c = p.record.along_heading[i];
+  const double s = p.record.right_of_heading[i];
+  p.drag[i] -= along * c + right * s;
+  p.side_drag[i] -= right * c - along * s;
 }
 
 DragForces law_drag(const FlightPrediction& p, std::size_t i, double forward, double right) {

@@ -177,13 +177,16 @@ struct PlaceFields {
   std::string_view message;
   std::vector<std::string> fields;  // latitude and longitude in degrees, height in m; a condition
   double condition = 0;             // what the condition has to hold, if there is one
+  double degree = 1;                // what the fields count in, °
+  double metre = 1;                 // likewise, m
 };
 
 /// The first of these messages with a place other than (0, 0), which stands for none.
 std::optional<Home> first_place(const AutopilotLog& log, const PlaceFields& from) {
   const auto columns = log.columns(from.message, from.fields);
   for (std::size_t i = 0; i < columns[0].size(); ++i) {
-    const Home home{columns[0][i], columns[1][i], columns[2][i]};
+    const Home home{columns[0][i] * from.degree, columns[1][i] * from.degree,
+                    columns[2][i] * from.metre};
     if (columns.size() > 3 && columns[3][i] != from.condition) continue;
     if (std::abs(home.latitude) > 1e-6 && std::abs(home.latitude) <= 85 &&
         std::abs(home.longitude) <= 180) {
@@ -197,14 +200,16 @@ std::optional<Home> first_place(const AutopilotLog& log, const PlaceFields& from
 
 std::optional<Home> logged_home(const AutopilotLog& log) {
   constexpr double at_home = 1;  // ORGN: 0 is the estimator's origin
-  const std::array<PlaceFields, 7> places = {
+  const std::array<PlaceFields, 8> places = {
       {{"ORGN", {"Lat", "Lng", "Alt", "Type"}, at_home},
        {"ORGN", {"Lat", "Lng", "Alt"}},
        {"POS", {"Lat", "Lng", "Alt"}},
        {"GPS", {"Lat", "Lng", "Alt"}},
        {"home_position", {"lat", "lon", "alt"}},
        {"vehicle_global_position", {"lat", "lon", "alt"}},
-       {"vehicle_gps_position", {"latitude_deg", "longitude_deg", "altitude_msl_m"}}}};
+       {"vehicle_gps_position", {"latitude_deg", "longitude_deg", "altitude_msl_m"}},
+       // Older PX4: integers.
+       {"vehicle_gps_position", {"lat", "lon", "alt"}, 0, 1e-7, 1e-3}}};
   for (const PlaceFields& place : places) {
     if (const auto home = first_place(log, place)) return home;
   }

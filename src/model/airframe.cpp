@@ -1,5 +1,7 @@
 #include "tethercalc/model/airframe.hpp"
 
+#include <algorithm>
+
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -62,6 +64,17 @@ double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, doub
     t = newton > low && newton < high ? newton : 0.5 * (low + high);
   }
   return limited(t, tan_limit);
+}
+
+double weight_held(const ForceBalance& balance, double thrust) {
+  // T·sinθ = q·(A_f·cosθ + A_t·sinθ) + F_t: a line that cuts the circle of (sinθ, cosθ).
+  const double up = thrust - balance.area_force_factor * balance.top_area;
+  const double front = balance.area_force_factor * balance.front_area;
+  const double square = up * up + front * front;
+  const double rest = square - balance.tether_drag * balance.tether_drag;
+  if (!(rest > 0)) return 0;
+  const double cosine = (up * std::sqrt(rest) - front * balance.tether_drag) / square;
+  return std::max(0.0, thrust * cosine);
 }
 
 }  // namespace tethercalc

@@ -1,6 +1,7 @@
 #include "tethercalc/model/reserve_battery.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "model/constants.hpp"
@@ -21,57 +22,90 @@ double battery_mass_per_watt(const ReserveBattery& battery, double height) {
 
 namespace {
 
+ForceBalance force_balance(const Drone& drone, double mass, const Landing& landing) {
+  return {mass * landing.gravity, landing.area_force_factor, landing.tether_drag,
+          drone.drag.front_area, drone.drag.top_area};
+}
+
+/// Thrust of all motors, and how it grows with the mass, N/kg.
+InclinedThrust all_thrust(const Drone& drone, double mass, const Landing& landing) {
+  const ForceBalance balance = force_balance(drone, mass, landing);
+  return inclined_thrust(balance, equilibrium_tan_pitch(balance, infinity), landing.gravity, 0);
+}
+
+/// kg that the drone holds with `thrust` N of one motor.
+double held_mass(const Drone& drone, double thrust, const Landing& landing) {
+  return weight_held(force_balance(drone, 0, landing), thrust * drone.motor_count) /
+         landing.gravity;
+}
+
 /// W of the battery, with the data-sheet power of one motor.
-double battery_power(const Drone& drone, double motor_power) {
-  return drone.motor_count * drone.motor_power_factor * motor_power + drone.auxiliary_power;
+double battery_power(const Drone& drone, double motor_power, double share) {
+  return drone.motor_count * drone.motor_power_factor * share * motor_power + drone.auxiliary_power;
+}
+
+/// W of the battery for 1 N more of all motors together, on one piece of their curve.
+double power_per_newton(const Drone& drone, std::size_t piece, double share) {
+  return drone.motor_power_factor * share * drone.motor.slope(piece);
+}
+
+bool is_still(const Landing& landing) {
+  return landing.area_force_factor == 0 && landing.tether_drag == 0;
 }
 
 }  // namespace
 
-double landing_power(const Drone& drone, double mass, double gravity) {
-  return battery_power(drone, drone.motor.power(mass * gravity / drone.motor_count));
+double landing_thrust(const Drone& drone, double mass, const Landing& landing) {
+  return all_thrust(drone, mass, landing).value / drone.motor_count;
 }
 
-namespace {
-
-/// W of the battery for one more kilogram, on one piece of the motor curve.
-double power_per_kilogram(const Drone& drone, std::size_t piece, double gravity) {
-  return drone.motor_power_factor * drone.motor.slope(piece) * gravity;
-}
-
-}  // namespace
-
-double reserve_battery_mass(const Drone& drone, double mass, double height, double gravity) {
-  const double per_watt = battery_mass_per_watt(drone.reserve_battery, height);
+double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing) {
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
   if (per_watt == 0) return 0;
   const auto vertices = drone.motor.vertices();
-  // The mass carried is a line over the take-off mass on each piece of the motor curve. From the
-  // drone without a battery upwards, the first piece that reaches `mass` holds the least solution.
-  double lower = mass;
-  // What is missing at `lower` is the battery for the power there, less the mass gained so far.
-  const double thrust = mass * gravity / drone.motor_count;
-  if (!(thrust < drone.motor.max_thrust())) return infinity;
-  std::size_t i = drone.motor.piece(thrust);
-  double missing =
-      per_watt * battery_power(drone, vertices[i].power +
-                                          drone.motor.slope(i) * (thrust - vertices[i].thrust));
-  for (; i + 1 < vertices.size(); ++i) {
-    const double rate = 1 - per_watt * power_per_kilogram(drone, i, gravity);
-    const double upper = vertices[i + 1].thrust * drone.motor_count / gravity;
-    if (missing <= rate * (upper - lower)) return lower + missing / rate - mass;
-    missing -= rate * (upper - lower);
-    lower = upper;
+  InclinedThrust all = all_thrust(drone, mass, landing);
+  if (!(all.value / drone.motor_count < drone.motor.max_thrust())) return infinity;
+  // From the drone without a battery upwards. Over the take-off mass the thrust bends up, so that
+  // on a piece of the motor curve Newton's method does not step over the least solution, and goes
+  // beyond the piece where that holds none. In still air its first step is exact.
+  double takeoff = mass;
+  for (std::size_t i = drone.motor.piece(all.value / drone.motor_count); i + 1 < vertices.size();
+       ++i) {
+    const double upper = held_mass(drone, vertices[i + 1].thrust, landing);
+    const double price = per_watt * power_per_newton(drone, i, landing.power_share);
+    constexpr int most_steps = 100;
+    for (int step = 0; step < most_steps; ++step) {
+      const double thrust = all.value / drone.motor_count;
+      const double power = vertices[i].power + drone.motor.slope(i) * (thrust - vertices[i].thrust);
+      const double missing =
+          per_watt * battery_power(drone, power, landing.power_share) - (takeoff - mass);
+      const double rate = 1 - price * all.slope;
+      if (!(missing <= rate * (upper - takeoff))) break;
+      const double gain = missing / rate;
+      takeoff += gain;
+      // Newton squares the error in every step.
+      if (is_still(landing) || std::abs(gain) <= 1e-8 * takeoff) return takeoff - mass;
+      all = all_thrust(drone, takeoff, landing);
+    }
+    takeoff = upper;
+    all = all_thrust(drone, takeoff, landing);
   }
   return infinity;
 }
 
-double reserve_battery_growth(const Drone& drone, double takeoff_mass, double height,
-                              double gravity) {
-  const double per_watt = battery_mass_per_watt(drone.reserve_battery, height);
-  if (per_watt == 0) return 0;
-  const std::size_t piece = drone.motor.piece(takeoff_mass * gravity / drone.motor_count);
-  const double more = per_watt * power_per_kilogram(drone, piece, gravity);
-  return more < 1 ? more / (1 - more) : infinity;
+BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,
+                                     const Landing& landing) {
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
+  if (per_watt == 0) return {};
+  const ForceBalance balance = force_balance(drone, takeoff_mass, landing);
+  const double tangent = equilibrium_tan_pitch(balance, infinity);
+  const InclinedThrust by_mass = inclined_thrust(balance, tangent, landing.gravity, 0);
+  const double by_drag = tangent == 0 ? 0 : inclined_thrust(balance, tangent, 0, 1).slope;
+  const std::size_t piece = drone.motor.piece(by_mass.value / drone.motor_count);
+  const double price = per_watt * power_per_newton(drone, piece, landing.power_share);
+  const double more = price * by_mass.slope;
+  if (!(more < 1)) return {infinity, infinity};
+  return {more / (1 - more), price * by_drag / (1 - more)};
 }
 
 double mass_without_battery(const Drone& drone, double takeoff_mass, double height,
@@ -81,11 +115,12 @@ double mass_without_battery(const Drone& drone, double takeoff_mass, double heig
   // Where a piece is so steep that a heavier drone carries less, the most is at a vertex below.
   const double reachable =
       std::min(takeoff_mass, drone.motor.max_thrust() * drone.motor_count / gravity);
-  double most = reachable - per_watt * landing_power(drone, reachable, gravity);
+  const double thrust = reachable * gravity / drone.motor_count;
+  double most = reachable - per_watt * battery_power(drone, drone.motor.power(thrust), 1);
   for (const MotorPoint& vertex : drone.motor.vertices()) {
     const double at_vertex = vertex.thrust * drone.motor_count / gravity;
     if (at_vertex > reachable) break;
-    most = std::max(most, at_vertex - per_watt * battery_power(drone, vertex.power));
+    most = std::max(most, at_vertex - per_watt * battery_power(drone, vertex.power, 1));
   }
   return most;
 }

@@ -31,6 +31,7 @@ SteadyFlight::SteadyFlight(const Design& design, const FlightState& state)
   deliverable_ = tethercalc::available_power(design.supply.voltage,
                                              lowest_input_voltage(design.supply.converter), 1.0);
   set_airspeed(state.airspeed);
+  if (has_battery_) landing_ = landing_in_wind(design, wall_);
 }
 
 SteadyFlight::SteadyFlight(const Design& design, Condition condition)
@@ -51,44 +52,71 @@ void SteadyFlight::set_airspeed(double speed) {
   area_force_factor_ = area_force_factor(drone.drag, design_->flight.air_density, speed);
 }
 
-double SteadyFlight::sized_battery(double radius) const {
-  const double length = design_->tether.length;
-  return reserve_battery_mass(drone(), fixed_mass_ + tether_.straight().mass_of(length, radius),
-                              length, gravity_);
+SteadyFlight::LandingInWind SteadyFlight::landing_in_wind(const Design& design, double wall) {
+  LandingInWind landing;
+  landing.beside_tether = {.height = design.tether.length, .gravity = design.flight.gravity};
+  const FlightState state = flight_state(design, Condition::hover);
+  if (state.airspeed == 0) return landing;
+  const Drone& drone = design.drone;
+  landing.beside_tether.area_force_factor =
+      area_force_factor(drone.drag, design.flight.air_density, state.airspeed);
+  landing.beside_tether.power_share =
+      translational_lift_factor(drone.translational_lift, state.airspeed);
+  const StraightTether tether(design.tether, wall, state, design.flight.air_density,
+                              design.flight.gravity);
+  landing.least_drag = tether.least_drag();
+  landing.drag_slope = tether.drag_slope();
+  landing.windy = true;
+  return landing;
 }
 
-double SteadyFlight::landed_mass(double radius) const {
-  return fixed_mass_ + tether_.straight().mass_of(design_->tether.length, radius) +
-         sized_battery(radius);
+Landing SteadyFlight::landing(double radius) const {
+  Landing landing = landing_.beside_tether;
+  landing.tether_drag = landing_.least_drag + landing_.drag_slope * radius;
+  return landing;
+}
+
+double SteadyFlight::mass_without_battery_at(double radius) const {
+  return fixed_mass_ + tether_.straight().mass_of(design_->tether.length, radius);
+}
+
+double SteadyFlight::sized_battery(double radius) const {
+  return reserve_battery_mass(drone(), mass_without_battery_at(radius), landing(radius));
 }
 
 std::size_t SteadyFlight::battery_piece(double radius) const {
   if (!has_battery_) return 0;
-  return motor().piece(landed_mass(radius) * gravity_ * per_motor_);
+  const double landed = mass_without_battery_at(radius) + sized_battery(radius);
+  if (!(landed < std::numeric_limits<double>::infinity())) {
+    return motor().piece(landed);
+  }
+  return motor().piece(landing_thrust(drone(), landed, landing(radius)));
 }
 
 SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
   const double slope = tether_.down_slope(radius);
   const double mass = fixed_mass_ + tether_.mass(radius);
   if (!has_battery_) return {lifted(radius, mass), slope};
-  const StraightTether& straight = tether_.straight();
-  const double length = design_->tether.length;
-  const double bare = fixed_mass_ + straight.mass_of(length, radius);
-  const double battery = reserve_battery_mass(drone(), bare, length, gravity_);
-  const double growth = reserve_battery_growth(drone(), bare + battery, length, gravity_);
-  const double carried = straight.mass_slope(radius) * gravity_;
-  return {lifted(radius, mass + battery),
-          tether_.is_solved() ? slope + carried * growth : slope * (1 + growth)};
+  const Landing landing = this->landing(radius);
+  const double bare = mass_without_battery_at(radius);
+  const double battery = reserve_battery_mass(drone(), bare, landing);
+  const double weight = lifted(radius, mass + battery);
+  if (!(battery < std::numeric_limits<double>::infinity())) return {weight, slope};
+  const BatteryGrowth growth = reserve_battery_growth(drone(), bare + battery, landing);
+  const double carried = tether_.straight().mass_slope(radius) * gravity_;
+  const double blown = landing_.drag_slope * growth.by_drag * gravity_;
+  return {weight, tether_.is_solved() ? slope + carried * growth.by_mass + blown
+                                      : slope * (1 + growth.by_mass) + blown};
 }
 
 double SteadyFlight::radius_of_weight(double weight) const {
-  if (tether_.is_solved()) return radius_of_solved_weight(weight);
+  if (tether_.is_solved() || lands_in_wind()) return searched_radius(weight);
   const double takeoff = (weight - tether_.straight().winch_pull()) / gravity_;
   return tether_.straight().radius_of_mass(
       mass_without_battery(drone(), takeoff, design_->tether.length, gravity_) - fixed_mass_);
 }
 
-double SteadyFlight::radius_of_solved_weight(double limit) const {
+double SteadyFlight::searched_radius(double limit) const {
   constexpr double thinnest = 1e-6;
   constexpr double thickest = 1;
   double light = -1;
@@ -116,10 +144,12 @@ double SteadyFlight::radius_of_solved_weight(double limit) const {
 double SteadyFlight::tan_pitch(double radius, double weight, double tan_limit, double guess) const {
   if (area_force_factor_ == 0 && tether_.drag(radius) == 0) return 0;
   if (!(weight < std::numeric_limits<double>::infinity())) return weight;
+  return equilibrium_tan_pitch(force_balance(radius, weight), tan_limit, guess);
+}
+
+ForceBalance SteadyFlight::force_balance(double radius, double weight) const {
   const AirframeDrag& drag = design_->drone.drag;
-  return equilibrium_tan_pitch(
-      {weight, area_force_factor_, tether_.drag(radius), drag.front_area, drag.top_area}, tan_limit,
-      guess);
+  return {weight, area_force_factor_, tether_.drag(radius), drag.front_area, drag.top_area};
 }
 
 SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
@@ -140,20 +170,10 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
   return {std::max(0.0, std::min(far, near)), std::max(0.0, std::max(far, near))};
 }
 
-SteadyFlight::Thrust SteadyFlight::inclined_thrust(double radius, Weight weight,
-                                                   double tan_pitch) const {
-  if (tan_pitch == 0) return {weight.value * per_motor_, weight.slope * per_motor_, 0};
-  const AirframeDrag& drag = design_->drone.drag;
-  const double secant_squared = 1 + tan_pitch * tan_pitch;
-  const double secant = std::sqrt(secant_squared);
-  // The force balance W·t − q·g(t) − F_t = 0, differentiated by r: tan_slope/secant.
-  const double tan_slope_cosine =
-      (tether_.drag_slope(radius) - weight.slope * tan_pitch) * secant_squared /
-      (weight.value * secant_squared * secant -
-       area_force_factor_ * (drag.top_area - drag.front_area * tan_pitch));
-  return {weight.value * secant * per_motor_,
-          (weight.slope * secant + weight.value * tan_pitch * tan_slope_cosine) * per_motor_,
-          tan_slope_cosine * secant};
+SteadyFlight::Thrust SteadyFlight::thrust_of(double radius, Weight weight, double tan_pitch) const {
+  const InclinedThrust all = inclined_thrust(force_balance(radius, weight.value), tan_pitch,
+                                             weight.slope, tether_.drag_slope(radius));
+  return {all.value * per_motor_, all.slope * per_motor_, all.tan_slope};
 }
 
 double SteadyFlight::available_thrust(double available_power) const {

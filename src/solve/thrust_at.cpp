@@ -166,6 +166,15 @@ bool battery_bends(const SteadyFlight& flight, double lo, double hi, bool either
 double battery_kink(const SteadyFlight& flight, double lo, double hi, bool either_way) {
   const std::size_t piece = bent_battery_piece(flight, lo, hi, either_way);
   if (piece == 0) return nan;
+  if (flight.tether().is_solved() || flight.lands_in_wind()) {
+    double before = lo;
+    double after = hi;
+    for (double middle = 0.5 * (lo + hi); before < middle && middle < after;
+         middle = 0.5 * (before + after)) {
+      (flight.battery_piece(middle) < piece ? before : after) = middle;
+    }
+    return before > lo ? before : std::sqrt(lo * hi);
+  }
   const Drone& drone = flight.drone();
   const double landed = drone.motor.vertices()[piece].thrust * drone.motor_count;
   double kink = flight.radius_of_weight(landed + flight.tether().straight().winch_pull());

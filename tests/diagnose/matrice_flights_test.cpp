@@ -82,13 +82,13 @@ Design matrice() {
   return design;
 }
 
-/// Mean predicted over mean measured power, nothing of this flight being fitted.
-double mean_ratio(const Diagnosis& d) {
+/// Mean predicted over mean measured power between two times, nothing of this flight being fitted.
+double mean_ratio(const Diagnosis& d, double from, double to) {
   const ComparedSeries& motors = d.compared.back();
   double predicted = 0;
   double measured = 0;
   for (std::size_t i = 0; i < motors.measured.size(); ++i) {
-    if (!std::isfinite(motors.before[i])) continue;
+    if (!std::isfinite(motors.before[i]) || motors.time[i] < from || motors.time[i] > to) continue;
     predicted += motors.before[i];
     measured += motors.measured[i];
   }
@@ -121,11 +121,16 @@ TEST_CASE("a payload shows in a battery flight after one without has told of the
     CHECK(first.parameters.front().value < 0.65);
   }
 
-  // Held out: what flight 273 taught, held against the others with their payload known. They draw
-  // 7 % more on average than that predicts.
+  // Held out: what flight 273 taught, held against the others with their payload known. It flew at
+  // airspeeds up to 10 m/s, and so did 268, where the mean is within 5 %. 269 flew up to 14.7 m/s,
+  // 14° inclined on average: there the relief of the rotors that 273 showed does not go on.
   Design with_payload = drone;
   with_payload.drone.mass += 0.5;
-  const double ratio = mean_ratio(diagnose_power(with_payload, *loaded).diagnosis);
-  INFO("mean predicted over measured power " << ratio);
-  CHECK(std::abs(ratio - 1) < 0.08);
+  const Diagnosis held_out = diagnose_power(with_payload, *loaded).diagnosis;
+  constexpr double end_of_268 = 183;  // s
+  const double like = mean_ratio(held_out, 0, end_of_268);
+  const double faster = mean_ratio(held_out, end_of_268, 1e9);
+  INFO("mean predicted over measured power " << like << ", " << faster);
+  CHECK(std::abs(like - 1) < 0.05);
+  CHECK(std::abs(faster - 1) < 0.15);
 }

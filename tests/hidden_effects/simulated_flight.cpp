@@ -198,6 +198,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
   double yaw = uniform(random, 0, 2 * std::numbers::pi);
   if (commanded) yaw = h.course.front().heading;
   const double first_heading = yaw;
+  double north = 0;  // m from the start
+  double east = 0;
   double drifting = 0;  // m/s to the right, where the roll moves the drone
   double lagging_forward = 0;
   double lagging_right = 0;
@@ -253,10 +255,15 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
                           (time > 0.6 * h.duration ? h.wind_step : 0) * to_the_left -
                           h.wind_wave * wave * to_the_left;
     const double mass = h.mass * (late ? 1 - h.mass_drop / 100 : 1);
+    const double pull_north = h.tether_pull * std::cos(first_heading) +
+                              h.growing_pull * (h.station * std::cos(first_heading) - north);
+    const double pull_east = h.tether_pull * std::sin(first_heading) +
+                             h.growing_pull * (h.station * std::sin(first_heading) - east);
     // A frame that turns carries the speed to the right into the forward one.
     const double push = (gravity - down_acceleration) * std::tan(tilt) +
                         gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) +
-                        turn / step * right + h.tether_pull * ahead / mass;
+                        turn / step * right +
+                        (pull_north * std::cos(yaw) + pull_east * std::sin(yaw)) / mass;
     const auto acceleration = [&](double v) {
       return push - drag(h, v - along, both_axes ? right - across : 0, tilt, down, roll,
                          height - 10, late) /
@@ -266,7 +273,7 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
     if (both_axes) {
       const double push_aside = (gravity - down_acceleration) * std::tan(roll) / std::cos(tilt) +
                                 gust_aside.next(random) - turn / step * speed -
-                                h.tether_pull * to_the_left / mass;
+                                (pull_east * std::cos(yaw) - pull_north * std::sin(yaw)) / mass;
       const auto acceleration_aside = [&](double v) {
         return push_aside - side_drag(h, v - across, speed - along, roll, down) / mass;
       };
@@ -307,6 +314,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
       }
     }
     speed += acceleration(halfway) * step;
+    north += (speed * std::cos(yaw) - right * std::sin(yaw)) * step;
+    east += (speed * std::sin(yaw) + right * std::cos(yaw)) * step;
     if (flown != nullptr) {
       airspeed_sum += std::hypot(speed - along, both_axes ? drifting - across : 0);
       lift_sum += (gravity - down_acceleration) / (std::cos(tilt) * std::cos(roll));

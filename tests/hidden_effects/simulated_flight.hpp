@@ -79,8 +79,10 @@ struct HiddenFlight {
   double fore_aft_asymmetry = 0;
   double propwash = 0;           ///< N·s/(m·rad)
   double vertical_coupling = 0;  ///< N·s²/m²
-  // Along the first heading, and fixed over ground.
+  // Along the first heading, and fixed over ground. A pull that grows is back to the station.
   double tether_pull = 0;         ///< N
+  double growing_pull = 0;        ///< N for each m from the station
+  double station = 0;             ///< m from the start, along the first heading
   double wind_step = 0;           ///< m/s, from 60 % of the flight on
   double wind_wave = 0;           ///< m/s, greatest in the middle of the flight
   double wind_wave_period = 160;  ///< s

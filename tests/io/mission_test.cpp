@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "support/dataflash_writer.hpp"
+#include "support/ulog_writer.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/mission.hpp"
 
@@ -106,4 +107,21 @@ TEST_CASE("home is where the log says that it is") {
   test::DataFlashWriter without;
   test::define_xkf1(without);
   CHECK_FALSE(logged_home(AutopilotLog(without.bytes(), "log")));
+}
+
+TEST_CASE("home is where the receiver of an older PX4 was, which counted in integers") {
+  test::ULogWriter log;
+  log.format("vehicle_gps_position:uint64_t timestamp;int32_t lat;int32_t lon;int32_t alt;");
+  log.subscribe(3, "vehicle_gps_position");
+  const auto place = [&](std::int32_t lat, std::int32_t lon, std::int32_t alt) {
+    log.data(3, test::ULogContent().put(std::uint64_t{1000}).put(lat).put(lon).put(alt));
+  };
+  place(0, 0, 0);  // no fix
+  place(634170622, 104082151, 66814);
+  const std::vector<std::byte> bytes(log.bytes().begin(), log.bytes().end());
+  const auto home = logged_home(AutopilotLog(bytes, "log"));
+  REQUIRE(home);
+  CHECK(home->latitude == Approx(63.4170622).epsilon(1e-12));
+  CHECK(home->longitude == Approx(10.4082151).epsilon(1e-12));
+  CHECK(home->altitude == Approx(66.814).epsilon(1e-12));
 }

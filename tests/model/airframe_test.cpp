@@ -45,6 +45,20 @@ TEST_CASE("the tilt balances weight and drag, as a bisection over the angle find
   });
 }
 
+TEST_CASE("the thrust of an equilibrium holds up its weight again") {
+  test::each_random(2000, [](test::Random& random) {
+    ForceBalance balance = random_balance(random);
+    const double weight = balance.weight;
+    const double tilt = tilt_by_bisection(balance);
+    const bool only_from_above = balance.front_area == 0 && balance.tether_drag == 0;
+    if (tilt > 1.4 || only_from_above) return;  // the thrust tells little of the weight
+    const double thrust = weight / std::cos(tilt);
+    balance.weight = 0;
+    // A drag that is nearly all from above leaves few digits of the weight.
+    CHECK(weight_held(balance, thrust) == Approx(weight).epsilon(1e-8));
+  });
+}
+
 TEST_CASE("a tilt above its limit is infinite") {
   test::each_random(500, [](test::Random& random) {
     const ForceBalance balance = random_balance(random);

@@ -114,4 +114,33 @@ struct ForceBalance {
 [[nodiscard]] double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit,
                                            double guess = 0);
 
+/// A force and how it changes.
+struct InclinedThrust {
+  double value = 0;      ///< N of all motors together
+  double slope = 0;      ///< its derivative
+  double tan_slope = 0;  ///< that of the tangent of the tilt
+};
+
+/// The thrust of `balance` at the equilibrium tilt with tangent `tan_pitch`, and its derivative by
+/// whatever the weight changes with by `weight_slope` and the tether's drag by `drag_slope`.
+[[nodiscard]] inline InclinedThrust inclined_thrust(const ForceBalance& balance, double tan_pitch,
+                                                    double weight_slope, double drag_slope) {
+  if (tan_pitch == 0) return {balance.weight, weight_slope, 0};
+  const double secant_squared = 1 + tan_pitch * tan_pitch;
+  const double secant = std::sqrt(secant_squared);
+  // The balance W·t − q·g(t) − F_t = 0, differentiated: tan_slope/secant.
+  const double tan_slope_cosine =
+      (drag_slope - weight_slope * tan_pitch) * secant_squared /
+      (balance.weight * secant_squared * secant -
+       balance.area_force_factor * (balance.top_area - balance.front_area * tan_pitch));
+  return {balance.weight * secant,
+          weight_slope * secant + balance.weight * tan_pitch * tan_slope_cosine,
+          tan_slope_cosine * secant};
+}
+
+/// N, the weight that `thrust` N holds up while it balances the drag of `balance`, whose own weight
+/// does not count: the inverse of `equilibrium_tan_pitch` and `inclined_thrust`, in closed form. 0
+/// where the drag takes all of the thrust.
+[[nodiscard]] double weight_held(const ForceBalance& balance, double thrust);
+
 }  // namespace tethercalc

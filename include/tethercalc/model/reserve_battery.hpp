@@ -24,26 +24,41 @@ struct ReserveBattery {
 /// without a battery.
 [[nodiscard]] double battery_mass_per_watt(const ReserveBattery& battery, double height);
 
-/// Power in W of the motors and the auxiliaries that holds `mass` kg in still air, from the
-/// battery: behind the converter, which is dead then. +infinity where the motors cannot.
-[[nodiscard]] double landing_power(const Drone& drone, double mass, double gravity);
+/// What a landing asks of the drone beside its mass. It holds its place against the wind as in
+/// hover; neutral values are still air.
+struct Landing {
+  double height = 0;             ///< m to go down
+  double gravity = 0;            ///< m/s²
+  double area_force_factor = 0;  ///< N/m², `area_force_factor` of the airframe in the wind
+  double tether_drag = 0;        ///< N of the whole tether in the wind
+  double power_share = 1;        ///< `translational_lift_factor` of the rotors in the wind
+};
+
+/// N of one motor that holds `mass` kg in the wind of `landing`.
+[[nodiscard]] double landing_thrust(const Drone& drone, double mass, const Landing& landing);
 
 /// Mass in kg of the reserve battery that lands a drone of `mass` kg (all but the battery: drone,
-/// converter, tether) from `height` m: the drone carries the whole tether down, and descending is
-/// taken to need the power of hovering, which is a little more than it does. The battery carries
-/// itself: its mass is the least m with m = battery_mass_per_watt·landing_power(mass + m), exactly.
+/// converter, tether): the drone carries the whole tether down, its weight and its drag, and
+/// descending is taken to need the power of hovering in that wind, which is a little more than it
+/// does; the battery feeds motors and auxiliaries behind the converter, which is dead then. The
+/// battery carries itself: its mass is the least m with m = battery_mass_per_watt·power(mass + m).
 /// 0 without a battery, +infinity where no battery can carry itself.
-[[nodiscard]] double reserve_battery_mass(const Drone& drone, double mass, double height,
-                                          double gravity);
+[[nodiscard]] double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing);
 
-/// How much more battery one more kilogram without it takes, kg/kg, at a take-off mass of
-/// `takeoff_mass` kg; +infinity where a kilogram more of battery asks for another one.
-[[nodiscard]] double reserve_battery_growth(const Drone& drone, double takeoff_mass, double height,
-                                            double gravity);
+/// How much more battery more to hold takes.
+struct BatteryGrowth {
+  double by_mass = 0;  ///< kg for a kilogram more without it
+  double by_drag = 0;  ///< kg for 1 N more drag of the tether
+};
 
-/// The inverse of `mass + reserve_battery_mass(mass)`: the largest mass without battery in kg with
-/// which the drone takes off at `takeoff_mass` kg or less. Not positive where the battery for its
-/// auxiliaries alone is heavier.
+/// At a take-off mass of `takeoff_mass` kg; +infinity where a kilogram more of battery asks for
+/// another one.
+[[nodiscard]] BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,
+                                                   const Landing& landing);
+
+/// In still air the inverse of `mass + reserve_battery_mass(mass)`: the largest mass without
+/// battery in kg with which the drone takes off at `takeoff_mass` kg or less. Not positive where
+/// the battery for its auxiliaries alone is heavier.
 [[nodiscard]] double mass_without_battery(const Drone& drone, double takeoff_mass, double height,
                                           double gravity);
 

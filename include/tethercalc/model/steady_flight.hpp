@@ -82,6 +82,9 @@ class SteadyFlight {
   /// without a battery.
   [[nodiscard]] std::size_t battery_piece(double radius) const;
 
+  /// Whether wind blows as the battery lands it.
+  [[nodiscard]] bool lands_in_wind() const { return has_battery_ && landing_.windy; }
+
   // --- Balance of forces ---
 
   /// Tangent of the tilt's magnitude with motors that lift `weight`, as `weight(radius)` has it;
@@ -133,7 +136,7 @@ class SteadyFlight {
     if (weight.value == none) return {none, {none, 0, 0}};
     const double tangent =
         tan_pitch(radius, weight.value, std::numeric_limits<double>::infinity(), tan_guess);
-    return {tangent, inclined_thrust(radius, weight, tangent)};
+    return {tangent, thrust_of(radius, weight, tangent)};
   }
 
   // --- Power ---
@@ -180,10 +183,22 @@ class SteadyFlight {
     double slope = 0;
   };
   [[nodiscard]] Weight weighed(double radius) const;
-  [[nodiscard]] Thrust inclined_thrust(double radius, Weight weight, double tan_pitch) const;
+  [[nodiscard]] Thrust thrust_of(double radius, Weight weight, double tan_pitch) const;
+  [[nodiscard]] ForceBalance force_balance(double radius, double weight) const;
   [[nodiscard]] double sized_battery(double radius) const;
-  [[nodiscard]] double radius_of_solved_weight(double limit) const;
-  [[nodiscard]] double landed_mass(double radius) const;
+  [[nodiscard]] double searched_radius(double weight) const;
+  /// kg that the battery lands, but for its own.
+  [[nodiscard]] double mass_without_battery_at(double radius) const;
+
+  /// A landing from the height and in the wind of the design, whatever the state of this flight.
+  struct LandingInWind {
+    Landing beside_tether;
+    double least_drag = 0;  ///< N of the whole tether without thickness of metal
+    double drag_slope = 0;  ///< N/m, what it gains with the radius
+    bool windy = false;
+  };
+  static LandingInWind landing_in_wind(const Design& design, double wall);
+  [[nodiscard]] Landing landing(double radius) const;
 
   const Design* design_;
   std::shared_ptr<const Drone> rescaled_;  ///< null where the motors' curve counts as it stands
@@ -192,7 +207,8 @@ class SteadyFlight {
   TetherInFlight tether_;
   double fixed_mass_;  ///< drone and converter
   bool has_battery_;
-  double gravity_;  ///< m/s²
+  LandingInWind landing_;  ///< where there is a battery
+  double gravity_;         ///< m/s²
   double area_force_factor_;
   double tan_pitch_limit_;
   double deliverable_;  ///< V², P_avail·R
