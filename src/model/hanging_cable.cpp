@@ -316,11 +316,12 @@ struct CableSolver::Problem {
       };
       for (const double height : corner_heights(air)) {
         const double above = height - p.position.z * metre;
-        shorten(0.9 * reach(std::abs(above), std::copysign(sign, above) * p.direction.z));
+        const double rise = above < 0 ? -p.direction.z : p.direction.z;
+        shorten(0.9 * reach(std::abs(above), sign * rise));
       }
       // Over the ground the profile has a singularity there.
       const double over_ground = p.position.z * metre + air.station_height;
-      if (over_ground > 0) shorten(reach(0.5 * over_ground, std::abs(p.direction.z)));
+      if (over_ground > 0) shorten(reach(0.3 * over_ground, std::abs(p.direction.z)));
     }
     if (pressure < 1e-9) return step;
     const double turn = norm(w.load - w.load_along * p.direction) + 0.02;
