@@ -244,31 +244,27 @@ double drag_across(const Cable& cable, const MovingAir& air, double speed) {
 
 /// The cable in its own units.
 struct CableSolver::Problem {
-  double metre = 1;   ///< m, the unit of length
-  double newton = 1;  ///< N, the unit of force
-  double weight = 0;
+  double metre = 1;       ///< m, the unit of length
+  double newton = 1;      ///< N, the unit of force
+  Vector3 steady{};       ///< what of the load is the same everywhere: the weight
   double drag = 0;        ///< ½·ρ·C·d
   double reynolds = 0;    ///< s/m, Reynolds number by speed; 0: C is the same at all
   double compliance = 0;  ///< 1/EA
   MovingAir air{};
   Vector3 drone{};
   bool moves = false;
-  Vector3 even_wind{};            ///< m/s, the same everywhere
-  double grown = 1;               ///< how far the air is from that, of 1
   int* steps_left = nullptr;      ///< of those that may be taken
   std::optional<double> winch{};  ///< tension at the station, where the winch decides
 
-  [[nodiscard]] bool even() const {
-    return grown == 0 || (air.profile == WindProfile::uniform && !moves);
-  }
+  [[nodiscard]] bool even() const { return air.profile == WindProfile::uniform && !moves; }
   [[nodiscard]] double chord_share(const Vector3& r) const {
     return dot(r, drone) / dot(drone, drone);
   }
   [[nodiscard]] Vector3 air_velocity(const Vector3& r) const {
-    if (even()) return grown == 0 ? even_wind : air.wind;
+    if (even()) return air.wind;
     Vector3 v = wind_share(air, r.z * metre) * air.wind;
     if (moves) v = v - chord_share(r) * air.drone_velocity;
-    return grown == 1 ? v : (1 - grown) * even_wind + grown * v;
+    return v;
   }
   /// What the air does at a point of the cable.
   struct Wind {
@@ -295,30 +291,45 @@ struct CableSolver::Problem {
       w.drag *= cylinder.coefficient;
       w.drag_slope *= cylinder.coefficient + cylinder.slope * reynolds * w.speed;
     }
-    w.load = Vector3{0, 0, weight} - w.drag * w.normal;
-    w.load_along = weight * p.direction.z;  // drag is across the cable
+    w.load = steady - w.drag * w.normal;
+    w.load_along = dot(steady, p.direction);  // drag is across the cable
     return w;
   }
-  /// How far a step may go towards the corner in the drag where the wind comes along the cable.
-  [[nodiscard]] double step_before_corner(const Point& p, const Accuracy& accuracy) const {
+  /// How far a step may go, towards the drone or (`sign` −1) towards the station, to the corner in
+  /// the drag where the wind comes along the cable, and to those in the wind's profile.
+  [[nodiscard]] double step_before_corner(const Point& p, double sign,
+                                          const Accuracy& accuracy) const {
     const Wind w = wind_at(p);
     double step = accuracy.step;
-    if (!even()) {
-      // A level cable, too, may turn towards a height within a step.
-      const double climb = p.tension * (std::abs(p.direction.z) + accuracy.step);
-      for (const double height : corner_heights(air)) {
-        const double way = std::abs(p.position.z - height / metre) / climb;
-        step = std::min(step, std::max(0.5 * way, accuracy.shortest_to_height));
-      }
-    }
     const double pressure = drag * dot(w.velocity, w.velocity);
+    if (air.profile != WindProfile::uniform) {
+      // To where the cable has risen by `height` at the earliest: it may turn that way and its
+      // tension grow.
+      const double turn = norm(steady) + pressure;
+      const auto reach = [&](double height, double rise) {
+        const double way = std::log1p(turn * height / metre / p.tension) / turn;
+        const double root = std::sqrt(rise * rise + 2 * turn * way);
+        return rise > 0 ? 2 * way / (rise + root) : (root - rise) / turn;
+      };
+      const auto shorten = [&](double to) {
+        step = std::min(step, std::max(to, accuracy.shortest_to_height));
+      };
+      for (const double height : corner_heights(air)) {
+        const double above = height - p.position.z * metre;
+        const double rise = above < 0 ? -p.direction.z : p.direction.z;
+        shorten(0.9 * reach(std::abs(above), sign * rise));
+      }
+      // Over the ground the profile has a singularity there.
+      const double over_ground = p.position.z * metre + air.station_height;
+      if (over_ground > 0) shorten(reach(0.3 * over_ground, std::abs(p.direction.z)));
+    }
     if (pressure < 1e-9) return step;
     const double turn = norm(w.load - w.load_along * p.direction) + 0.02;
     return std::min(step, std::max(0.3 * w.speed / (norm(w.velocity) * turn), accuracy.shortest));
   }
   /// By σ.
   [[nodiscard]] Point change(const Point& p, const Wind& w) const {
-    return {w.load - w.load_along * p.direction, p.tension * weight * p.direction.z,
+    return {w.load - w.load_along * p.direction, p.tension * w.load_along,
             (p.tension * (1 + p.tension * compliance)) * p.direction, p.tension};
   }
   /// Derivative of the air's velocity at a place by the wind (`parameter` 0 to 2) and by the
@@ -336,12 +347,10 @@ struct CableSolver::Problem {
                                        const Vector3& dv) const {
     Vector3 velocity = dv;
     if (!even()) {
-      const double slope = grown * wind_share_slope(air, p.position.z * metre) * metre;
+      const double slope = wind_share_slope(air, p.position.z * metre) * metre;
       velocity = velocity + (slope * d.position.z) * air.wind;
     }
-    if (moves && !even()) {
-      velocity = velocity - (grown * chord_share(d.position)) * air.drone_velocity;
-    }
+    if (moves) velocity = velocity - chord_share(d.position) * air.drone_velocity;
     const Vector3 normal =
         velocity - (dot(velocity, p.direction) + dot(w.velocity, d.direction)) * p.direction -
         w.along * d.direction;
@@ -349,7 +358,7 @@ struct CableSolver::Problem {
     const Vector3 load = -w.drag * normal - (w.drag_slope * faster) * w.normal;
     return {load - (dot(load, p.direction) + dot(w.load, d.direction)) * p.direction -
                 w.load_along * d.direction,
-            weight * (d.tension * p.direction.z + p.tension * d.direction.z),
+            d.tension * w.load_along + p.tension * dot(steady, d.direction),
             (d.tension * (1 + 2 * p.tension * compliance)) * p.direction +
                 (p.tension * (1 + p.tension * compliance)) * d.direction,
             d.tension};
@@ -406,7 +415,7 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
   const double longest = std::min(accuracy.step, std::abs(sigma) / 3);
   const auto longest_step = [&](const State<columns>& at) {
     if (problem.steps_left && --*problem.steps_left < 0) return nan;
-    return std::min(longest, problem.step_before_corner(point_at(at.data()), accuracy));
+    return std::min(longest, problem.step_before_corner(point_at(at.data()), sign, accuracy));
   };
   constexpr int rows = unknowns == in_even ? rows_in_even_air : all_rows;
   if (!integrate<rows>(system, state, std::abs(sigma), longest_step)) return std::nullopt;
@@ -580,6 +589,68 @@ std::optional<Start> refined(const Problem& problem, Start at,
   return std::nullopt;
 }
 
+/// Follows the cable from a place, towards the drone or (`sign` −1) the station, as far as `rest`
+/// of a point and its σ says, and gives the σ of the end; nothing where it does not get there.
+template <class Problem, class Rest>
+std::optional<double> followed_as_far(const Problem& problem, const Point& place, double sign,
+                                      const Accuracy& accuracy, const Rest& rest) {
+  constexpr double next_to_nothing = 1e-4;
+  State<0> state;
+  put(state.data(), place);
+  const auto system = [&problem, sign](const State<0>& s, State<0>& change) {
+    const Point p = point_at(s.data());
+    put(change.data(), sign * problem.change(p, problem.wind_at(p)));
+  };
+  double sigma = 0;
+  for (int i = 0; i < most_steps_along; ++i) {
+    if (problem.steps_left && --*problem.steps_left < 0) return std::nullopt;
+    const Point p = point_at(state.data());
+    if (!(p.tension > 0 && std::isfinite(p.tension))) return std::nullopt;
+    const double left = rest(p, sigma);
+    if (std::abs(left) < next_to_nothing) return sigma + left;
+    const double step = std::min(0.5, problem.step_before_corner(p, sign, accuracy));
+    const double taken = std::clamp(left, -step, step);
+    take_step<all_rows>(system, state, taken);
+    sigma += taken;
+  }
+  return std::nullopt;
+}
+
+/// By a step of the unknowns, of which lengths and the tension, as a vector, follow next to
+/// linearly: a fold opens from one side to the other through a tension of nothing, of which the
+/// logarithm knows nothing.
+template <int n, class Problem, class Start>
+std::optional<Start> moved_evenly(const Problem& problem, const Start& from, const BothEnds& ends,
+                                  const std::array<BothEnds, n>& by, const Unknowns<n>& step,
+                                  const Accuracy& accuracy) {
+  Start to = from;
+  const auto sideways = across(from.direction);
+  const Vector3 pull =
+      step(0) * sideways[0] + step(1) * sideways[1] + (1 + step(3)) * from.direction;
+  const double ratio = norm(pull);
+  to.direction = (1 / ratio) * pull;
+  to.tension *= ratio;
+  if constexpr (n == in_any) to.position = to.position + Vector3{step(4), step(5), step(6)};
+  double before = -ends.station.length;
+  double after = ends.drone.length;
+  for (int k = 0; k < n; ++k) {
+    const BothEnds& one = by[static_cast<std::size_t>(k)];
+    before -= step(k) * one.station.length;
+    after += step(k) * one.drone.length;
+  }
+  const auto sigma_to = [&](double length, double sign) {
+    return followed_as_far(
+        problem, {to.direction, to.tension, to.position, 0}, sign, accuracy,
+        [&](const Point& p, double) { return (length - sign * p.length) / p.tension; });
+  };
+  const auto first = sigma_to(before, -1);
+  const auto second = sigma_to(after, 1);
+  if (!first || !second || !(*first + *second > 0)) return std::nullopt;
+  to.sigma = *first + *second;
+  to.before = *first / to.sigma;
+  return to;
+}
+
 /// Newton's method, halved where it would lead away, until `refined` can take over.
 template <int n, class Problem, class Start>
 std::optional<Start> newton(const Problem& problem, Start at, int most_iterations) {
@@ -610,14 +681,22 @@ std::optional<Start> newton(const Problem& problem, Start at, int most_iteration
         continue;
       }
     }
-    double part = std::min(1.0, 0.7 / size);
+    double part = std::min(1.0, 3 / size);
     std::optional<Start> next;
     for (int halvings = 0; halvings < 7 && !next; ++halvings, part *= 0.4) {
-      const Start tried = moved<n>(at, Unknowns<n>(part * step));
-      ends = ends_of<n, columns>(problem, tried, accuracy);
+      const auto tried =
+          moved_evenly<n>(problem, at, at_ends, by, Unknowns<n>(part * step), accuracy);
+      if (!tried) continue;
+      ends = ends_of<n, columns>(problem, *tried, accuracy);
       if (ends && miss_of<n>(problem, *ends).norm() < miss.norm()) next = tried;
     }
-    if (!next) return std::nullopt;
+    if (!next) {
+      if (accuracy.step <= fine.step) return std::nullopt;
+      accuracy = fine;
+      ends = ends_of<n, columns>(problem, at, accuracy);
+      if (!ends) return std::nullopt;
+      continue;
+    }
     at = *next;
   }
   return std::nullopt;
@@ -631,7 +710,7 @@ CableSolver::Problem CableSolver::problem() const {
   const double speed = norm(air_.wind) + norm(air_.drone_velocity);
   const double drag = 0.5 * air_.density * cable_.drag_coefficient * cable_.diameter;
   p.newton = (cable_.weight + drag * speed * speed) * p.metre;
-  p.weight = cable_.weight * p.metre / p.newton;
+  p.steady = {0, 0, cable_.weight * p.metre / p.newton};
   p.drag = drag * p.metre / p.newton;
   if (cable_.cylinder_diameter) {
     p.reynolds = *cable_.cylinder_diameter * air_.density / air_.viscosity;
@@ -640,7 +719,6 @@ CableSolver::Problem CableSolver::problem() const {
   p.air = air_;
   p.moves = !(air_.drone_velocity == Vector3{});
   p.drone = (1 / p.metre) * drone_;
-  p.even_wind = wind_share(air_, 0.6 * drone_.z) * air_.wind - 0.5 * air_.drone_velocity;
   if (!paid_out_.length) p.winch = *paid_out_.winch_tension / p.newton;
   return p;
 }
@@ -658,8 +736,7 @@ struct EvenLoad {
   std::optional<double> stiffness{};
 
   template <class Problem>
-  explicit EvenLoad(const Problem& p) {
-    const Vector3 load = p.wind_at({unit(p.drone), 1, 0.6 * p.drone, 0}).load;
+  EvenLoad(const Problem& p, const Vector3& load) {
     weight = norm(load);
     up = weight > 0 ? unit(load) : Vector3{0, 0, 1};
     z = dot(p.drone, up);
@@ -702,8 +779,8 @@ struct EvenLoad {
 };
 
 template <class Start, class Problem>
-std::optional<Start> under_even_load(const Problem& p) {
-  const EvenLoad even(p);
+std::optional<Start> under_even_load(const Problem& p, const Vector3& load) {
+  const EvenLoad even(p, load);
   if (!(even.weight > 0)) return std::nullopt;
   const double known = even.stiffness ? 1 : std::max(1.0, even.distance() * (1 + 1e-9));
   const auto c = even.hung(p.winch ? even.length_with_tension(*p.winch) : known);
@@ -723,58 +800,117 @@ std::optional<Start> under_even_load(const Problem& p) {
   return out;
 }
 
-/// Follows a solution while `changed` turns the problem from share 0 into share 1, by as much at a
-/// time as leads on.
+/// The same cable, to be followed from where its tension is least.
+template <class Start, class Problem>
+Start from_slackest(const Problem& problem, const Start& at) {
+  Start out = at;
+  for (const double sign : {-1.0, 1.0}) {
+    const double end = (sign < 0 ? at.before : 1 - at.before) * at.sigma;
+    followed_as_far(problem, {at.direction, at.tension, at.position, 0}, sign, coarse,
+                    [&](const Point& p, double sigma) {
+                      if (p.tension < out.tension) {
+                        out.direction = unit(p.direction);
+                        out.tension = p.tension;
+                        out.position = p.position;
+                        out.before = at.before + sign * sigma / at.sigma;
+                      }
+                      return end - sigma;
+                    });
+  }
+  return out;
+}
+
+/// Whether less tension at the station goes with more cable: of two lengths with one tension the
+/// tauter. Where both become one, the unknowns follow no more from what is held.
+template <int n, class Problem, class Start>
+bool is_tauter(const Problem& problem, const Start& at) {
+  return !problem.winch || Eigen::Map<const Square<n>>(at.inverse.data()).determinant() > 0;
+}
+
+/// Follows a solution while `changed` turns its problem from share 1 of a known one into share 0,
+/// by as much at a time as leads on; the last that was found, and what is left there.
 template <int n, class Start, class Changed>
-std::optional<Start> led_on(const Changed& changed, std::optional<Start> at, double step) {
-  for (double share = 0; at && share < 1;) {
-    const double next = std::min(1.0, share + step);
-    if (const auto found = newton<n>(changed(next), *at, 8)) {
-      at = found;
-      share = next;
-      step *= 1.5;
+std::pair<Start, double> led_on(const Changed& changed, Start at) {
+  double left = 1;
+  double part = 0.5;
+  while (left > 0 && part < 0.99) {
+    const double next = part < 0.01 ? 0 : left * part;
+    const auto problem = changed(next);
+    const auto found = newton<n>(problem, at, 8);
+    if (found && is_tauter<n>(problem, *found)) {
+      at = from_slackest(problem, *found);
+      left = next;
+      part *= part;
     } else {
-      step *= 0.4;
-      if (step < 1e-3) return std::nullopt;
+      part = std::sqrt(part);
     }
   }
-  return at;
+  return {at, left};
 }
 
-/// Any cable in a wind that is the same everywhere: at once, or from still air with the wind
-/// raised.
-template <class Start, class Problem>
-std::optional<Start> in_even_air(const Problem& problem) {
-  auto at = under_even_load<Start>(problem);
-  if (at) at = newton<in_even>(problem, *at, 30);
-  if (at) return at;
-  const auto changed = [&problem](double share) {
+/// From the cable under an even load, which also presses it `aside`: where load and chord are about
+/// in line the cable folds, and turns from one side to the other past that, not through it.
+template <int n, class Start, class Problem>
+std::optional<Start> led_from(const Problem& problem, const Vector3& load, double aside) {
+  const Vector3 chord = unit(problem.drone);
+  const Vector3 normal = cross(chord, load);
+  const Vector3 first = load + aside * (norm(normal) > 1e-6 ? unit(normal) : across(chord)[0]);
+  const auto changed = [&](double share) {
     Problem p = problem;
-    p.air.wind = share * p.air.wind;
-    p.even_wind = share * p.even_wind;
+    p.steady = (1 - share) * p.steady + share * first;
+    p.drag *= 1 - share;
     return p;
   };
-  at = under_even_load<Start>(changed(0));
-  if (at) at = newton<in_even>(changed(0), *at, 30);
-  return led_on<in_even>(changed, at, 0.25);
+  auto at = under_even_load<Start>(problem, first);
+  if (at) at = newton<n>(changed(1), *at, 30);
+  if (!at) return std::nullopt;
+  const auto [found, left] = led_on<n>(changed, *at);
+  return left > 0 ? std::nullopt : std::optional<Start>(found);
 }
 
-template <class Start, class Problem>
-std::optional<Start> anew(const Problem& problem) {
-  if (problem.even()) return in_even_air<Start>(problem);
-  const auto changed = [&problem](double share) {
+/// From a cable that is nearly straight, by a winch that gives way; or how much of the logarithm of
+/// its tension is left where it holds the cable up no more.
+template <int n, class Start, class Problem>
+std::optional<std::pair<Start, double>> let_out(const Problem& problem, const Vector3& load) {
+  constexpr double taut = 30;  // of the load
+  const auto changed = [&](double share) {
     Problem p = problem;
-    p.grown = share;
+    p.winch = std::pow(std::max(taut, *p.winch), share) * std::pow(*p.winch, 1 - share);
     return p;
   };
-  return led_on<in_any>(changed, in_even_air<Start>(changed(0)), 1);
+  const Problem first = changed(1);
+  auto at = under_even_load<Start>(first, load);
+  if (at) at = newton<n>(first, *at, 30);
+  if (!at) return std::nullopt;
+  return led_on<n>(changed, *at);
 }
 
-/// Whether no length of cable under an even load has so little tension at the station.
-template <class Problem>
-bool winch_is_too_weak(const Problem& p) {
-  const EvenLoad even(p);
-  return even.tension_at_station(even.length_with_tension(*p.winch)) > 1.0001 * *p.winch;
+template <int n, class Start, class Problem>
+std::optional<Start> anew(const Problem& problem, CableOutcome& why_not) {
+  // The load along the chord, where that is the same all along; else also nearer to the ends.
+  std::vector<Vector3> loads;
+  for (const double share : {0.6, 0.3, 1.0}) {
+    loads.push_back(problem.wind_at({unit(problem.drone), 1, share * problem.drone, 0}).load);
+    if (problem.even()) break;
+  }
+  for (const Vector3& load : loads) {
+    auto at = under_even_load<Start>(problem, load);
+    if (at) at = newton<n>(problem, *at, 30);
+    if (at && is_tauter<n>(problem, *at)) return at;
+    if (problem.winch) break;
+  }
+  if (problem.winch) {
+    const auto found = let_out<n, Start>(problem, loads.front());
+    if (found && found->second == 0) return found->first;
+    if (found && found->second < 1) why_not = CableOutcome::tension_too_low;
+    return std::nullopt;
+  }
+  for (const Vector3& load : loads) {
+    for (const double aside : {0.1, -0.1}) {
+      if (const auto at = led_from<n, Start>(problem, load, aside)) return at;
+    }
+  }
+  return std::nullopt;
 }
 
 /// A solution in another problem's units.
@@ -858,9 +994,9 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
     last_ = p.even() ? from_last(std::integral_constant<int, in_even>())
                      : from_last(std::integral_constant<int, in_any>());
   }
-  if (!last_) last_ = anew<Last>(p);
-  if (last_) return CableOutcome::hangs;
-  return p.winch && winch_is_too_weak(p) ? CableOutcome::tension_too_low : CableOutcome::not_found;
+  CableOutcome why_not = CableOutcome::not_found;
+  if (!last_) last_ = p.even() ? anew<in_even, Last>(p, why_not) : anew<in_any, Last>(p, why_not);
+  return last_ ? CableOutcome::hangs : why_not;
 }
 
 Vector3 CableSolver::ahead() const {
@@ -899,7 +1035,7 @@ void follow_by_length(const Problem& problem, Point from, const std::vector<doub
     };
     const auto longest_step = [&](const State<0>& s) {
       const Point p = point_at(s.data());
-      return p.tension * std::min(fine.step, problem.step_before_corner(p, fine));
+      return p.tension * std::min(fine.step, problem.step_before_corner(p, sign, fine));
     };
     integrate<all_rows>(system, state, std::abs(way), longest_step);
     out.push_back(point_at(state.data()));
