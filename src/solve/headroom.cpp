@@ -428,7 +428,7 @@ class BestHeadroomSearch {
     const auto over = [&](double resistance) {
       return flight_.available_thrust(flight_.available_power(resistance)) / least;
     };
-    const double cold = over(flight_.tether().resistance(b.at.radius));
+    const double cold = over(least_cold_resistance(flight_, a.at.radius, b.at.radius));
     if (!heated_ || cold <= best_.value) return cold;
     const double warm = over(least_resistance(tether_, flight_, a.at.radius, least, b.at.radius));
     const bool delivered =

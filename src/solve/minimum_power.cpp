@@ -306,11 +306,14 @@ class LeastPowerSearch {
   /// Nothing is proved of warm cables, solved ones and of curved efficiencies, but between radii of
   /// this ratio their power bends no more sharply than its parts.
   static constexpr double narrow = 1.5;
+  /// Of a cable that its winch hardly holds up, the length grows sharply before its end.
+  static constexpr double narrow_by_winch = 1.02;
 
   /// With the thrust at `at` over a cold cable of `radius`.
   [[nodiscard]] double power_over(const ThrustAt& at, double radius) const {
     const double thrust = least_up_to(flight_, at, radius).thrust.value;
-    return supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(radius),
+    return supplied_power(flight_.design().supply.voltage,
+                          least_cold_resistance(flight_, at.radius, radius),
                           flight_.drone_power(thrust));
   }
 
@@ -434,7 +437,8 @@ class LeastPowerSearch {
                               bool one_piece) const {
     const Converter& converter = flight_.design().supply.converter;
     const bool unproved = heated_ || flight_.tether().is_solved();
-    if (unproved && !(b.radius < narrow * a.radius)) return false;
+    const bool by_winch = flight_.tether().is_solved() && flight_.design().tether.winch_pull > 0;
+    if (unproved && !(b.radius < (by_winch ? narrow_by_winch : narrow) * a.radius)) return false;
     if (is_proportional(converter)) return true;
     const double lo = motor.power(a.thrust.value);
     const double hi = motor.power(b.thrust.value);

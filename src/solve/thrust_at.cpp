@@ -222,14 +222,21 @@ TetherHeatState WarmTether::state(double power, double radius, double sunlit_rad
   return state;
 }
 
+double least_cold_resistance(const SteadyFlight& flight, double thinner, double thicker) {
+  const TetherInFlight& tether = flight.tether();
+  const double shorter = std::min(tether.resistance_area(thicker), tether.resistance_area(thinner));
+  return tether.contact_resistance() + shorter / (thicker * thicker);
+}
+
 double least_resistance(const WarmTether& tether, const SteadyFlight& flight, double thinner,
                         double thrust, double thicker) {
+  const double cold = least_cold_resistance(flight, thinner, thicker);
   const double power = flight.drone_power(thrust);
-  if (!is_heated(flight.design().tether) || !(power < infinity)) {
-    return flight.tether().resistance(thicker);
-  }
+  if (!is_heated(flight.design().tether) || !(power < infinity)) return cold;
+  const double of_shorter = cold / flight.tether().resistance(thicker);
   const TetherHeatState state = tether.state(power, thicker, thinner);
-  return state.steady ? state.resistance : infinity;
+  if (state.steady) return of_shorter < 1 ? of_shorter * state.resistance : state.resistance;
+  return of_shorter < 1 ? cold : infinity;
 }
 
 IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {

@@ -94,6 +94,11 @@ class WarmTether {
   mutable std::size_t asked_ = 0;
 };
 
+/// No more than the loop's resistance without current, Ω, at any radius between these: a winch pays
+/// out ever more of a cable that it hardly holds up, so that the thinner one may be shorter.
+[[nodiscard]] double least_cold_resistance(const SteadyFlight& flight, double thinner,
+                                           double thicker);
+
 /// No more than the loop's resistance, Ω, at any radius between a `thinner` one, where `thrust` N
 /// per motor are necessary, and a `thicker` one; +infinity where the current heats the cable
 /// without end at all of them.
