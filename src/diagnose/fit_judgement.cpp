@@ -450,6 +450,17 @@ ModelFit neutral_fit(const Record& record) {
   return fit;
 }
 
+VectorXd systematic_variance(const Record& record, const BlockFit& fit) {
+  VectorXd variance = VectorXd::Zero(fit.jacobian.cols());
+  if (fit.jacobian.cols() == 0) return variance;
+  const MatrixXd weighted = fit.weight.cwiseSqrt().asDiagonal() * fit.jacobian;
+  for (const std::vector<double>& column : record.problem().systematic) {
+    const VectorXd change = fit.weight.cwiseSqrt().cwiseProduct(record.scaled_column(column));
+    variance += least_squares(weighted, change).cwiseAbs2();
+  }
+  return variance;
+}
+
 void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systematic, ModelFit& all) {
   for (const std::size_t g : fit.freed.groups) {
     const std::size_t first = record.first_parameter(g);

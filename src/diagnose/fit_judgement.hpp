@@ -85,6 +85,10 @@ void add_place_error(const Record& record, const BlockFit& without, const BlockF
 /// A fit of nothing: neutral values.
 [[nodiscard]] ModelFit neutral_fit(const Record& record);
 
+/// What the systematic errors add to the variance of each parameter of the fit: the squares of how
+/// far least squares would follow them.
+[[nodiscard]] VectorXd systematic_variance(const Record& record, const BlockFit& fit);
+
 /// Writes what `fit` freed into `all`. Errors are those of the spread between blocks, with
 /// `systematic` (of the jacobian's columns, over their scales; may be empty) added to their
 /// squares; where `all` has a larger one already it stays.

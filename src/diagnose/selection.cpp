@@ -34,19 +34,6 @@ BlockDifference difference(const VectorXd& a, const VectorXd& b) {
   return {d.sum(), std::sqrt(blocks / (blocks - 1) * spread)};
 }
 
-/// What the systematic errors add to the variance of each parameter of the fit: the squares of how
-/// far least squares would follow them.
-VectorXd systematic_variance(const Record& record, const BlockFit& fit) {
-  VectorXd variance = VectorXd::Zero(fit.jacobian.cols());
-  if (fit.jacobian.cols() == 0) return variance;
-  const MatrixXd weighted = fit.weight.cwiseSqrt().asDiagonal() * fit.jacobian;
-  for (const std::vector<double>& column : record.problem().systematic) {
-    const VectorXd change = fit.weight.cwiseSqrt().cwiseProduct(record.scaled_column(column));
-    variance += least_squares(weighted, change).cwiseAbs2();
-  }
-  return variance;
-}
-
 /// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every
 /// fit frees.
 double precision(const BlockFit& fit) {

@@ -46,19 +46,27 @@ ModelFit model_fit(const Record& record, const BlockFit& fit) {
   MatrixXd jacobian(record.rows(), slopes.cols() + shapes);
   jacobian << slopes, fit.jacobian.rightCols(shapes);
   MatrixXd covariance;
-  if (slopes.cols() > 0) covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+  VectorXd systematic = VectorXd::Zero(jacobian.cols());
+  if (slopes.cols() > 0) {
+    covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+    for (const std::vector<double>& error : record.problem().systematic) {
+      const VectorXd followed = covariance * (jacobian.transpose() * record.scaled_column(error));
+      systematic += followed.cwiseAbs2();
+    }
+  }
   Index column = 0;
   for (const std::size_t g : fit.freed.groups) {
     std::size_t index = record.first_parameter(g);
     for (const ModelParameter& p : record.problem().groups[g].parameters) {
       if (p.is_free()) {
-        all.standard_error[index] = p.scale * std::sqrt(std::max(0.0, covariance(column, column)));
+        all.standard_error[index] =
+            p.scale * std::sqrt(std::max(0.0, covariance(column, column)) + systematic[column]);
         ++column;
       }
       ++index;
     }
   }
-  add_fit(record, fit, {}, all);
+  add_fit(record, fit, systematic_variance(record, fit), all);
   return all;
 }
 
