@@ -96,7 +96,11 @@ std::vector<Tick> ticks_of(const Axis& axis, double length, double gap, Minus mi
     std::vector<std::vector<Tick>> choice;
     if (axis.logarithmic) {
       choice.push_back(decade_ticks(axis.range, {1, 2, 5}, minus));
-      choice.push_back(decade_ticks(axis.range, {1}, minus));
+      const std::vector<Tick> decades = decade_ticks(axis.range, {1}, minus);
+      for (std::size_t every = 1; every < decades.size(); ++every) {
+        choice.emplace_back();
+        for (std::size_t k = 0; k < decades.size(); k += every) choice.back().push_back(decades[k]);
+      }
     }
     for (int most = 8; most >= 2; --most) choice.push_back(round_ticks(axis.range, most, minus));
     const auto fits = [&](const std::vector<Tick>& ticks) {
