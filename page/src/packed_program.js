@@ -17,5 +17,7 @@ function unpacked(packed) {
 export function packedProgram(element) {
   const letters = atob(element.textContent);
   element.remove();
-  return WebAssembly.compile(moduleOf(unpacked(Uint8Array.from(letters, (letter) => letter.charCodeAt(0)))));
+  const packed = new Uint8Array(letters.length); // from() takes ten times as long
+  for (let i = 0; i < packed.length; ++i) packed[i] = letters.charCodeAt(i);
+  return WebAssembly.compile(moduleOf(unpacked(packed)));
 }
