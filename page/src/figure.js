@@ -44,7 +44,7 @@ const painters = {
     for (let i = x.length - 1; i >= 0; --i) ctx.lineTo(u.valToPos(x[i], 'x', true), u.valToPos(lower[i], 'y', true));
     ctx.fill();
   },
-  curve(ctx, u, { x, y, colour: name, dash, width, label }) {
+  curve(ctx, u, { x, y, colour: name, dash, width, label }, panel, labels) {
     ctx.strokeStyle = colour(name);
     ctx.lineWidth = (0.6 + 0.9 * (width ?? 1)) * devicePixelRatio;
     ctx.setLineDash((dash ?? []).map((length) => length * 1.3 * devicePixelRatio));
@@ -61,8 +61,13 @@ const painters = {
     const last = x.findLastIndex((at, i) => finite(at) && finite(y[i]));
     const end = u.valToPos(x[last], 'x', true);
     const right = end > u.bbox.left + u.bbox.width - 60 * devicePixelRatio;
-    write(ctx, label, end + (right ? -3 : 3) * devicePixelRatio,
-      Math.max(u.valToPos(y[last], 'y', true), u.bbox.top + 14 * devicePixelRatio), right ? 'right' : 'left');
+    const height = Math.max(u.valToPos(y[last], 'y', true), u.bbox.top + 14 * devicePixelRatio);
+    // What would cover an earlier one is told by the legend alone.
+    const wide = (label.length * 7 + 3) * devicePixelRatio;
+    const place = { from: right ? end - wide : end, to: right ? end : end + wide, height };
+    if (labels.some(({ from, to, height: other }) => from < place.to && place.from < to && Math.abs(other - height) < 11 * devicePixelRatio)) return;
+    labels.push(place);
+    write(ctx, label, end + (right ? -3 : 3) * devicePixelRatio, height, right ? 'right' : 'left');
   },
   reference(ctx, u, { at, vertical, colour: name, dash, words }) {
     ctx.strokeStyle = colour(name);
@@ -183,6 +188,19 @@ function uplotAxis(axis, side, which) {
   const ticks = axis.ticks ?? [];
   const within = (u) => ticks.filter(({ at }) => at >= u.scales[which].min && at <= u.scales[which].max);
   const steps = { 1: 1, 2: 2, 5: 5 };
+  /** The words at `splits` of these ticks, the important first: those that would touch earlier ones are left out. */
+  const wordsApart = (u, splits, important) => {
+    const taken = [];
+    const shown = new Map();
+    for (const { at, words } of important) {
+      const place = u.valToPos(at, which, true);
+      const half = (which === 'x' ? words.length * 3.4 + 4 : 8) * devicePixelRatio;
+      if (taken.some(([middle, other]) => Math.abs(middle - place) < half + other) || (which === 'x' ? u.bbox.width : u.bbox.height) === 0) continue;
+      taken.push([place, half]);
+      shown.set(at, words);
+    }
+    return splits.map((at) => shown.get(at) ?? '');
+  };
   return {
     scale: which, side, stroke: () => palette.quiet, font: '11px system-ui, sans-serif',
     label: side === 0 ? undefined : axis.label || undefined, labelFont: '12px system-ui, sans-serif', labelSize: 18, labelGap: 2,
@@ -191,20 +209,7 @@ function uplotAxis(axis, side, which) {
     ticks: { stroke: () => palette.line, width: 1, size: 4 },
     ...(ticks.length ? {
       splits: (u) => within(u).map(({ at }) => at).sort((a, b) => a - b),
-      values: (u, splits) => {
-        const size = which === 'x' ? u.bbox.width : u.bbox.height;
-        // The important ticks stand first in the figure: words that would touch theirs are left out.
-        const taken = [];
-        const shownWords = new Map();
-        for (const { at, words } of within(u)) {
-          const place = u.valToPos(at, which, true);
-          const half = (which === 'x' ? words.length * 3.4 + 4 : 8) * devicePixelRatio;
-          if (taken.some(([middle, other]) => Math.abs(middle - place) < half + other) || size === 0) continue;
-          taken.push([place, half]);
-          shownWords.set(at, words);
-        }
-        return splits.map((at) => shownWords.get(at) ?? '');
-      },
+      values: (u, splits) => wordsApart(u, splits, within(u)),
     } : axis.numbers === false ? { values: (u, splits) => splits.map(() => '') }
       : axis.logarithmic ? {
         splits: (u) => {
@@ -217,8 +222,10 @@ function uplotAxis(axis, side, which) {
           }
           return out;
         },
-        values: (u, splits) => splits.map(String),
-      } : { values: (u, splits) => splits.map((at) => String(Number(at.toPrecision(6)))) }),
+        filter: (u, splits) => splits, // uPlot's own leaves the decades
+        values: (u, splits) => wordsApart(u, splits, [true, false].flatMap((decade) => splits
+          .filter((at) => String(at).replace('0.', '').replace(/^0+/, '').startsWith('1') === decade).map((at) => ({ at, words: String(at) })))),
+      } : { values: (u, splits) => splits.map((at) => String(Number(at.toPrecision(6))).replace('-', '\u2212')) }),
   };
 }
 
@@ -324,6 +331,7 @@ class DrawnPanel {
 
   paint(u) {
     const { ctx } = u;
+    const labels = [];
     const layers = (panel, alpha) => {
       for (const layer of panel.layers) {
         ctx.save();
@@ -331,7 +339,7 @@ class DrawnPanel {
         ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
         ctx.clip();
         ctx.globalAlpha = alpha;
-        painters[layer.kind]?.(ctx, u, layer, panel);
+        painters[layer.kind]?.(ctx, u, layer, panel, labels);
         ctx.restore();
       }
     };

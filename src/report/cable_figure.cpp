@@ -32,7 +32,7 @@ std::string words_of(std::span<const ShapeRequest> requests, const ShapeRequest&
   const bool winds = differ(requests, &ShapeRequest::wind);
   const bool lengths = lengths_differ(requests);
   std::string out;
-  if (winds || !lengths) out += fmt::format("{:g} m/s", request.wind);
+  if (winds || !lengths) out += fmt::format("{:.4g} m/s", request.wind);
   if (lengths || !winds) {
     if (!out.empty()) out += ", ";
     out += request.paid_out.length
