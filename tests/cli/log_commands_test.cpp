@@ -567,6 +567,25 @@ TEST_CASE("log exports the messages of a name, and names the nearest for one tha
   CHECK_THAT(far.err, Contains("no message BARO; it holds FMT, XKF1"));
 }
 
+#ifndef __SANITIZE_ADDRESS__  // it maps more than any limit
+TEST_CASE("an export is written as it is read, not gathered in memory") {
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "long.bin").string();
+  const std::string rows = (folder.path() / "rows.csv").string();
+  constexpr std::size_t megabyte = 1'000'000;
+  const std::vector<std::byte> once = example_as_dataflash(0);
+  std::vector<std::byte> bytes;
+  while (bytes.size() < 60 * megabyte) bytes.insert(bytes.end(), once.begin(), once.end());
+  write_bytes(log, bytes);
+  // The log is mapped, the program with its libraries takes 50 MB.
+  const Ran run = run_shell("ulimit -v 140000 && " + shell_quoted(TETHERCALC_COMMAND) + " log " +
+                            shell_quoted(log) + " --csv XKF1 --output " + shell_quoted(rows));
+  INFO(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(std::filesystem::file_size(rows) > 80 * megabyte);
+}
+#endif
+
 TEST_CASE("a log that is none is refused") {
   const TemporaryFolder folder;
   const std::string empty = (folder.path() / "empty.bin").string();
