@@ -41,7 +41,8 @@ std::string row_name(std::string_view name, std::string_view attributes) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   for (std::size_t i = out.size(); i-- > 1;) {
     const bool joint = out[i - 1] == '.' || out[i - 1] == '_';
-    if (joint && std::ranges::all_of(out.substr(i, 3), is_letter)) out.insert(i, "<wbr/>");
+    const std::string next = out.substr(i, 3);
+    if (joint && next.size() == 3 && std::ranges::all_of(next, is_letter)) out.insert(i, "<wbr/>");
   }
   return fmt::format("<th{}>{}</th>", attributes, out);
 }
