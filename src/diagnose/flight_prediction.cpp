@@ -20,6 +20,19 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
+/// By axes that turn with the drone.
+struct AtDrone {
+  double forward;
+  double right;
+};
+
+/// Of what points along the mean heading and to its right.
+AtDrone at_drone(const FlightRecord& record, std::size_t i, double along, double right) {
+  const double c = record.along_heading[i];
+  const double s = record.right_of_heading[i];
+  return {along * c + right * s, right * c - along * s};
+}
+
 /// A speed added up, less its mean.
 std::vector<double> place(const std::vector<double>& time, const std::vector<double>& speed) {
   std::vector<double> place(speed.size(), 0.0);
@@ -124,16 +137,14 @@ void blow_at_drone(FlightPrediction& p, std::size_t i, double forward, double ri
 }
 
 void blow(FlightPrediction& p, std::size_t i, double along, double right) {
-  const double c = p.record.along_heading[i];
-  const double s = p.record.right_of_heading[i];
-  blow_at_drone(p, i, along * c + right * s, right * c - along * s);
+  const AtDrone wind = at_drone(p.record, i, along, right);
+  blow_at_drone(p, i, wind.forward, wind.right);
 }
 
 void pull(FlightPrediction& p, std::size_t i, double along, double right) {
-  const double c = p.record.along_heading[i];
-  const double s = p.record.right_of_heading[i];
-  p.drag[i] -= along * c + right * s;
-  p.side_drag[i] -= right * c - along * s;
+  const AtDrone force = at_drone(p.record, i, along, right);
+  p.drag[i] -= force.forward;
+  p.side_drag[i] -= force.right;
 }
 
 DragForces law_drag(const FlightPrediction& p, std::size_t i, double forward, double right) {

@@ -20,6 +20,10 @@ double battery_mass_per_watt(const ReserveBattery& battery, double height) {
   return seconds / battery.specific_energy;
 }
 
+double landing_power(const ReserveBattery& battery, double mass, double height) {
+  return mass / battery_mass_per_watt(battery, height);
+}
+
 namespace {
 
 ForceBalance force_balance(const Drone& drone, double mass, const Landing& landing) {

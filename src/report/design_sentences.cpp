@@ -126,12 +126,6 @@ double output_voltage(const Design& design, const OperatingPoint& point) {
   return converter_output_voltage(design.supply.converter, point.received_voltage);
 }
 
-/// W that the reserve battery gives as it lands the drone: what it was sized for.
-double landing_power(const Design& design, const OperatingPoint& point) {
-  return point.battery_mass /
-         battery_mass_per_watt(design.drone.reserve_battery, design.tether.length);
-}
-
 std::string battery_sentence(const Design& design, const OperatingPoint& point) {
   const ReserveBattery& battery = design.drone.reserve_battery;
   const double seconds = landing_time(battery, design.tether.length);
@@ -140,7 +134,7 @@ std::string battery_sentence(const Design& design, const OperatingPoint& point) 
         "No reserve battery could land the drone from {} m: it could not carry itself.",
         significant(design.tether.length, 3));
   }
-  const double power = landing_power(design, point);
+  const double power = landing_power(battery, point.battery_mass, design.tether.length);
   const bool by_energy = seconds / battery.usable_share >= 1 / battery.discharge_rate;
   constexpr double joules_per_Wh = 3600;
   return fmt::format(
@@ -173,7 +167,8 @@ ordered_json battery_json(const Design& design, const OperatingPoint& point) {
   if (battery.specific_energy == 0) return nullptr;
   return {{"mass_g", number_or_null(point.battery_mass / unit::gram)},
           {"landing_time_s", landing_time(battery, design.tether.length)},
-          {"landing_power_W", number_or_null(landing_power(design, point))}};
+          {"landing_power_W",
+           number_or_null(landing_power(battery, point.battery_mass, design.tether.length))}};
 }
 
 ordered_json converter_json(const Design& design, const AreaPoints& points) {

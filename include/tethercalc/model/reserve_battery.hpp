@@ -24,6 +24,10 @@ struct ReserveBattery {
 /// without a battery.
 [[nodiscard]] double battery_mass_per_watt(const ReserveBattery& battery, double height);
 
+/// Power in W for which a battery of `mass` kg lands a drone from `height` m > 0: the inverse of
+/// `battery_mass_per_watt`. Not without a battery.
+[[nodiscard]] double landing_power(const ReserveBattery& battery, double mass, double height);
+
 /// What a landing asks of the drone beside its mass. It holds its place against the wind as in
 /// hover; neutral values are still air.
 struct Landing {
