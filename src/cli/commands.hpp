@@ -46,6 +46,8 @@ enum ExitCode : int { done = 0, answer_is_no = 1, bad_input = 2, internal_error 
 /// Says on standard error what is good to know beside an answer, without characters that would
 /// command a terminal; nothing once `be_quiet` was called.
 void remark(std::string_view lines);
+/// A line on standard error for each, behind the command's name.
+void remark_warnings(std::string_view command, std::span<const Warning> warnings);
 void be_quiet();
 /// Whether progress may be shown: standard error is a terminal and nobody asked to be quiet.
 [[nodiscard]] bool shows_progress();

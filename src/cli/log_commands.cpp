@@ -49,11 +49,6 @@ std::optional<Autopilot> parameters_of(const std::string& name) {
                                fmt::join(names, " and "), did_you_mean(name, names)));
 }
 
-/// What was not said and moves the answer, on standard error so that no format hides it.
-void tell_assumptions(std::span<const Warning> assumptions) {
-  for (const Warning& assumed : assumptions) remark("drag: " + assumed.sentence + "\n");
-}
-
 /// One line that is written over, on a terminal only.
 SelectionProgress progress_line() {
   if (!shows_progress()) return {};
@@ -211,12 +206,11 @@ int run_drag(const DragOptions& options, const Output& output) {
                                                  })
                                         .identified;
   const std::vector<Warning> assumptions = assumptions_of(options.flight, result.options);
-  tell_assumptions(assumptions);
+  // What was not said and moves the answer, so that no format hides it.
+  remark_warnings("drag", assumptions);
   notes.insert(notes.end(), assumptions.begin(), assumptions.end());
   if (options.into && options.into_file.empty()) {
-    for (const Warning& warning : drag_warnings(result.fit)) {
-      remark("drag: " + warning.sentence + "\n");
-    }
+    remark_warnings("drag", drag_warnings(result.fit));
     emit(output, spec_text(spec_with_drag(*file, result.fit), options.spec.file, output.file));
     return done;
   }

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -49,6 +50,12 @@ void print_on_error(std::string_view lines) {
 
 void remark(std::string_view lines) {
   if (!quiet) print_on_error(lines);
+}
+
+void remark_warnings(std::string_view command, std::span<const Warning> warnings) {
+  for (const Warning& warning : warnings) {
+    remark(fmt::format("{}: {}\n", command, warning.sentence));
+  }
 }
 
 void be_quiet() { quiet = true; }

@@ -337,11 +337,7 @@ int run_motor(const MotorOptions& options, Output output) {
   if (output.format == Format::table && output.file.ends_with(".json")) {
     output.format = Format::json;
   }
-  if (output.format != Format::table) {
-    for (const Warning& warning : shown.motor.warnings) {
-      remark("motor: " + warning.sentence + "\n");
-    }
-  }
+  if (output.format != Format::table) remark_warnings("motor", shown.motor.warnings);
   emit(
       output, [&] { return motor_text(shown.motor, style_for(output)); },
       [&] { return document_of(shown); }, [&] { return motor_csv(shown.motor); });
