@@ -224,7 +224,7 @@ function uplotAxis(axis, side, which) {
         },
         filter: (u, splits) => splits, // uPlot's own leaves the decades
         values: (u, splits) => wordsApart(u, splits, [true, false].flatMap((decade) => splits
-          .filter((at) => String(at).replace('0.', '').replace(/^0+/, '').startsWith('1') === decade).map((at) => ({ at, words: String(at) })))),
+          .filter((at) => at.toExponential().startsWith('1') === decade).map((at) => ({ at, words: String(at) })))),
       } : { values: (u, splits) => splits.map((at) => String(Number(at.toPrecision(6))).replace('-', '\u2212')) }),
   };
 }
