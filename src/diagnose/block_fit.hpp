@@ -83,10 +83,15 @@ struct BlockFit {
   }
 };
 
+/// A search compares fits and ends each where a further step would change no decision; what is
+/// reported is taken to the minimum as far as rounding allows, at several times the price.
+enum class FitUse { search, report };
+
 /// Levenberg–Marquardt on Huber's loss, then one Gauss–Newton step a block for the fits without it.
 /// Starts from the values of `near`, which may be null, for what is free in both, elsewhere from
 /// the parameters' own first values.
-[[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near);
+[[nodiscard]] BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* near,
+                                  FitUse use = FitUse::search);
 
 /// Slopes of the prediction by the free parameters of `groups` over their scales, at `values`.
 [[nodiscard]] MatrixXd group_slopes(const Record& record, const Groups& groups,

@@ -60,7 +60,6 @@ class Search {
     place_fitted(record_);
     const BlockFit base = fit(selected_, nullptr);
     current_ = base;
-    result.base = model_fit(base);
     place_candidates();
     for (const std::size_t g : candidates()) {
       if (auto aliased = aliased_in(record_, base, g)) {
@@ -78,7 +77,7 @@ class Search {
     if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
     put_in_order(base);
     place_candidates();
-    sum_up(base, result);
+    sum_up(result);
     return result;
   }
 
@@ -105,14 +104,14 @@ class Search {
   }
 
   /// The fit of what is always free, `selected`, and `shapes` without a name.
-  [[nodiscard]] BlockFit fit(const Groups& selected, const Groups& shapes,
-                             const BlockFit* near) const {
+  [[nodiscard]] BlockFit fit(const Groups& selected, const Groups& shapes, const BlockFit* near,
+                             FitUse use = FitUse::search) const {
     Freed freed{{}, shapes};
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
       const bool wanted = group(g).fitted || contains(selected, g);
       if (wanted && !is_replaced(g, selected)) freed.groups.push_back(g);
     }
-    return fit_blocks(record_, freed, near);
+    return fit_blocks(record_, freed, near, use);
   }
   /// The same with the shapes that were found.
   [[nodiscard]] BlockFit fit(const Groups& selected, const BlockFit* near) const {
@@ -430,13 +429,15 @@ class Search {
     }
   }
 
-  void sum_up(const BlockFit& base, Selection& result) const {
-    BlockFit before = base;
+  void sum_up(Selection& result) {
+    BlockFit before = fit({}, {}, nullptr, FitUse::report);
+    result.base = model_fit(before);
+    current_ = fit(selected_, unnamed_, &current_, FitUse::report);
     Groups so_far;
     for (const std::size_t g : selected_) {
       // Gains are those of the named part alone, one finding after the other.
       so_far.push_back(g);
-      BlockFit after = fit(so_far, {}, &current_);
+      BlockFit after = fit(so_far, {}, &current_, FitUse::report);
       SelectedGroup& entry = result.selected.emplace_back(freed_between(before, after, g));
       const BlockFit without = fit(selected_without(g), &current_);
       entry.p_value = p_value(g, without, current_);

@@ -143,13 +143,14 @@ class SubsetSearch {
   }
 
  private:
-  [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near) const {
+  [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near,
+                            FitUse use = FitUse::search) const {
     Freed freed;
     freed.groups = fitted_;
     freed.groups.insert(freed.groups.end(), named.begin(), named.end());
     std::sort(freed.groups.begin(), freed.groups.end());
     freed.unnamed = shapes;
-    Model result{named, shapes, fit_blocks(record_, freed, near), 0};
+    Model result{named, shapes, fit_blocks(record_, freed, near, use), 0};
     result.length = result.fit.squared_error() + shape_price_ * static_cast<double>(shapes.size());
     for (const std::size_t g : named) {
       result.length += name_price_ + 2 * std::log(chances(problem_.groups[g]));
@@ -310,7 +311,7 @@ class SubsetSearch {
   }
 
   /// The names of the best model in the order of what they add, with their gains.
-  [[nodiscard]] std::vector<SelectedGroup> selected() const {
+  [[nodiscard]] std::vector<SelectedGroup> selected(FitUse use) const {
     std::vector<SelectedGroup> order;
     Groups so_far;
     BlockFit before = base_.fit;
@@ -318,7 +319,7 @@ class SubsetSearch {
       std::optional<std::pair<std::size_t, BlockFit>> next;
       for (const std::size_t g : best_.named) {
         if (contains(so_far, g)) continue;
-        BlockFit fit = model(with_group(so_far, g), {}, &best_.fit).fit;
+        BlockFit fit = model(with_group(so_far, g), {}, &best_.fit, use).fit;
         if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
       }
       so_far = with_group(so_far, next->first);
@@ -334,7 +335,7 @@ class SubsetSearch {
     while (true) {
       std::optional<std::size_t> weakest;
       double weakest_gain = options_.least_gain_percent;
-      for (const SelectedGroup& s : selected()) {
+      for (const SelectedGroup& s : selected(FitUse::search)) {
         const Gain beside = gain_between(best_without(s.group).fit, best_.fit);
         const double gain = std::min(s.gain_percent, beside.percent);
         if (gain >= weakest_gain) continue;
@@ -346,10 +347,12 @@ class SubsetSearch {
     }
   }
 
-  [[nodiscard]] Selection sum_up() const {
+  [[nodiscard]] Selection sum_up() {
+    base_ = model({}, {}, nullptr, FitUse::report);
+    best_ = model(best_.named, best_.shapes, &best_.fit, FitUse::report);
     Selection result = nothing_selected(record_, options_);
     result.aliased = aliased_;
-    result.selected = selected();
+    result.selected = selected(FitUse::report);
     for (SelectedGroup& entry : result.selected) {
       entry.indistinguishable = rivals(entry.group);
       entry.p_value = chi_squared_tail(
@@ -360,7 +363,7 @@ class SubsetSearch {
       return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
     });
     const BlockFit named =
-        best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit).fit;
+        best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit, FitUse::report).fit;
     result.base = model_fit(record_, base_.fit);
     result.extended = model_fit(record_, named);
     result.complete = model_fit(record_, best_.fit);
