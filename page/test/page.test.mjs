@@ -325,8 +325,7 @@ onPage('the published flight, dropped on the page, has the drag that the program
   await page.getByRole('button', { name: 'Use in this design' }).click();
   const { drag } = JSON.parse(await saved(page, 'Spec')).drone;
   const found = JSON.parse(programSays([...given, '--format', 'json'], ''));
-  // The fit ends where steps no longer matter, not at the same last digits.
-  for (const name of ['front_area_m2', 'top_area_m2', 'linear_m_s']) assert.ok(Math.abs(drag[name] / found[name].value - 1) < 1e-9, name);
+  for (const name of ['front_area_m2', 'top_area_m2', 'linear_m_s']) assert.ok(Math.abs(drag[name] / found[name].value - 1) < 1e-12, name);
 }, { without: withoutFlight });
 
 onPage("the published flight, dropped on the page, has the program's diagnosis", async (page) => {

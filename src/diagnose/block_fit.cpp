@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
+#include <utility>
 
 #include "identify/statistics.hpp"
 
@@ -12,13 +14,48 @@ namespace {
 /// Huber's bound in robust standard deviations. At 3 it costs 0.5 % of efficiency where the noise
 /// is normal, and hardly touches the honest residuals of a model that still lacks an effect.
 constexpr double huber_bound = 3.0;
-/// Slopes by forward differences: this part of a parameter's scale. The scale is a change that
-/// matters, so the model is smooth over a ten-thousandth of it, and 1e-4 of an effect stands eight
-/// digits above rounding.
-constexpr double slope_step = 1e-4;
-/// Of a fit that is reported, slopes over five points this part of the scale apart: wrong by its
-/// fourth power, and with rounding three digits lower, so that two machines print the same twelve.
-constexpr double reported_slope_step = 0.05;
+/// A slope is the sum of weight·(prediction there − prediction here) over neighbours so many scales
+/// away; a scale is a change that matters, so the model is smooth over less.
+struct Neighbour {
+  double scales;
+  double weight;
+};
+using Neighbours = std::vector<Neighbour>;
+
+/// One close by: 1e-4 of an effect stands eight digits above rounding.
+Neighbours for_search(double direction) { return {{direction * 1e-4, direction * 1e4}}; }
+
+/// Five points (Abramowitz and Stegun, table 25.2): wrong by the fourth power of their distance,
+/// and with rounding two to three digits lower, so that two machines report the same twelve.
+constexpr double report_distance = 0.05;
+Neighbours for_report(std::initializer_list<std::pair<double, double>> steps_and_weights) {
+  Neighbours all;
+  for (const auto& [steps, weight] : steps_and_weights) {
+    all.push_back({steps * report_distance, weight / (12 * report_distance)});
+  }
+  return all;
+}
+Neighbours on_both_sides() { return for_report({{-2, 1}, {-1, -8}, {1, 8}, {2, -1}}); }
+Neighbours on_one_side(double s) {
+  return for_report({{s, 48 * s}, {2 * s, -36 * s}, {3 * s, 16 * s}, {4 * s, -3 * s}});
+}
+
+/// The first that stay within the parameter's bounds, else the last.
+Neighbours neighbours(const ModelParameter& p, double here, FitUse use) {
+  const auto within = [&](const Neighbours& all) {
+    return std::all_of(all.begin(), all.end(), [&](const Neighbour& n) {
+      const double there = here + n.scales * p.scale;
+      return p.lower <= there && there <= p.upper;
+    });
+  };
+  if (use == FitUse::report) {
+    for (const Neighbours& all : {on_both_sides(), on_one_side(1), on_one_side(-1)}) {
+      if (within(all)) return all;
+    }
+  }
+  return within(for_search(1)) ? for_search(1) : for_search(-1);
+}
+
 /// A fit has converged when a step lowers the loss by less than this part: a hundred-thousandth of
 /// the loss is far below what a block more or less changes.
 constexpr double converged_decrease = 1e-7;
@@ -124,24 +161,14 @@ class FreedModel {
     for (std::size_t k = 0; k < free_.size(); ++k) {
       const ModelParameter& p = record_->parameters()[free_[k]];
       const double here = values[free_[k]];
-      const auto beside = [&](double scales) -> const VectorXd& {
-        values[free_[k]] = here + scales * p.scale;
-        residuals(values, there);
-        values[free_[k]] = here;
-        return there;
-      };
       auto column = out.col(static_cast<Index>(k));
-      const double h = reported_slope_step;
-      if (use == FitUse::report && here - 2 * h * p.scale >= p.lower &&
-          here + 2 * h * p.scale <= p.upper) {
-        column = 8 / (12 * h) * beside(-h);
-        column -= 8 / (12 * h) * beside(h);
-        column += 1 / (12 * h) * beside(2 * h);
-        column -= 1 / (12 * h) * beside(-2 * h);
-      } else {
-        const double step = here + slope_step * p.scale <= p.upper ? slope_step : -slope_step;
-        column = (residual - beside(step)) / step;
+      column.setZero();
+      for (const Neighbour& n : neighbours(p, here, use)) {
+        values[free_[k]] = here + n.scales * p.scale;
+        residuals(values, there);
+        column += n.weight * (residual - there);
       }
+      values[free_[k]] = here;
     }
     out.rightCols(columns_.cols()) = columns_;
   }
@@ -415,13 +442,13 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
   return fit;
 }
 
-MatrixXd group_slopes(const Record& record, const Groups& groups,
-                      const std::vector<double>& values) {
+MatrixXd group_slopes(const Record& record, const Groups& groups, const std::vector<double>& values,
+                      FitUse use) {
   const FreedModel model(record, {groups, {}}, values);
   VectorXd residual;
   MatrixXd slopes;
   model.residuals(residual);
-  model.jacobian(residual, FitUse::search, slopes);
+  model.jacobian(residual, use, slopes);
   return slopes;
 }
 

@@ -95,7 +95,7 @@ enum class FitUse { search, report };
 
 /// Slopes of the prediction by the free parameters of `groups` over their scales, at `values`.
 [[nodiscard]] MatrixXd group_slopes(const Record& record, const Groups& groups,
-                                    const std::vector<double>& values);
+                                    const std::vector<double>& values, FitUse use = FitUse::search);
 
 /// Covariance of some quantities by the delete-a-block jackknife, from their values (up to a
 /// constant) without each block: one row a quantity, one column a block.

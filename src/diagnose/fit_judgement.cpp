@@ -13,6 +13,24 @@ constexpr double aliased_below = 0.01;
 /// Cosine beyond which a change of the prediction looks like another at all.
 constexpr double alike = 0.1;
 
+/// Chance of an open effect's size below which it is suspected.
+constexpr double suspicious = 0.05;
+/// A gain that is printed as 0.0 % would not help.
+constexpr double least_worth_telling = 0.05;
+/// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
+/// enough to be judged does not gain a tenth of the error.
+constexpr double much = 5;
+
+bool is_suspicious(double p_value, const Gain& gain, double least_of_a_name,
+                   const ParameterGroup& group) {
+  // Of what is always there a little, or looked for at many moments, chance shows some.
+  const double least = group.least_gain_factor > 1 ? least_of_a_name : 0;
+  const bool hardly_chance = p_value <= suspicious && gain.percent >= least &&
+                             gain.percent > gain.se && gain.percent >= least_worth_telling;
+  const bool helps_much = gain.percent >= much * least_of_a_name && gain.percent > 2 * gain.se;
+  return hardly_chance || helps_much;
+}
+
 std::size_t owner_of(const Record& record, std::size_t parameter) {
   std::size_t owner = 0;
   while (owner + 1 < record.problem().groups.size() &&
@@ -32,7 +50,8 @@ std::vector<double> started(const Record& record, std::vector<double> values, st
 }
 
 /// The slopes at the first values by the sizes of the group alone.
-MatrixXd size_slopes(const Record& record, const std::vector<double>& values, std::size_t group) {
+MatrixXd size_slopes(const Record& record, const std::vector<double>& values, std::size_t group,
+                     FitUse use) {
   const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
   std::vector<Index> sizes;
   Index column = 0;
@@ -41,7 +60,7 @@ MatrixXd size_slopes(const Record& record, const std::vector<double>& values, st
     if (!p.shape_only) sizes.push_back(column);
     ++column;
   }
-  return slopes_at_start(record, values, group)(Eigen::all, sizes);
+  return group_slopes(record, {group}, started(record, values, group), use)(Eigen::all, sizes);
 }
 
 /// What least squares knows of a column beside others: the part of its square that is its own.
@@ -72,7 +91,7 @@ double largest_share(const Record& record, const MatrixXd& others, const VectorX
 /// The sizes of the group by one step of weighted least squares beside what is free in the fit.
 std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit,
                                        std::size_t group) {
-  const MatrixXd sizes = size_slopes(record, fit.values, group);
+  const MatrixXd sizes = size_slopes(record, fit.values, group, FitUse::report);
   MatrixXd slopes(sizes.rows(), fit.jacobian.cols() + sizes.cols());
   slopes << fit.jacobian, sizes;
   const VectorXd weight = fit.weight.cwiseSqrt();
@@ -254,7 +273,7 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
       columns.push_back(static_cast<Index>(k));
     }
   }
-  MatrixXd slopes = size_slopes(record, fit.values, group);
+  MatrixXd slopes = size_slopes(record, fit.values, group, FitUse::search);
   const VectorXd norms = slopes.colwise().norm();
   if (norms.minCoeff() <= 0) return Selection::Aliased{group, {}};
   slopes = slopes * norms.cwiseInverse().asDiagonal();
@@ -393,8 +412,7 @@ void add_place_error(const Record& record, const BlockFit& without, const BlockF
 }
 
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
-                                        const Selection& found,
-                                        const std::function<BlockFit(std::size_t)>& with) {
+                                        const Selection& found, const FitWithGroup& with) {
   Groups candidates;
   for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
     const auto is_told = [g](const SelectedGroup& s) {
@@ -420,8 +438,14 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
           chances(record.problem().groups[g]);
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
     }
-    const BlockFit freed = with(g);
-    const Gain gained = gain_between(fit, freed);
+    BlockFit freed = with(g, FitUse::search);
+    Gain gained = gain_between(fit, freed);
+    candidate.suspected = is_suspicious(candidate.p_value, gained, found.least_gain_percent,
+                                        record.problem().groups[g]);
+    if (candidate.suspected) {
+      freed = with(g, FitUse::report);
+      gained = gain_between(fit, freed);
+    }
     candidate.gain_percent = gained.percent;
     candidate.gain_se_percent = gained.se;
     candidate.largest_block_share = largest_block_share(record, freed, g);

@@ -73,11 +73,14 @@ inline constexpr double most_of_one_block = 0.9;
 void add_place_error(const Record& record, const BlockFit& without, const BlockFit& fit,
                      std::size_t group, ModelFit& all);
 
+/// The fit with one more group freed.
+using FitWithGroup = std::function<BlockFit(std::size_t group, FitUse use)>;
+
 /// What `fit` says of each candidate that is neither selected in `found`, nor aliased, nor a rival
-/// of one that is selected. `with` gives the fit with one of them freed.
-[[nodiscard]] std::vector<Selection::Open> judge_open(
-    const Record& record, const BlockFit& fit, const Selection& found,
-    const std::function<BlockFit(std::size_t)>& with);
+/// of one that is selected.
+[[nodiscard]] std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
+                                                      const Selection& found,
+                                                      const FitWithGroup& with);
 
 /// The groups by rising distance.
 [[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);

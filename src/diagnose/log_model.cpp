@@ -57,14 +57,6 @@ void look_through(const EffectParameter& effect, double begin, double end, Model
   p.start = p.neutral;
 }
 
-/// Chance of an open effect's size below which it is suspected.
-constexpr double suspicious = 0.05;
-/// A gain that is printed as 0.0 % would not help.
-constexpr double least_worth_telling = 0.05;
-/// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
-/// enough to be judged does not gain a tenth of the error.
-constexpr double much = 5;
-
 using Interval = std::pair<double, double>;
 
 Interval symmetric_interval(const ModelFit& fit, std::size_t parameter, double student_factor) {
@@ -239,14 +231,7 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
       bounds.push_back({effect.id, p.name, bound / p.unit_SI, p.unit, log.flight_of(open.group)});
     }
   }
-  // Of what is always there a little, or looked for at many moments, chance shows some.
-  const double least = effect.least_gain_factor > 1 ? selection.least_gain_percent : 0;
-  const bool hardly_chance = open.p_value <= suspicious && open.gain_percent >= least &&
-                             open.gain_percent > open.gain_se_percent &&
-                             open.gain_percent >= least_worth_telling;
-  const bool helps_much = open.gain_percent >= much * selection.least_gain_percent &&
-                          open.gain_percent > 2 * open.gain_se_percent;
-  if (hardly_chance || helps_much) {
+  if (open.suspected) {
     diagnosis.suspected.push_back(
         {effect.id, effect.title, open.gain_percent, open.gain_se_percent,
          estimates(log, selection, open.freed, open.group),

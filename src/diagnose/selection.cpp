@@ -455,8 +455,8 @@ class Search {
       const BlockFit without = fit(selected_without(g), complete.freed.unnamed, &complete);
       add_place_error(record_, without, complete, g, result.complete);
     }
-    result.open = judge_open(record_, complete, result, [&](std::size_t g) {
-      return fit(selected_with(g), complete.freed.unnamed, &complete);
+    result.open = judge_open(record_, complete, result, [&](std::size_t g, FitUse use) {
+      return fit(selected_with(g), complete.freed.unnamed, &complete, use);
     });
     result.unnamed = unnamed_in(record_, current_, before);
   }

@@ -166,6 +166,7 @@ struct Selection {
     double p_value = 1;
     double gain_percent = 0;     ///< of freeing it
     double gain_se_percent = 0;  ///< standard error over blocks
+    bool suspected = false;      ///< its size or its gain is hardly chance, though not sure enough
     ModelFit freed{};            ///< with it freed
     /// Of what the record knows of it as freed, the part of the block that knows most.
     double largest_block_share = 0;

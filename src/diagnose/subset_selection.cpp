@@ -359,8 +359,8 @@ class SubsetSearch {
           best_without(entry.group).fit.squared_error() - best_.fit.squared_error(),
           static_cast<double>(problem_.groups[entry.group].parameters.size()));
     }
-    result.open = judge_open(record_, best_.fit, result, [this](std::size_t g) {
-      return model(with_group(best_.named, g), best_.shapes, &best_.fit).fit;
+    result.open = judge_open(record_, best_.fit, result, [this](std::size_t g, FitUse use) {
+      return model(with_group(best_.named, g), best_.shapes, &best_.fit, use).fit;
     });
     const BlockFit named =
         best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit, FitUse::report).fit;

@@ -7,7 +7,7 @@
 
 #include "hidden_effects/diagnosed.hpp"
 #include "support/random.hpp"
-#include "tethercalc/identify/drag_fit.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 
 using namespace tethercalc;
 using truth::HiddenFlight;

@@ -9,7 +9,7 @@
 
 #include "support/flight_csv.hpp"
 #include "support/simulated_flight.hpp"
-#include "tethercalc/identify/drag_fit.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 
 using namespace tethercalc;
 

@@ -80,9 +80,8 @@ try {
     const bytes = readFileSync(log);
     const given = Object.fromEntries(options.map(([name, , value]) => [name, value]));
     const found = ask({ ask: 'drag', file: basename(log), ...given }, { [basename(log)]: bytes });
-    // The fit ends where steps no longer matter, not at the same last digits.
     same(found.result, JSON.parse(command('drag', log, '--format', 'json', ...options.flatMap(([, name, value]) => [name, String(value)]))),
-      basename(log), 9);
+      basename(log));
   };
   compareDrag(join(project, 'examples/simulated-flight.csv'), ['mass_g', '--mass-g', 1550]);
   const flight = shared && join(shared, 'data/x500-flight.bin');
@@ -99,8 +98,9 @@ try {
     const took = performance.now() - began;
     const expected = JSON.parse(command('diagnose', specFile, `--${kind}`, log, '--format', 'json'));
     assert.deepEqual(found.result.findings.map(({ effect }) => effect), expected.findings.map(({ effect }) => effect));
-    // Fits stand upon fits there, each of which ends where steps no longer matter.
-    same(found.result.findings, expected.findings, name, 8);
+    same(found.result.findings, expected.findings, name);
+    // Elsewhere stand also numbers of which the log knows next to nothing, and so not twelve digits.
+    same(found.result, expected, name, 10);
     console.log(`diagnosis of ${name}: ${found.result.findings.map(({ effect }) => effect).join(', ') || 'nothing found'} in ${took.toFixed(0)} ms`);
   };
   compareDiagnosis(join(project, 'examples/holybro-x500.json'), 'flight', join(project, 'examples/simulated-flight.csv'));

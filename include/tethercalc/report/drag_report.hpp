@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tethercalc/identify/autopilot_drag.hpp"
-#include "tethercalc/identify/drag_fit.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 #include "tethercalc/model/warning.hpp"
 #include "tethercalc/report/text_table.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "tethercalc/identify/drag_fit.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 
 namespace tethercalc {
 

@@ -1,0 +1,38 @@
+#include "tethercalc/identify/drag_identification.hpp"
+
+#include <fmt/format.h>
+
+#include "identify/flight_units.hpp"
+
+namespace tethercalc {
+
+Observations observe_part(const FlightLog& log, const DragIdentificationOptions& options) {
+  validate(log);
+  const bool chosen = options.from || options.to;
+  const SampleRange range = chosen ? select_range(log, options.from, options.to) : moving_part(log);
+  const double gravity = options.conditions.gravity;
+  Observations flight = observe(log, range, options.pitch_offset, gravity, options.kinematics);
+  check_flight_units(flight, gravity);
+  return flight;
+}
+
+DragIdentification identify_drag(std::span<const FlightLog> logs,
+                                 const DragIdentificationOptions& options) {
+  DragIdentification out;
+  out.options = options;
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    try {
+      out.flights.push_back(observe_part(logs[i], options));
+    } catch (const UnsuitableFlight& error) {
+      if (logs.size() == 1) throw;
+      throw UnsuitableFlight(fmt::format("log {}: {}", i + 1, error.what()));
+    }
+    if (out.flights.back().size() == 0) {
+      throw UnsuitableFlight(fmt::format("log {} is all gaps", i + 1));
+    }
+  }
+  out.fit = fit_drag(out.flights, options.conditions);
+  return out;
+}
+
+}  // namespace tethercalc
