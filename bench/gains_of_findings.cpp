@@ -1,0 +1,185 @@
+// Whether a finding ever makes the simulation worse: short logs with none to three hidden effects
+// each, known to the catalogue or not, from the limit of detection to large, are diagnosed, and
+// every finding's gain on held-out data is taken where it stands in the order of findings and once
+// more beside all others. Ends with an error where one is not positive, or an extended model is
+// worse than its base.
+//
+//   gains_of_findings [LOGS] [SEED]   logs of each kind, 100 by default
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hidden_effects/diagnosed.hpp"
+#include "hidden_effects/power_scenarios.hpp"
+#include "hidden_effects/simulated_flight.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+using Random = std::mt19937_64;
+
+double between(Random& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+std::size_t at_most(Random& random, std::size_t most) {
+  return std::uniform_int_distribution<std::size_t>(0, most)(random);
+}
+
+struct Count {
+  int logs = 0;
+  int findings = 0;
+  int not_positive = 0;
+  int worse_beside_others = 0;
+  int worse_models = 0;
+};
+
+/// `held_out` gives the held-out error of a base model with further effects in it.
+template <typename HeldOut>
+void judge(const char* kind, std::uint64_t seed, const Diagnosis& d, const HeldOut& held_out,
+           Count& count) {
+  ++count.logs;
+  for (const Finding& f : d.findings) {
+    ++count.findings;
+    count.not_positive +=
+        f.gain_percent > 0 && f.holdout_rmse_after < f.holdout_rmse_before ? 0 : 1;
+  }
+  count.worse_models += d.extended.holdout_rmse <= d.base.holdout_rmse ? 0 : 1;
+  for (const Finding& f : d.findings) {
+    std::vector<std::string> others;
+    for (const Finding& other : d.findings) {
+      if (&other != &f) others.push_back(other.effect);
+    }
+    if (others.empty()) return;  // what stands alone was judged above
+    const double without = held_out(others);
+    if (d.extended.holdout_rmse < without) continue;
+    ++count.worse_beside_others;
+    fmt::print("{} {}: {} beside {}: {:.6g} without and {:.6g} with\n", kind, seed, f.effect,
+               fmt::join(others, ", "), without, d.extended.holdout_rmse);
+  }
+}
+
+// ---- flights ----
+
+truth::HiddenFlight drawn_flight(std::uint64_t seed) {
+  Random random(seed);
+  truth::HiddenFlight hidden;
+  hidden.seed = seed;
+  hidden.duration = between(random, 90, 240);
+  hidden.mass = between(random, 1.5, 2.3);
+  hidden.linear = between(random, 8, 25);
+  hidden.wind = between(random, -2, 2);
+  hidden.yaw_turns = at_most(random, 2) == 0;
+  hidden.gust_std *= std::exp2(between(random, -1, 1));
+  const std::vector<std::pair<double truth::HiddenFlight::*, double>> largest{
+      {&truth::HiddenFlight::attitude_delay, 0.25},
+      {&truth::HiddenFlight::pitch_trim, 3},
+      {&truth::HiddenFlight::wind_north, 4},
+      {&truth::HiddenFlight::wind_drift, 4},
+      {&truth::HiddenFlight::fore_aft_asymmetry, 0.3},
+      {&truth::HiddenFlight::propwash, 0.8},
+      {&truth::HiddenFlight::vertical_coupling, 0.2},
+      {&truth::HiddenFlight::tether_pull, 1.5},
+      {&truth::HiddenFlight::wind_step, 4},
+      {&truth::HiddenFlight::wind_wave, 3},
+      {&truth::HiddenFlight::mass_drop, 40},
+      {&truth::HiddenFlight::velocity_lag, 0.3},
+      {&truth::HiddenFlight::roll_drag, 80},
+      {&truth::HiddenFlight::step_force, 1},
+      {&truth::HiddenFlight::height_drag, 0.06}};
+  for (std::size_t left = at_most(random, 3); left > 0; --left) {
+    const auto& [field, most] = largest[at_most(random, largest.size() - 1)];
+    hidden.*field = most * std::exp2(between(random, -4, 0));
+  }
+  return hidden;
+}
+
+void diagnose_one_flight(std::uint64_t seed, Count& count) {
+  const truth::HiddenFlight hidden = drawn_flight(seed);
+  const FlightLog log = truth::fly(hidden);
+  const auto held_out = [&](std::vector<std::string> further) {
+    further.insert(further.end(), truth::usual_base.begin(), truth::usual_base.end());
+    return truth::diagnosed(hidden, log, further).base.holdout_rmse;
+  };
+  judge("flight", seed, truth::diagnosed(hidden, log), held_out, count);
+}
+
+// ---- power logs ----
+
+power_truth::Scenario drawn_power_log(std::uint64_t seed) {
+  Random random(seed);
+  power_truth::Scenario scenario;
+  scenario.seed = seed;
+  scenario.duration = between(random, 200, 900);
+  scenario.deviation *= std::exp2(between(random, -1, 1));
+  scenario.instrument_noise = std::exp2(between(random, -1, 1));
+  for (std::size_t left = at_most(random, 3); left > 0; --left) {
+    const auto& known = power_truth::hidden_effects();
+    power_truth::HiddenEffects& h = scenario.hidden;
+    switch (const std::size_t pick = at_most(random, known.size() + 3); pick - known.size()) {
+      case 0:
+        h.step_in_motor_power = between(random, 0.005, 0.1);
+        break;
+      case 1:
+        h.motor_power_per_height = between(random, 0.005, 0.1);
+        break;
+      case 2:
+        h.step_in_resistance = between(random, 0.01, 0.2);
+        break;
+      case 3:
+        h.motor_power_swing = between(random, 0.005, 0.1);
+        break;
+      default:
+        known[pick].hide(h, between(random, -0.3, 1));
+    }
+  }
+  return scenario;
+}
+
+void diagnose_one_power_log(std::uint64_t seed, Count& count) {
+  const PowerLog log = power_truth::as_power_log(simulate(drawn_power_log(seed)));
+  const auto diagnosed = [&log](const std::vector<std::string>& further) {
+    return diagnose_power(power_truth::spec(), log, further).diagnosis;
+  };
+  const auto held_out = [&](const std::vector<std::string>& further) {
+    return diagnosed(further).base.holdout_rmse;
+  };
+  judge("power log", seed, diagnosed({}), held_out, count);
+}
+
+bool print(const char* kind, const Count& c) {
+  fmt::print(
+      "{:<12}{:>6} logs {:>7} findings {:>4} without gain {:>4} without gain beside the others "
+      "{:>4} models worse than their base\n",
+      kind, c.logs, c.findings, c.not_positive, c.worse_beside_others, c.worse_models);
+  return c.not_positive + c.worse_beside_others + c.worse_models == 0;
+}
+
+template <typename Draw>
+Count counted(int logs, std::uint64_t seed, const Draw& draw) {
+  Count count;
+  for (int i = 0; i < logs; ++i) draw(seed + static_cast<std::uint64_t>(i), count);
+  return count;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int logs = argc > 1 ? std::atoi(argv[1]) : 100;
+  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  if (logs < 1) {
+    fmt::print(stderr, "usage: gains_of_findings [LOGS] [SEED], LOGS at least 1\n");
+    return 2;
+  }
+  const bool power = print("power logs", counted(logs, seed, diagnose_one_power_log));
+  const bool flights = print("flights", counted(logs, seed, diagnose_one_flight));
+  return power && flights ? 0 : 1;
+}
