@@ -33,6 +33,9 @@ constexpr std::ptrdiff_t fewest_power_samples = 100;
 /// from some 200 rows, which makes the tails heavier; measured rates stand in
 /// docs/diagnosis-power.md.
 constexpr double chance_of_a_false_alarm = 0.002;
+/// Percent. Half of what a flight has to gain: instruments of a chain that is electrical throughout
+/// lack less of a model than a flight does.
+constexpr double least_gain_of_a_name = 1;
 
 void check_lengths(const PowerLog& log) {
   for (const PowerChannel& channel : power_channels) {
@@ -370,6 +373,7 @@ Selection search(PowerLogModel& view, const SelectionProgress& progress) {
   behind_stages();
   SelectionOptions options;
   options.false_alarm_probability = chance_of_a_false_alarm;
+  options.least_gain_percent = least_gain_of_a_name;
   // Few rows tell of the airframe: what they gain is not to drown in those of the line.
   if (view.tilt()) options.least_gain_percent *= share_in_the_air(view);
   Selection selection = select_subset(problem, options, progress);
