@@ -79,25 +79,25 @@ double asinh_difference(double a, double b) {
   return std::asinh((b - a) * (b + a) / (b * std::hypot(1, a) + a * std::hypot(1, b)));
 }
 
-struct Extent {
+struct Reach {
   double x = 0;
   double z = 0;
 };
 
 /// Where the end is, with H and V at the start.
-Extent extent_of(const Catenary& c, double s, double weight, std::optional<double> stiffness) {
+Reach reach_of(const Catenary& c, double s, double weight, std::optional<double> stiffness) {
   const double start = c.vertical_at_start;
   const double end = start + weight * s;
-  Extent extent{
+  Reach reach{
       0, s * (start + end) / (std::hypot(c.horizontal, start) + std::hypot(c.horizontal, end))};
   if (c.horizontal > 0) {
-    extent.x = c.horizontal / weight * asinh_difference(start / c.horizontal, end / c.horizontal);
+    reach.x = c.horizontal / weight * asinh_difference(start / c.horizontal, end / c.horizontal);
   }
   if (stiffness) {
-    extent.x += c.horizontal * s / *stiffness;
-    extent.z += s * (start + end) / (2 * *stiffness);
+    reach.x += c.horizontal * s / *stiffness;
+    reach.z += s * (start + end) / (2 * *stiffness);
   }
-  return extent;
+  return reach;
 }
 
 /// How the end's place changes with H and V; ∂x/∂V = ∂z/∂H.
@@ -143,10 +143,10 @@ std::optional<Catenary> elastic(double x, double z, double length, double weight
                                 double stiffness) {
   Catenary c = first_elastic(x, z, length, weight, stiffness);
   const auto gradient = [&](const Catenary& tried) {
-    const Extent at = extent_of(tried, length, weight, stiffness);
-    return Extent{at.x - x, at.z - z};
+    const Reach at = reach_of(tried, length, weight, stiffness);
+    return Reach{at.x - x, at.z - z};
   };
-  Extent miss = gradient(c);
+  Reach miss = gradient(c);
   for (int i = 0; i < 200; ++i) {
     const Flexibility by = flexibility(c, length, weight, stiffness);
     const double determinant =
@@ -161,7 +161,7 @@ std::optional<Catenary> elastic(double x, double z, double length, double weight
     }
     const double falls = miss.x * step_h + miss.z * step_v;
     Catenary next;
-    Extent next_miss;
+    Reach next_miss;
     for (double part = 1; part > 1e-9; part *= 0.5) {
       next = {c.horizontal + part * step_h, c.vertical_at_start + part * step_v, 0};
       next_miss = gradient(next);
@@ -203,7 +203,7 @@ CatenaryStiffness catenary_stiffness(const Catenary& shape, double length, doubl
 
 CatenaryPoint catenary_point(const Catenary& shape, double s, double weight,
                              std::optional<double> axial_stiffness) {
-  const Extent at = extent_of(shape, s, weight, axial_stiffness);
+  const Reach at = reach_of(shape, s, weight, axial_stiffness);
   return {at.x, at.z, std::hypot(shape.horizontal, shape.vertical_at_start + weight * s)};
 }
 
