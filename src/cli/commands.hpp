@@ -69,9 +69,6 @@ using LineTaker = std::function<void(std::string_view line)>;
 /// InputError where it cannot.
 void emit_lines(const Output& output, const std::function<void(const LineTaker&)>& lines);
 
-/// The text of a JSON answer.
-[[nodiscard]] std::string json_text(const nlohmann::ordered_json& json);
-
 /// Writes the answer in the form that was asked for, of which alone it is made.
 void emit(const Output& output, const std::function<std::string()>& text,
           const std::function<nlohmann::ordered_json()>& json,

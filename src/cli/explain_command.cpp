@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "io/json_document.hpp"
 #include "tethercalc/report/explanation.hpp"
 
 namespace tethercalc::cli {

@@ -19,6 +19,7 @@
 #include "cli/commands.hpp"
 #include "files/input_files.hpp"
 #include "files/output_files.hpp"
+#include "io/json_document.hpp"
 #include "report/characters.hpp"
 
 namespace tethercalc::cli {
@@ -106,8 +107,6 @@ void emit_lines(const Output& output, const std::function<void(const LineTaker&)
   pass_on();
   if (file) file->commit();
 }
-
-std::string json_text(const nlohmann::ordered_json& json) { return json.dump(2) + "\n"; }
 
 void emit(const Output& output, const std::function<std::string()>& text,
           const std::function<nlohmann::ordered_json()>& json,

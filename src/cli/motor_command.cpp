@@ -220,7 +220,7 @@ ShownMotor motor_of_json(const MotorOptions& options) {
   }
   ShownMotor out;
   out.motor = find_motor(options.files.front(), files_in(""), "FILE");
-  out.given = nlohmann::ordered_json::parse(read_text_file(options.files.front()).text);
+  out.given = json_of(read_text_file(options.files.front()).text);
   return out;
 }
 

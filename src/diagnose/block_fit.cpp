@@ -79,7 +79,7 @@ double huber_loss(const VectorXd& residual, double bound) {
 }
 
 MatrixXd normal_matrix(const MatrixXd& jacobian, const VectorXd& weight) {
-  return jacobian.transpose() * weight.asDiagonal() * jacobian;
+  return inner_products(weight.asDiagonal() * jacobian, jacobian);
 }
 
 VectorXd solve_loaded(MatrixXd normal, const VectorXd& gradient, double damping) {
@@ -258,7 +258,7 @@ WeightedMinimum minimise(FreedModel model, const Record& record, FitUse use) {
     model.jacobian(residual, FitUse::search, jacobian);
     if (model.size() == 0 || iteration == most_iterations) break;
 
-    const VectorXd gradient = jacobian.transpose() * weight.cwiseProduct(residual);
+    const VectorXd gradient = inner_products_with(jacobian, weight.cwiseProduct(residual));
     const std::vector<Index> kept = columns_not_held(model, gradient);
     const MatrixXd inner = jacobian(Eigen::all, kept);
     const MatrixXd normal = normal_matrix(inner, weight);
@@ -308,7 +308,7 @@ MatrixXd steps_without_blocks(const BlockFit& fit, const Record& record) {
     const MatrixXd jacobian = fit.jacobian(rows, Eigen::all);
     const VectorXd weight = fit.weight(rows);
     normals.push_back(normal_matrix(jacobian, weight));
-    gradients.push_back(jacobian.transpose() * weight.cwiseProduct(fit.residual(rows)));
+    gradients.push_back(inner_products_with(jacobian, weight.cwiseProduct(fit.residual(rows))));
     normal += normals.back();
     gradient += gradients.back();
   }
@@ -416,7 +416,7 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
   fit.values = model.values();
   fit.coefficients = model.coefficients();
   const VectorXd gradient =
-      minimum.jacobian.transpose() * minimum.weight.cwiseProduct(minimum.residual);
+      inner_products_with(minimum.jacobian, minimum.weight.cwiseProduct(minimum.residual));
   const std::vector<Index> kept = columns_not_held(model, gradient);
   for (const Index k : kept) {
     if (k < static_cast<Index>(model.free().size())) {
@@ -434,7 +434,7 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
     const auto rows = Eigen::seqN(record.block_begin(b), record.block_size(b));
     VectorXd held_out = fit.residual(rows);
     if (fit.jacobian.cols() > 0) {
-      held_out -= fit.jacobian(rows, Eigen::all) * fit.left_out.col(static_cast<Index>(b));
+      held_out -= product(fit.jacobian(rows, Eigen::all), fit.left_out.col(static_cast<Index>(b)));
     }
     fit.holdout_residual(rows) = held_out;
     fit.block_error[static_cast<Index>(b)] = held_out.squaredNorm();
@@ -455,7 +455,7 @@ MatrixXd group_slopes(const Record& record, const Groups& groups, const std::vec
 MatrixXd jackknife_covariance(MatrixXd left_out) {
   const auto blocks = static_cast<double>(left_out.cols());
   left_out.colwise() -= left_out.rowwise().mean().eval();
-  return (blocks - 1) / blocks * left_out * left_out.transpose();
+  return product((blocks - 1) / blocks * left_out, left_out.transpose());
 }
 
 MatrixXd jackknife_covariance(const BlockFit& fit, const std::vector<Index>& of) {

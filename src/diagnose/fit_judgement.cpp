@@ -65,13 +65,13 @@ MatrixXd size_slopes(const Record& record, const std::vector<double>& values, st
 
 /// What least squares knows of a column beside others: the part of its square that is its own.
 double own_information(const MatrixXd& gram, const VectorXd& cross, double square) {
-  return square - cross.dot(symmetric_pseudo_inverse(gram) * cross);
+  return square - cross.dot(pseudo_solution(gram, cross));
 }
 
 /// The largest part of that which one block has.
 double largest_share(const Record& record, const MatrixXd& others, const VectorXd& column) {
-  const MatrixXd gram = others.transpose() * others;
-  const VectorXd cross = others.transpose() * column;
+  const MatrixXd gram = gram_matrix(others);
+  const VectorXd cross = inner_products_with(others, column);
   const double square = column.squaredNorm();
   const double all = own_information(gram, cross, square);
   if (!(all > 0)) return 0;
@@ -81,9 +81,9 @@ double largest_share(const Record& record, const MatrixXd& others, const VectorX
     // Without columns there is no memory of which a part could be taken.
     if (others.cols() > 0) rows = others.middleRows(record.block_begin(b), record.block_size(b));
     const VectorXd part = column.segment(record.block_begin(b), record.block_size(b));
-    least_left = std::min(
-        least_left, own_information(gram - rows.transpose() * rows, cross - rows.transpose() * part,
-                                    square - part.squaredNorm()));
+    least_left = std::min(least_left, own_information(gram - gram_matrix(rows),
+                                                      cross - inner_products_with(rows, part),
+                                                      square - part.squaredNorm()));
   }
   return 1 - least_left / all;
 }
@@ -97,18 +97,15 @@ std::vector<SizeEstimate> sizes_beside(const Record& record, const BlockFit& fit
   const VectorXd weight = fit.weight.cwiseSqrt();
   slopes = weight.asDiagonal() * slopes;
   const VectorXd residual = weight.cwiseProduct(fit.residual);
-  const MatrixXd gram = slopes.transpose() * slopes;
-  const VectorXd along = slopes.transpose() * residual;
-  const auto step = [](const MatrixXd& g, const VectorXd& a) -> VectorXd {
-    return symmetric_pseudo_inverse(g) * a;
-  };
-  const VectorXd whole = step(gram, along);
+  const MatrixXd gram = gram_matrix(slopes);
+  const VectorXd along = inner_products_with(slopes, residual);
+  const VectorXd whole = pseudo_solution(gram, along);
   MatrixXd left_out(slopes.cols(), static_cast<Index>(record.blocks()));
   for (std::size_t b = 0; b < record.blocks(); ++b) {
     const MatrixXd rows = slopes.middleRows(record.block_begin(b), record.block_size(b));
     const VectorXd rest = residual.segment(record.block_begin(b), record.block_size(b));
     left_out.col(static_cast<Index>(b)) =
-        step(gram - rows.transpose() * rows, along - rows.transpose() * rest);
+        pseudo_solution(gram - gram_matrix(rows), along - inner_products_with(rows, rest));
   }
   const MatrixXd covariance = jackknife_covariance(std::move(left_out));
 
@@ -148,16 +145,17 @@ class PlaceGains {
         group_(group),
         weight_(fit.weight.cwiseSqrt()),
         free_(weight_.asDiagonal() * fit.jacobian),
-        inverse_(symmetric_pseudo_inverse(free_.transpose() * free_)) {}
+        inverse_(symmetric_pseudo_inverse(gram_matrix(free_))) {}
 
   [[nodiscard]] double at(std::size_t parameter, double place) const {
     std::vector<double> values = started(record_, fit_.values, group_);
     values[parameter] = place;
     MatrixXd slopes = group_slopes(record_, {group_}, values);
     slopes = weight_.asDiagonal() * slopes;
-    if (free_.cols() > 0) slopes -= free_ * (inverse_ * (free_.transpose() * slopes));
-    const VectorXd along = slopes.transpose() * weight_.cwiseProduct(fit_.residual);
-    const VectorXd step = symmetric_pseudo_inverse(slopes.transpose() * slopes) * along;
+    if (free_.cols() > 0)
+      slopes -= product(free_, product(inverse_, inner_products(free_, slopes)));
+    const VectorXd along = inner_products_with(slopes, weight_.cwiseProduct(fit_.residual));
+    const VectorXd step = pseudo_solution(gram_matrix(slopes), along);
     return leaves_bounds(step) ? 0 : along.dot(step);
   }
 
@@ -216,11 +214,11 @@ BlockSums sums(const Record& record, const BlockFit& fit, const MatrixXd& column
   VectorXd weight = VectorXd::Ones(residual.size());
   if (weighted) weight = fit.weight(rows);
   BlockSums s;
-  s.normal = jacobian.transpose() * weight.asDiagonal() * jacobian;
-  s.gradient = jacobian.transpose() * weight.cwiseProduct(residual);
-  s.cross = jacobian.transpose() * weight.asDiagonal() * z;
-  s.own = z.array().square().matrix().transpose() * weight;
-  s.slope = z.transpose() * weight.cwiseProduct(residual);
+  s.normal = inner_products(weight.asDiagonal() * jacobian, jacobian);
+  s.gradient = inner_products_with(jacobian, weight.cwiseProduct(residual));
+  s.cross = inner_products(weight.asDiagonal() * jacobian, z);
+  s.own = inner_products_with(z.cwiseAbs2(), weight);
+  s.slope = inner_products_with(z, weight.cwiseProduct(residual));
   s.squared_residual = residual.squaredNorm();
   return s;
 }
@@ -279,10 +277,9 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
   slopes = slopes * norms.cwiseInverse().asDiagonal();
   const VectorXd size = slopes.col(0);
   if (!columns.empty()) {
-    const MatrixXd others = fit.jacobian(Eigen::all, columns);
-    slopes -= others * least_squares(others, slopes);
+    slopes = left_by(fit.jacobian(Eigen::all, columns), slopes);
   }
-  const MatrixXd gram = slopes.transpose() * slopes;
+  const MatrixXd gram = gram_matrix(slopes);
   const double least = least_eigenvalue(gram).value;
   if (std::sqrt(std::max(least, 0.0)) >= aliased_below) return std::nullopt;
 
@@ -388,8 +385,7 @@ void add_place_error(const Record& record, const BlockFit& without, const BlockF
   }
   VectorXd slope = fit.jacobian.col(column);
   if (!others.empty()) {
-    const MatrixXd beside = fit.jacobian(Eigen::all, others);
-    slope -= beside * least_squares(beside, slope);
+    slope = left_by(fit.jacobian(Eigen::all, others), slope);
   }
   const double cost = jackknife_covariance(fit, {column})(0, 0) * slope.squaredNorm();
 

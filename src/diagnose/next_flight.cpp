@@ -103,7 +103,7 @@ class Beside {
     solution_ =
         solve_symmetric(gram.topLeftCorner(fitted, fitted), gram.topRightCorner(fitted, rest));
     left_ = gram.bottomRightCorner(rest, rest) -
-            gram.topRightCorner(fitted, rest).transpose() * solution_;
+            inner_products(gram.topRightCorner(fitted, rest), solution_);
   }
   [[nodiscard]] double own(Index column) const { return left_(column - fitted_, column - fitted_); }
   [[nodiscard]] double own_beside(Index column, Index first, Index count) const {
@@ -122,7 +122,7 @@ class Beside {
   [[nodiscard]] VectorXd parts_of(Index column, Index first, Index count) const {
     const VectorXd cross = left_.block(first - fitted_, column - fitted_, count, 1);
     const MatrixXd square = left_.block(first - fitted_, first - fitted_, count, count);
-    return symmetric_pseudo_inverse(square) * cross;
+    return pseudo_solution(square, cross);
   }
   /// The column less what fits of it where these are fitted, too.
   [[nodiscard]] VectorXd combination_beside(Index column, Index first, Index count) const {
@@ -639,7 +639,7 @@ class Planning {
     columns.push_back(change_by(joint, rows, target, values));
     // As large as they would be in its place: a wind of some m/s is not what a breath of it is.
     const MatrixXd start = side_by_side(columns);
-    const Beside beside(start.transpose() * start + small(start.cols(), weight), q.nuisances);
+    const Beside beside(gram_matrix(start) + small(start.cols(), weight), q.nuisances);
     Index first = q.nuisances;
     next = q.nuisances;
     for (std::size_t r = 0; r < rivals.size(); ++r) {
@@ -663,10 +663,10 @@ class Planning {
       q.sizes += p.is_free() && !p.shape_only ? 1 : 0;
     }
     std::size_t block = 0;
-    const auto next_gram = [&]() -> MatrixXd {
+    const auto next_gram = [&] {
       const auto part = all.middleRows(rows.block_begin(block), rows.block_size(block));
       ++block;
-      return part.transpose() * part;
+      return gram_matrix(part);
     };
     while (block < record_.blocks()) q.grams.logged.push_back(next_gram());
     for (const std::size_t count : pieces) {

@@ -110,9 +110,8 @@ std::vector<double> without_shapes(const MatrixXd& shapes, const std::vector<dou
     if (!usable[static_cast<std::size_t>(i)]) used.row(i).setZero();
   }
   // Heights or airspeeds that never change make columns equal: the decomposition must bear that.
-  const MatrixXd normal = used.transpose() * used;
   const VectorXd rest =
-      target - used * (symmetric_pseudo_inverse(normal) * (used.transpose() * target));
+      target - used * pseudo_solution(gram_matrix(used), inner_products_with(used, target));
   return {rest.begin(), rest.end()};
 }
 

@@ -170,7 +170,7 @@ class Search {
     for (Index k = 0; k < count; ++k) spread.row(k) = without_block[static_cast<std::size_t>(k)];
     const VectorXd offset = VectorXd::Map(distance.data(), count);
     const MatrixXd covariance = jackknife_covariance(std::move(spread));
-    const double t2 = offset.dot(symmetric_pseudo_inverse(covariance) * offset);
+    const double t2 = offset.dot(pseudo_solution(covariance, offset));
     const auto numerator = static_cast<double>(count);
     const double denominator = degrees + 1 - numerator;
     if (denominator < 1) return 1;  // so few blocks cannot tell so many sizes from chance

@@ -48,9 +48,10 @@ ModelFit model_fit(const Record& record, const BlockFit& fit) {
   MatrixXd covariance;
   VectorXd systematic = VectorXd::Zero(jacobian.cols());
   if (slopes.cols() > 0) {
-    covariance = symmetric_pseudo_inverse(jacobian.transpose() * jacobian);
+    covariance = symmetric_pseudo_inverse(gram_matrix(jacobian));
     for (const std::vector<double>& error : record.problem().systematic) {
-      const VectorXd followed = covariance * (jacobian.transpose() * record.scaled_column(error));
+      const VectorXd followed =
+          covariance * inner_products_with(jacobian, record.scaled_column(error));
       systematic += followed.cwiseAbs2();
     }
   }
@@ -84,9 +85,9 @@ class LinearisedGains {
       slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
       slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
     }
-    if (free.cols() > 0) slopes -= free * least_squares(free, slopes);
-    gram_ = slopes.transpose() * slopes;
-    along_ = slopes.transpose() * weight.cwiseProduct(fit.residual);
+    if (free.cols() > 0) slopes = left_by(free, slopes);
+    gram_ = gram_matrix(slopes);
+    along_ = inner_products_with(slopes, weight.cwiseProduct(fit.residual));
   }
 
   /// Of these candidates together.
@@ -96,7 +97,7 @@ class LinearisedGains {
       columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
     }
     const VectorXd along = along_(columns);
-    return along.dot(symmetric_pseudo_inverse(gram_(columns, columns)) * along);
+    return along.dot(pseudo_solution(gram_(columns, columns), along));
   }
 
  private:

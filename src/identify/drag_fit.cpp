@@ -334,7 +334,7 @@ Point point_at(const std::vector<Samples>& flights, double k, const VectorXd& y,
   Point p{y, unstraightened(y, places), {}, {}};
   p.in_x = normal_equations(flights, k, p.x, places);
   const MatrixXd t = straightening_jacobian(y, places);
-  p.in_y = {t.transpose() * p.in_x.h * t, t.transpose() * p.in_x.g, p.in_x.sse};
+  p.in_y = {product(inner_products(t, p.in_x.h), t), inner_products_with(t, p.in_x.g), p.in_x.sse};
   return p;
 }
 
@@ -694,7 +694,8 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
     MatrixXd middle = MatrixXd::Zero(size, size);
     const auto columns = static_cast<Index>(own.size());
     middle(own, own) = Eigen::Map<const MatrixXd>(omega.data(), columns, columns) * length;
-    fit.covariance_by_flight.push_back(flatten(inverse * middle * inverse * correction));
+    fit.covariance_by_flight.push_back(
+        flatten(product(product(inverse, middle), inverse) * correction));
     fit.degrees_of_freedom_by_flight.push_back(static_cast<double>(terms));
 
     for (const std::vector<double>* residuals : {&scores.residuals, &scores.right_residuals}) {

@@ -7,8 +7,22 @@
 
 namespace tethercalc {
 
+MatrixXd product(const MatrixView& a, const MatrixView& b) { return a * b; }
+
+MatrixXd inner_products(const MatrixView& a, const MatrixView& b) { return a.transpose() * b; }
+
+VectorXd inner_products_with(const MatrixView& a, const VectorView& vector) {
+  return a.transpose() * vector;
+}
+
+MatrixXd gram_matrix(const MatrixView& a) { return inner_products(a, a); }
+
 MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
   return a.colPivHouseholderQr().solve(b);
+}
+
+MatrixXd left_by(const MatrixXd& a, const MatrixXd& b) {
+  return b - product(a, least_squares(a, b));
 }
 
 MatrixXd solve_symmetric(const MatrixXd& matrix, const MatrixXd& b) {
@@ -27,7 +41,11 @@ MatrixXd symmetric_pseudo_inverse(const MatrixXd& matrix) {
   const double least = values.cwiseAbs().maxCoeff() * static_cast<double>(matrix.rows()) *
                        std::numeric_limits<double>::epsilon();
   const VectorXd inverse = (values.array() > least).select(values.array().inverse(), 0);
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  return product(eigen.eigenvectors() * inverse.asDiagonal(), eigen.eigenvectors().transpose());
+}
+
+VectorXd pseudo_solution(const MatrixXd& matrix, const VectorXd& b) {
+  return symmetric_pseudo_inverse(matrix) * b;
 }
 
 }  // namespace tethercalc

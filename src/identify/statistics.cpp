@@ -111,10 +111,10 @@ std::vector<double> long_run_covariance(std::span<const double> rows, std::size_
       const Index two_before = (i + block - 2) % block;
       cosines.col(i) = twice_cosine * cosines.col(one_before) - cosines.col(two_before);
     }
-    coefficients.noalias() += cosines.leftCols(length).matrix() * z.middleRows(t, length);
+    coefficients += product(cosines.leftCols(length).matrix(), z.middleRows(t, length));
   }
-  const MatrixXd covariance = coefficients.transpose() * coefficients *
-                              (2 / static_cast<double>(height) / static_cast<double>(terms));
+  const MatrixXd covariance =
+      gram_matrix(coefficients) * (2 / static_cast<double>(height) / static_cast<double>(terms));
   return {covariance.data(), covariance.data() + covariance.size()};
 }
 

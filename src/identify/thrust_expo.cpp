@@ -55,7 +55,7 @@ MatrixXd powers_of(const VectorXd& place, int degree) {
 }
 
 double squares_left(const MatrixXd& powers, const VectorXd& thrust) {
-  return (thrust - powers * least_squares(powers, thrust)).squaredNorm();
+  return left_by(powers, thrust).squaredNorm();
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ ThrustExpo fit_thrust_expo(std::span<const ThrottledThrust> rows, const SpinRang
   expo.value = b[2] / rise;
   expo.degrees_of_freedom = count - 3;
   const Eigen::Vector3d gradient(0, -b[2] / (rise * rise), b[1] / (rise * rise));
-  const VectorXd solved = solve_symmetric(powers.transpose() * powers, gradient);
+  const VectorXd solved = solve_symmetric(gram_matrix(powers), gradient);
   expo.standard_error_independent =
       std::sqrt(squares / expo.degrees_of_freedom * gradient.dot(solved));
   expo.standard_error = expo.standard_error_independent;

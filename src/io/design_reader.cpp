@@ -183,7 +183,7 @@ class SpecReader {
       if (places[i].given()) {
         read_field(places[i], fields[i]);
       } else if (!fields[i].required()) {
-        const Json default_value = Json::parse(fields[i].default_json);
+        const Json default_value = json_of(fields[i].default_json);
         read_field({&document_, &default_value, places[i].pointer}, fields[i]);
       }
     }

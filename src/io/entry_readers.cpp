@@ -12,6 +12,7 @@
 
 #include "io/closest_name.hpp"
 #include "io/embedded_files.hpp"
+#include "io/json_document.hpp"
 #include "io/motor_points.hpp"
 #include "tethercalc/io/motor_bench.hpp"
 #include "tethercalc/model/motor_curve.hpp"
@@ -338,8 +339,7 @@ InsulationEntry find_insulation(const std::string& reference, const TextLoader& 
 }
 
 std::vector<WireSize> wire_sizes() {
-  const nlohmann::ordered_json tables =
-      nlohmann::ordered_json::parse(embedded_file("wire_sizes.json"));
+  const nlohmann::ordered_json tables = json_of(embedded_file("wire_sizes.json"));
   std::vector<WireSize> sizes;
   const nlohmann::ordered_json& awg = tables.at("awg");
   for (int gauge = awg.at("from"); gauge <= awg.at("to").get<int>(); ++gauge) {

@@ -347,6 +347,12 @@ JsonDocument parse_json(std::string_view text, std::string name, Quoting quoting
   return document;
 }
 
+Json json_of(std::string_view text) { return parse_json(text, "").root; }
+
+std::string json_text(const Json& json) { return json.dump(2) + "\n"; }
+
+std::string json_line(const Json& json) { return json.dump(); }
+
 std::string child_pointer(std::string_view pointer, std::string_view key) {
   return (Json::json_pointer(std::string(pointer)) / std::string(key)).to_string();
 }
@@ -377,7 +383,7 @@ std::string file_stem(std::string_view name) {
 
 std::string as_utf8(const std::string& text) {
   const Json value(text);
-  return Json::parse(value.dump(-1, ' ', true, Json::error_handler_t::replace)).get<std::string>();
+  return json_of(value.dump(-1, ' ', true, Json::error_handler_t::replace)).get<std::string>();
 }
 
 std::string type_name(const nlohmann::ordered_json& value) {

@@ -1,4 +1,5 @@
-// JSON that knows the line of each of its values, so that a message can name it.
+// JSON that knows the line of each of its values, so that a message can name it. JSON is read and
+// written here alone: the library's parser and printer take long to compile.
 #pragma once
 
 #include <cstddef>
@@ -34,6 +35,15 @@ enum class Quoting { line, nothing };
 /// comments, trailing text, NUL, invalid UTF-8, UTF-16, a number beyond double) or is nested deeper
 /// than 32 levels.
 JsonDocument parse_json(std::string_view text, std::string name, Quoting quoting = Quoting::line);
+
+/// The value of a text that is known to be JSON.
+nlohmann::ordered_json json_of(std::string_view text);
+
+/// JSON as answers and files show it, a line a value.
+std::string json_text(const nlohmann::ordered_json& json);
+
+/// The same on one line.
+std::string json_line(const nlohmann::ordered_json& json);
 
 /// `pointer` with one more key, escaped as RFC 6901 asks.
 std::string child_pointer(std::string_view pointer, std::string_view key);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "io/json_document.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/model/units.hpp"
@@ -169,7 +170,7 @@ std::string plan_text(const std::vector<Item>& items, const NextFlight& flight, 
         {"version", 2}}},
       {"rallyPoints", {{"points", Json::array()}, {"version", 2}}},
       {"version", 1}};
-  return plan.dump(2) + "\n";
+  return json_text(plan);
 }
 
 /// Fields of a message with a place.

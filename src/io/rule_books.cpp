@@ -10,6 +10,7 @@
 
 #include "io/closest_name.hpp"
 #include "io/embedded_files.hpp"
+#include "io/json_document.hpp"
 #include "tethercalc/io/input_error.hpp"
 
 namespace tethercalc {
@@ -59,8 +60,8 @@ RuleClause clause_of(const nlohmann::ordered_json& json, const nlohmann::ordered
 }
 
 RuleBook book_of(const std::string& id) {
-  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(
-      embedded_file(std::string(rules_folder) + id + std::string(rules_suffix)));
+  const nlohmann::ordered_json json =
+      json_of(embedded_file(std::string(rules_folder) + id + std::string(rules_suffix)));
   RuleBook book{id,
                 json.at("title").get<std::string>(),
                 json.at("scope").get<std::string>(),

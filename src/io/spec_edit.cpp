@@ -79,8 +79,7 @@ class JsonText {
       const auto [begin, end] = all[i].key;
       const bool same = begin == end
                             ? key == std::to_string(i)
-                            : nlohmann::ordered_json::parse(text_.substr(begin, end - begin))
-                                      .get<std::string>() == key;
+                            : json_of(text_.substr(begin, end - begin)).get<std::string>() == key;
       if (same) found = all[i];
     }
     return found;
@@ -120,9 +119,9 @@ std::string with_new_member(std::string_view text, Extent holder, std::span<cons
   const std::vector<Member> members = json.members(holder);
   std::string written;
   for (const std::string& key : keys) {
-    written += nlohmann::ordered_json(key).dump() + ": " + (&key == &keys.back() ? "" : "{ ");
+    written += json_line(key) + ": " + (&key == &keys.back() ? "" : "{ ");
   }
-  written += value.dump();
+  written += json_line(value);
   for (std::size_t i = 1; i < keys.size(); ++i) written += " }";
   const std::string gap = gap_of(json, holder, members);
   std::string out(text);
@@ -182,7 +181,7 @@ std::string spec_with_value(std::string_view text, const std::string& file, cons
     }
     if (member && i + 1 == keys.size() && !value.is_null()) {
       return std::string(text).replace(member->value.begin, member->value.end - member->value.begin,
-                                       value.dump());
+                                       json_line(value));
     }
     if (value.is_null() && (!member || i + 1 < keys.size())) return std::string(text);
     if (opening != '{') {

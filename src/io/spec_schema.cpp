@@ -78,7 +78,7 @@ Json schema_of_field(const SpecField& field) {
   std::string description(field.help);
   if (!field.unit.empty()) description += " Unit: " + std::string(field.unit) + ".";
   schema["description"] = description;
-  if (!field.required()) schema["default"] = Json::parse(field.default_json);
+  if (!field.required()) schema["default"] = json_of(field.default_json);
   return schema;
 }
 

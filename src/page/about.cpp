@@ -57,8 +57,7 @@ ordered_json field_json(const SpecField& field, const ordered_json& starting) {
           {"open ends", {field.range.min_excluded, field.range.max_excluded}},
           {"required", field.required() && !may_be_left_out(field)},
           {"optional", field.kind == FieldKind::optional_number},
-          {"default",
-           field.required() ? ordered_json(nullptr) : ordered_json::parse(field.default_json)},
+          {"default", field.required() ? ordered_json(nullptr) : json_of(field.default_json)},
           {"choices", json_list(field.kind == FieldKind::boolean ? std::span<const std::string>()
                                                                  : field_words(field.kind),
                                 [](const std::string& word) { return word; })},
@@ -100,7 +99,7 @@ ordered_json materials_json(const std::string& what, const std::vector<Entry>& e
 ordered_json examples_json() {
   return json_list(example_specs(), [](const EmbeddedFile& file) {
     return ordered_json{{"name", file_stem(file.name)},
-                        {"title", ordered_json::parse(file.content).value("name", "")},
+                        {"title", json_of(file.content).value("name", "")},
                         {"spec", file.content}};
   });
 }
@@ -112,7 +111,7 @@ std::span<const std::string> strength_materials() {
 }  // namespace
 
 ordered_json about(const Request&) {
-  const ordered_json starting = ordered_json::parse(starting_spec());
+  const ordered_json starting = json_of(starting_spec());
   return {
       {"version", TETHERCALC_VERSION},
       {"fields", json_list(spec_fields(),

@@ -67,7 +67,7 @@ ordered_json answered(std::string_view text, const NamedFiles& files) {
 }
 
 /// Names of files and quoted cells may hold any bytes.
-std::string json_of(const ordered_json& value) {
+std::string answer_text(const ordered_json& value) {
   return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
@@ -76,13 +76,13 @@ std::string json_of(const ordered_json& value) {
 std::string answer_call(std::string_view request, const NamedFiles& files) noexcept {
   try {
     try {
-      return json_of(answered(request, files));
+      return answer_text(answered(request, files));
     } catch (const InputError& error) {
-      return json_of(problems_json(error.problems()));
+      return answer_text(problems_json(error.problems()));
     } catch (const std::bad_alloc&) {
-      return json_of(problems_json({{"memory", "does not suffice for this"}}));
+      return answer_text(problems_json({{"memory", "does not suffice for this"}}));
     } catch (const std::exception& error) {
-      return json_of(problems_json({{"internal error", error.what()}}));
+      return answer_text(problems_json({{"internal error", error.what()}}));
     }
   } catch (...) {
     // Not even room for words.

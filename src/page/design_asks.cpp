@@ -6,6 +6,7 @@
 
 #include "io/closest_name.hpp"
 #include "io/design_options.hpp"
+#include "io/json_document.hpp"
 #include "io/spec_edit.hpp"
 #include "page/asks.hpp"
 #include "page/page_json.hpp"
@@ -228,7 +229,7 @@ ordered_json report(const Request& request) {
 }
 
 ordered_json spec(const Request& request) {
-  return {{"spec", request.design().document.dump(2) + "\n"}};
+  return {{"spec", json_text(request.design().document)}};
 }
 
 ordered_json set(const Request& request) {

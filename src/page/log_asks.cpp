@@ -3,6 +3,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "io/json_document.hpp"
 #include "io/log_questions.hpp"
 #include "page/asks.hpp"
 #include "page/page_json.hpp"
@@ -95,7 +96,7 @@ ordered_json drag(const Request& request) {
                    {"figures", std::move(figures)},
                    {"command", drag_command(names, flight)}};
   add_notes(out, notes);
-  if (design) out["spec"] = spec_with_drag(*design, study.identified.fit).dump(2) + "\n";
+  if (design) out["spec"] = json_text(spec_with_drag(*design, study.identified.fit));
   return out;
 }
 
@@ -129,7 +130,7 @@ ordered_json diagnose(const Request& request) {
   return {{"text", told_text(told, {})},
           {"result", told_json(told)},
           {"figures", std::move(figures)},
-          {"spec", told.spec.dump(2) + "\n"}};
+          {"spec", json_text(told.spec)}};
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ std::vector<std::string> Request::list(const std::string& name) const {
   std::vector<std::string> texts;
   for (const ordered_json& value : found->is_array() ? *found : ordered_json{*found}) {
     if (!value.is_string() && !value.is_number()) fail(name, "a list of texts", value);
-    texts.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+    texts.push_back(value.is_string() ? value.get<std::string>() : json_line(value));
   }
   return texts;
 }

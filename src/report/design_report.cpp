@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "io/json_document.hpp"
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/io/spec_writer.hpp"
@@ -219,7 +220,7 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
     out += table.text(style);
   }
   if (answer.feasible) {
-    out += "\n" + style.bold("The spec") + "\n" + ready_spec(file, study).dump(2) + "\n";
+    out += "\n" + style.bold("The spec") + "\n" + json_text(ready_spec(file, study));
   }
   return out;
 }

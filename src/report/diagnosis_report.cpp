@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/json_document.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 
@@ -270,7 +271,7 @@ class Story {
     const ordered_json effect = unnamed_effect(u, d_.kind);
     if (effect.is_null()) return;
     paragraph("As a file for --effects, to be given a name and tried again:");
-    out_.emplace_back(StoryLines{effect.dump(2) + "\n"});
+    out_.emplace_back(StoryLines{json_text(effect)});
   }
 
   void design() {

@@ -120,7 +120,7 @@ std::vector<RecordedResult> unrecorded(const std::vector<NamedResult>& results) 
 /// Number, text or null as people read it.
 std::string value_words(const ResultValue& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return *word;
-  return value.index() == 0 ? "none" : result_json(value).dump();
+  return value.index() == 0 ? "none" : json_line(result_json(value));
 }
 
 std::string drift_words(const RecordedResult& result) {
@@ -196,7 +196,7 @@ ReferenceCheck check_reference(std::string spec, const DesignFile& file,
 }
 
 std::string updated_record(const ReferenceCheck& check, const std::optional<LoadedText>& old) {
-  ordered_json record = old ? ordered_json::parse(old->text) : ordered_json::object();
+  ordered_json record = old ? json_of(old->text) : ordered_json::object();
   for (const RecordedResult& result : check.results) {
     if (!result.drifted) continue;
     ordered_json& entry = record[result.name];
@@ -204,7 +204,7 @@ std::string updated_record(const ReferenceCheck& check, const std::optional<Load
     const bool number = std::holds_alternative<double>(result.computed);
     if (number && !has_tolerance(entry)) entry[tolerances[0]] = default_relative_tolerance;
   }
-  return record.dump(2) + "\n";
+  return json_text(record);
 }
 
 std::string check_text(std::span<const ReferenceCheck> checks, bool updated,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/embedded_files.hpp"
+#include "io/json_document.hpp"
 #include "report/characters.hpp"
 #include "report/figure_svg.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -277,7 +278,9 @@ TitledTable defaults_table(const DesignFile& file) {
 }
 
 Section spec_section(const DesignFile& file) {
-  std::string body = html::listing(visible_json(file.document.dump(2)), "The spec as JSON");
+  std::string spec = json_text(file.document);
+  spec.pop_back();  // the end of the last line
+  std::string body = html::listing(visible_json(spec), "The spec as JSON");
   body += html::table(library_table(file), "table-library");
   const TitledTable defaults = defaults_table(file);
   if (!defaults.table.rows().empty()) body += html::table(defaults, "table-defaults");

@@ -92,7 +92,7 @@ std::string csv_line(const ordered_json& values) {
   for (const ordered_json& value : values) {
     out += value.is_string()    ? csv_text(value.get_ref<const std::string&>())
            : value.is_number()  ? csv_number(value.get<double>())
-           : value.is_boolean() ? value.dump()
+           : value.is_boolean() ? value.get<bool>() ? "true" : "false"
                                 : "";
     out += ',';
   }

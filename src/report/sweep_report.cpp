@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "io/json_document.hpp"
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/report/design_report.hpp"
@@ -36,7 +37,7 @@ class RowText {
   /// Empty text stands for none.
   void words(std::string_view value) {
     text_ += *opening_++;
-    text_ += csv_ ? csv_text(value) : value.empty() ? "null" : nlohmann::ordered_json(value).dump();
+    text_ += csv_ ? csv_text(value) : value.empty() ? "null" : json_line(value);
   }
 
   /// Both points, with the numbers that they share printed once and copied: printing is what costs
