@@ -147,7 +147,7 @@ class SimilarCables;
 /// The load of a tether that hangs as weight and wind have it (`CableSolver`), as a smooth function
 /// of its conductor's radius. Where length, place and profile of the wind are known, and the cable
 /// does not stretch nor its drag depend on the Reynolds number, drag over weight decides how it
-/// hangs, and `SimilarCables` have the load to 1e-9 of the greatest tension.
+/// hangs, and `SimilarCables` have the load to about 1e-9 of the greatest tension.
 /// Else the cable is solved at radii a quarter of an octave apart, when one between them is asked
 /// for, and forces over the cable's own load, hypot(weight, drag)·height + winch tension, are cubic
 /// in ln r between those, with their slopes: mostly within 1e-5 of the solver.
