@@ -111,7 +111,7 @@ double error_of_load(const HangingSituation& s, double radius) {
 
 }  // namespace
 
-TEST_CASE("where drag over weight decides how a cable hangs, its load is exact") {
+TEST_CASE("where drag over weight decides how a cable hangs, its load is the solver's to 3e-7") {
   each_random(test::draws(150), [](Random& random) {
     const HangingSituation s = drawn_plain_situation(random);
     const double radius = random.magnitude(1e-4, 2e-3);
@@ -119,11 +119,12 @@ TEST_CASE("where drag over weight decides how a cable hangs, its load is exact")
     // Next to no wind leaves a fold above the station, which is taken as that in still air.
     const double slack = s.offset == 0 ? *s.paid_out.length / s.height - 1 : 0;
     const bool folds = drag_across(cable, s.air, s.air.wind.x) < 0.02 * slack * cable.weight;
-    CHECK(error_of_load(s, radius) < (folds ? 3e-3 : 3e-8));
+    CHECK(error_of_load(s, radius) < (folds ? 3e-3 : 3e-7));
   });
 }
 
-TEST_CASE("the load is exact, too, where wind and weight all but balance and the slack folds") {
+TEST_CASE(
+    "the load is the solver's, too, where wind and weight all but balance and the slack folds") {
   each_random(test::draws(60), [](Random& random) {
     HangingSituation s = drawn_plain_situation(random);
     if (s.offset == 0) s.offset = s.height * random.magnitude(0.05, 1);
@@ -133,7 +134,7 @@ TEST_CASE("the load is exact, too, where wind and weight all but balance and the
     const double beside = random.magnitude(1e-6, 0.1) * (random.chance(0.5) ? 1 : -1);
     s.air.wind.x = -folding_wind(s, radius) * (1 + beside);
     INFO("beside " << beside);
-    CHECK(error_of_load(s, radius) < 3e-8);
+    CHECK(error_of_load(s, radius) < 3e-7);
   });
 }
 
