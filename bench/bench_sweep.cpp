@@ -38,14 +38,37 @@ Prepared drawn(SampleMethod method) {
   return {std::move(base), std::move(space)};
 }
 
-void sweep(benchmark::State& state, const Prepared& prepared, RowFormat format, bool written) {
+/// Cables as they hang, `design` as the starting spec has it but for what `change` does.
+template <typename Change>
+Prepared varied_with(const char* axis, const Change& change) {
+  DesignFile base = parse_design(starting_spec(), "starting spec");
+  change(base.design);
+  const std::vector<std::string> varied{axis};
+  SweepSpace space(read_axes(varied, base, AxisUse::enumerated));
+  return {std::move(base), std::move(space)};
+}
+
+void hangs_with_slack(Design& design) {
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.03;
+}
+
+void hangs_from_winch(Design& design) {
+  design.tether.model = TetherModel::solved;
+  design.tether.winch_pull = 4;
+}
+
+void hangs_straight(Design&) {}
+
+void sweep(benchmark::State& state, const Prepared& prepared, RowFormat format, bool written,
+           std::uint64_t rows_wanted = designs) {
   const SweepRows rows(prepared.space.axes(), format);
   const RowWriter write = [&](std::string& text, const SweepRow& row) { rows.append(text, row); };
   SweepJob job{&prepared.space,
                &prepared.base.design,
                write,
-               {0, designs},
-               written ? 0 : designs,
+               {0, rows_wanted},
+               written ? 0 : rows_wanted,
                several_threads(static_cast<unsigned>(state.range(0)))};
   std::size_t bytes = 0;
   for (auto _ : state) {
@@ -54,7 +77,7 @@ void sweep(benchmark::State& state, const Prepared& prepared, RowFormat format, 
       return true;
     });
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(designs));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rows_wanted));
   state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
 }
 
@@ -85,5 +108,36 @@ void latin_hypercube_draws(benchmark::State& state) {
   sweep(state, drawn(SampleMethod::latin_hypercube), RowFormat::csv, false);
 }
 BENCHMARK(latin_hypercube_draws)->Arg(2)->Apply(both_times);
+
+/// The same rows of straight tethers, of cables with slack and of such on a winch, on one thread.
+void straight_tether_over(benchmark::State& state, const char* axis, std::uint64_t rows) {
+  sweep(state, varied_with(axis, hangs_straight), RowFormat::csv, false, rows);
+}
+void slack_tether_over(benchmark::State& state, const char* axis, std::uint64_t rows) {
+  sweep(state, varied_with(axis, hangs_with_slack), RowFormat::csv, false, rows);
+}
+void winched_tether_over(benchmark::State& state, const char* axis, std::uint64_t rows) {
+  sweep(state, varied_with(axis, hangs_from_winch), RowFormat::csv, false, rows);
+}
+
+/// Rates by processor time, which other work on the machine does not change.
+void processor_time(benchmark::internal::Benchmark* timed) {
+  timed->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
+}
+
+constexpr const char* masses = "drone.mass_g=1400:1800:0.02";
+constexpr const char* voltages = "supply.voltage_V=75:130:0.0025";
+constexpr const char* lengths = "tether.length_m=10:35:0.00125";
+constexpr const char* headwinds = "flight.headwind_m_s=0:6:0.0003";
+BENCHMARK_CAPTURE(straight_tether_over, mass, masses, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(straight_tether_over, voltage, voltages, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(straight_tether_over, length, lengths, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(straight_tether_over, headwind, headwinds, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(slack_tether_over, mass, masses, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(slack_tether_over, voltage, voltages, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(slack_tether_over, length, lengths, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(slack_tether_over, headwind, headwinds, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(winched_tether_over, mass, masses, 5000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(winched_tether_over, headwind, headwinds, 20)->Arg(1)->Apply(processor_time);
 
 }  // namespace

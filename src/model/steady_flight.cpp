@@ -129,6 +129,9 @@ double SteadyFlight::searched_radius(double limit) const {
   }
   if (light < 0 || 2 * light > thickest) return light;
   if (heavy > thickest) heavy = 2 * light;
+  if (!has_battery_ && weight(heavy) < std::numeric_limits<double>::infinity()) {
+    return radius_of_smooth_weight(limit, light, heavy);
+  }
   // By ratios, then down to the last digit.
   while (heavy > light * (1 + 1e-3)) {
     const double middle = std::sqrt(light * heavy);
@@ -137,6 +140,27 @@ double SteadyFlight::searched_radius(double limit) const {
   for (double middle = 0.5 * (light + heavy); middle > light && middle < heavy;
        middle = 0.5 * (light + heavy)) {
     (weight(middle) > limit ? heavy : light) = middle;
+  }
+  return light;
+}
+
+double SteadyFlight::radius_of_smooth_weight(double limit, double light, double heavy) const {
+  // Newton's method in a bracket, which is halved where it leads out.
+  double radius = light;
+  for (int step = 1; step < 200; ++step) {
+    const Weight here = weighed(radius);
+    (here.value > limit ? heavy : light) = radius;
+    const double newton = radius + (limit - here.value) / here.slope;
+    const bool inside = newton > light && newton < heavy && step % 8 != 0;
+    const double next = inside ? newton : 0.5 * (light + heavy);
+    if (!(light < next && next < heavy)) break;
+    if (inside && std::abs(next - radius) <= 1e-8 * radius) {
+      // Exact but for rounding.
+      for (double share = 0; share<1e-12; share = share> 0 ? 4 * share : 1e-16) {
+        if (weight(next * (1 - share)) <= limit) return next * (1 - share);
+      }
+    }
+    radius = next;
   }
   return light;
 }

@@ -2,8 +2,12 @@
 
 #include "tethercalc/model/tether_load.hpp"
 
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <numbers>
+
+#include "model/similar_cables.hpp"
 
 namespace tethercalc {
 namespace {
@@ -79,10 +83,10 @@ constexpr double stride = 0.25 * std::numbers::ln2;
 /// sharply, by a part of it.
 constexpr long places_per_stride = 1024;
 constexpr long closest_places = 16;
-const double log_thinnest = std::log(1e-5);  // of m, 0.0003 mm²
-constexpr double log_thickest = 0;           // of m
-/// Of ln r: half of the solver's digits for the slope, and no more error than its square.
-constexpr double slope_step = 1e-4;
+constexpr double thinnest_solved = 1e-5;  // m, 0.0003 mm²
+constexpr double thickest_solved = 1;     // m
+const double log_thinnest = std::log(thinnest_solved);
+constexpr double log_thickest = 0;
 
 double log_radius_at(long place) {
   return stride * static_cast<double>(place) / static_cast<double>(places_per_stride);
@@ -97,65 +101,17 @@ std::optional<double> HangingSituation::cylinder_diameter(double radius) const {
   return std::max(insulated_width(radius, wall), thinnest);
 }
 
-HangingLoad::Scale HangingLoad::own_load(double radius) const {
-  const auto& [w0, w1, w2] = situation_.weight;
-  const double weight = w0 + radius * (w1 + radius * w2);
-  const double speed = std::abs(situation_.air.wind.x);
-  const double pressure =
-      0.5 * situation_.air.density * situation_.drag_coefficient * speed * speed;
-  const double drag = pressure * (situation_.width[0] + situation_.width[1] * radius);
-  const double both = std::hypot(weight, drag);
-  const double slope =
-      both > 0 ? (weight * (w1 + 2 * radius * w2) + drag * pressure * situation_.width[1]) / both
-               : 0;
-  return {situation_.height * both + situation_.paid_out.winch_tension.value_or(0),
-          situation_.height * slope};
-}
-
-CableOutcome HangingLoad::solve(CableSolver& solver, double radius, Values& values) const {
-  const auto& [w0, w1, w2] = situation_.weight;
-  const PaidOut& paid_out = situation_.paid_out;
-  const Cable cable{.weight = w0 + radius * (w1 + radius * w2),
-                    .diameter = situation_.width[0] + situation_.width[1] * radius,
-                    .drag_coefficient = situation_.drag_coefficient,
-                    .cylinder_diameter = situation_.cylinder_diameter(radius),
-                    .axial_stiffness = situation_.axial_stiffness};
-  const Vector3 drone{situation_.offset, 0, situation_.height};
-  // The wind swings a fold above its station aside by half of drag over weight. With a fiftieth of
-  // its slack it stays a fold, and no solution is needed; with three times its slack nearly so.
-  const double speed = situation_.air.wind.x;
-  const double drag = drag_across(cable, situation_.air, speed);
-  const double slack =
-      situation_.offset == 0 ? paid_out.length.value_or(0) / situation_.height - 1 : 0;
-  const auto swings_less_than = [&](double slacks) { return drag < slacks * slack * cable.weight; };
-  const bool folded = swings_less_than(0.02);
-  CableOutcome outcome = CableOutcome::not_found;
-  if (!folded) outcome = solver.solve(cable, situation_.air, paid_out, drone);
-  double drag_of_fold = 0;
-  if (folded || (outcome == CableOutcome::not_found && swings_less_than(3))) {
-    drag_of_fold = drag * situation_.height;
-    MovingAir still = situation_.air;
-    still.wind = {};
-    outcome = solver.solve(cable, still, paid_out, drone);
-  }
-  if (outcome != CableOutcome::hangs) return outcome;
-  const HangingCable hangs = solver.result();
-  if (hangs.length > situation_.cable_there_is) return CableOutcome::too_short;
-  const double load = own_load(radius).value;
-  values = {std::max(0.0, drag_of_fold - hangs.on_drone.x) / load, -hangs.on_drone.z / load,
-            hangs.tension_at_drone / load, hangs.tension_at_station / load, hangs.length};
-  return outcome;
-}
+HangingLoad::HangingLoad(const HangingSituation& situation)
+    : situation_(situation), similar_(SimilarCables::of(situation)) {}
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   // Each from nothing, so that an answer does not depend on what was asked before.
-  constexpr int most_steps = 4000;
-  CableSolver solver(most_steps);
+  CableSolver solver(most_steps_for_load);
   Node node;
-  node.outcome = solve(solver, std::exp(log_radius), node.value);
+  node.outcome = solve_shares(situation_, solver, std::exp(log_radius), node.value);
   if (node.outcome != CableOutcome::hangs) return node;
   Values beyond{};
-  node.outcome = solve(solver, std::exp(log_radius + slope_step), beyond);
+  node.outcome = solve_shares(situation_, solver, std::exp(log_radius + slope_step), beyond);
   for (std::size_t i = 0; i < part_count; ++i) {
     node.slope[i] = (beyond[i] - node.value[i]) / slope_step;
   }
@@ -218,17 +174,24 @@ std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
   return {{hangs, hi}};
 }
 
-const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
-  if (radius == last_radius_) return last_;
-  last_radius_ = radius;
+std::optional<HangingLoad::Shares> HangingLoad::of_similar_cables(double radius) const {
+  const double within = std::clamp(radius, thinnest_solved, thickest_solved);
+  const DragOverWeight ratio = drag_over_weight(situation_, within);
+  const auto at = similar_->at(ratio.value);
+  if (!at) return std::nullopt;
+  Shares shares{at->value, {}};
+  const bool moves = within == radius && ratio.value > 0;
+  for (std::size_t i = 0; moves && i < part_count; ++i) {
+    shares.slope[i] = at->slope[i] * ratio.slope / ratio.value;
+  }
+  return shares;
+}
+
+std::optional<HangingLoad::Shares> HangingLoad::between_nodes(double radius) const {
   const double x = std::clamp(std::log(radius), log_thinnest, log_thickest);
   // What asks for the point of no area at all gets a tether that does not hang.
   const auto places = std::isnan(x) ? std::nullopt : places_about(x);
-  if (!places) {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    last_ = {{none, none, none, none, none}, {}};
-    return last_;
-  }
+  if (!places) return std::nullopt;
   const auto [lo, hi] = *places;
   const Node& a = node(lo);
   const Node& b = node(hi);
@@ -243,25 +206,45 @@ const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
   const double sa_slope = (1 - t) * (1 - 3 * t);
   const double sb_slope = t * (3 * t - 2);
   const bool moves = !one_place && x > log_thinnest && x < log_thickest;
-  Values value{};
-  Values slope{};
-  const Scale load = own_load(radius);
+  Shares shares;
   for (std::size_t i = 0; i < part_count; ++i) {
     const double rise = b.value[i] - a.value[i];
-    const double share = a.value[i] + b1 * rise + sa * a.slope[i] + sb * b.slope[i];
-    const double change =
-        moves ? (b1_slope * rise + sa_slope * a.slope[i] + sb_slope * b.slope[i]) / radius : 0;
-    const bool is_length = i + 1 == part_count;
-    value[i] = is_length ? share : share * load.value;
-    slope[i] = is_length ? change : change * load.value + share * load.slope;
+    shares.value[i] = a.value[i] + b1 * rise + sa * a.slope[i] + sb * b.slope[i];
+    if (!moves) continue;
+    shares.slope[i] = (b1_slope * rise + sa_slope * a.slope[i] + sb_slope * b.slope[i]) / radius;
+  }
+  return shares;
+}
+
+const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
+  // Searches ask for the ends of a stretch of radii by turns. By Fibonacci hashing.
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
+  Known& known = known_[(std::bit_cast<std::uint64_t>(radius) * golden) >> 61];
+  if (radius != known.radius) known = {radius, computed_at(radius)};
+  return known.at;
+}
+
+HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
+  std::optional<Shares> shares;
+  if (similar_ && !std::isnan(radius)) shares = of_similar_cables(radius);
+  if (!shares) shares = between_nodes(radius);
+  if (!shares) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return {{none, none, none, none, none}, {}};
+  }
+  Values& value = shares->value;
+  Values& slope = shares->slope;
+  const OwnLoad load = own_load(situation_, radius);
+  for (std::size_t i = 0; i + 1 < part_count; ++i) {
+    slope[i] = slope[i] * load.value + value[i] * load.slope;
+    value[i] *= load.value;
   }
   if (situation_.paid_out.length) {
     value.back() = *situation_.paid_out.length;
     slope.back() = 0;
   }
-  last_ = {{value[0], value[1], value[2], value[3], value[4]},
-           {slope[0], slope[1], slope[2], slope[3], slope[4]}};
-  return last_;
+  return {{value[0], value[1], value[2], value[3], value[4]},
+          {slope[0], slope[1], slope[2], slope[3], slope[4]}};
 }
 
 // --- TetherInFlight ---
@@ -273,6 +256,8 @@ std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situatio
   // A flight log has thousands of states; a sweep over the wind solves up to fifty cables for each.
   constexpr std::size_t most_kept = 1 << 13;
   thread_local std::map<HangingSituation, std::shared_ptr<const HangingLoad>> known;
+  // Similar cables share their solutions beyond one situation.
+  if (normal_form(situation)) return std::make_shared<const HangingLoad>(situation);
   if (known.size() >= most_kept) known.clear();
   auto& load = known[situation];
   if (!load) load = std::make_shared<const HangingLoad>(situation);

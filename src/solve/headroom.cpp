@@ -307,6 +307,20 @@ double heaviest_radius(const FlightDemands& demands) {
   return flight.radius_of_weight(flight.design().drone.motor_count * demands.most_thrust());
 }
 
+/// Thinner solved tethers than this, of those up to `hi`, do not deliver what is demanded.
+double least_delivering(const FlightDemands& demands, double hi) {
+  const SteadyFlight& flight = demands.flight();
+  if (!flight.tether().is_solved() || !(hi > thinnest_radius)) return 0;
+  const ThrustAt first = thrust_at(flight, thinnest_radius, 0);
+  if (!(first.thrust.value < infinity)) return 0;
+  return demands.needed_radius(least_up_to(flight, first, hi));
+}
+
+/// The radii up to `hi` within the tilt limit, but for some that do not deliver what is demanded.
+IntervalSet radii_asked(const FlightDemands& demands, double hi) {
+  return radii_within_tilt(demands.flight(), hi, least_delivering(demands, hi));
+}
+
 /// The radii up to `hi` at which the tether is strong enough. Its tension grows with the square of
 /// the radius at most: metal gets the better the thicker it is, a strength member the worse.
 IntervalSet strong_radii(const SteadyFlight& flight, double hi) {
@@ -333,14 +347,14 @@ IntervalSet strong_radii(const SteadyFlight& flight, double hi) {
 
 IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
   const FlightDemands demands(flight, required, false);
-  return areas_meeting(demands, radii_within_tilt(flight, heaviest_radius(demands)));
+  return areas_meeting(demands, radii_asked(demands, heaviest_radius(demands)));
 }
 
 IntervalSet areas_meeting_demands(const SteadyFlight& flight, double required) {
   const FlightDemands demands(flight, required, true);
   const double heaviest = heaviest_radius(demands);
   return areas_meeting(
-      demands, intersection(radii_within_tilt(flight, heaviest), strong_radii(flight, heaviest)));
+      demands, intersection(radii_asked(demands, heaviest), strong_radii(flight, heaviest)));
 }
 
 namespace {
@@ -503,7 +517,10 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
   const double heaviest =
       flight.radius_of_weight(1e6 * design.drone.motor_count * flight.motor().max_thrust());
   BestHeadroomSearch search(flight);
-  for (const Interval& range : radii_within_tilt(flight, heaviest)) {
+  const double least_weight = flight.lifted_without_tether();
+  const double asked = flight.radius_of_available_power(
+      flight.drone_power(1e-6 * flight.necessary_thrust(least_weight, 0)));
+  for (const Interval& range : radii_within_tilt(flight, heaviest, asked)) {
     search.search(range.lo, range.hi);
   }
   return search.best();

@@ -496,6 +496,19 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
   return bare * std::sqrt(more_current * std::sqrt(share / root_growth));
 }
 
+/// N that the motors lift at least, whatever the conductor. A solved tether's load may fall with
+/// the radius, that of none does not.
+double least_weight(const SteadyFlight& flight, double lightest) {
+  return flight.tether().is_solved() ? flight.lifted_without_tether() : flight.weight(lightest);
+}
+
+/// The radius from which on the line delivers what the motors need to hover with `weight`.
+double delivering_radius(const SteadyFlight& flight, double weight) {
+  const double power = flight.drone_power(flight.necessary_thrust(weight, 0));
+  const double voltage = flight.design().supply.voltage;
+  return flight.tether().radius_of_resistance(voltage * voltage / (4 * power));
+}
+
 MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
@@ -506,14 +519,9 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   radii.hi =
       std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
   if (!(lightest <= radii.hi)) return none;
-  // A solved tether's load may fall with the radius, that of none does not.
-  const bool solved = flight.tether().is_solved();
-  const double weight = solved ? flight.lifted_without_tether() : flight.weight(lightest);
-  const double hover_power = flight.drone_power(flight.necessary_thrust(weight, 0));
-  if (!(hover_power < infinity)) return none;
-  const double voltage = design.supply.voltage;
-  radii.lo = std::max(lightest,
-                      flight.tether().radius_of_resistance(voltage * voltage / (4 * hover_power)));
+  const double weight = least_weight(flight, lightest);
+  if (!(flight.drone_power(flight.necessary_thrust(weight, 0)) < infinity)) return none;
+  radii.lo = std::max(lightest, delivering_radius(flight, weight));
   if (!(radii.lo <= radii.hi)) return none;
 
   const double thrust =
@@ -593,7 +601,9 @@ MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
       flight.radius_of_weight(flight.design().drone.motor_count * flight.motor().max_thrust());
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
   MinimumPower best{nan, nan};
-  for (const Interval& part : intersection({radii}, radii_within_tilt(flight, heaviest))) {
+  const double asked =
+      flight.tether().is_solved() ? delivering_radius(flight, flight.lifted_without_tether()) : 0;
+  for (const Interval& part : intersection({radii}, radii_within_tilt(flight, heaviest, asked))) {
     best = lesser(best, minimum_within_tilt(flight, part));
   }
   // Squaring the root of an end of the range may miss it by rounding.

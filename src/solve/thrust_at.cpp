@@ -85,7 +85,8 @@ void collect_within_tilt(const SteadyFlight& flight, double a, double b, Interva
 void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
                                 IntervalSet& radii) {
   constexpr double close = 1.05;
-  constexpr double next = 1.2;  // about as far apart as the cable is solved
+  // About as far apart as a cable is solved that some conductors hold up and others do not.
+  const double next = flight.tether().hangs_alike() ? infinity : 1.2;
   const auto hangs = [&](double r) { return flight.weight(r) < infinity; };
   const auto within = [&](double r) { return hangs(r) && within_tilt(flight, r, r); };
   if (!hangs(a) && !hangs(b) && b < next * a) return;
@@ -239,7 +240,7 @@ double least_resistance(const WarmTether& tether, const SteadyFlight& flight, do
   return of_shorter < 1 ? cold : infinity;
 }
 
-IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
+IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi, double least_asked) {
   if (!(hi > 0)) return {};
   if (!flight.tether().is_solved()) {
     const SteadyFlight::Radii beyond = flight.beyond_pitch_limit();
@@ -249,11 +250,10 @@ IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi) {
     }
   }
   IntervalSet radii;
-  constexpr double thinnest = 1e-8;  // 3e-10 mm²
-  if (hi > thinnest && flight.tether().is_solved()) {
-    collect_solved_within_tilt(flight, thinnest, hi, radii);
-  } else if (hi > thinnest) {
-    collect_within_tilt(flight, thinnest, hi, radii);
+  if (hi > thinnest_radius && flight.tether().is_solved()) {
+    collect_solved_within_tilt(flight, std::clamp(least_asked, thinnest_radius, hi), hi, radii);
+  } else if (hi > thinnest_radius) {
+    collect_within_tilt(flight, thinnest_radius, hi, radii);
   }
   return radii;
 }

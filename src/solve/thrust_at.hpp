@@ -105,7 +105,12 @@ class WarmTether {
 [[nodiscard]] double least_resistance(const WarmTether& tether, const SteadyFlight& flight,
                                       double thinner, double thrust, double thicker);
 
-/// The radii up to `hi` at which the tilt is within its limit.
-[[nodiscard]] IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi);
+/// m, thinner conductors than which are not looked at: 3e-10 mm².
+constexpr double thinnest_radius = 1e-8;
+
+/// The radii up to `hi` at which the tilt is within its limit. Thinner solved tethers than
+/// `least_asked` may be left out, which saves their loads.
+[[nodiscard]] IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi,
+                                            double least_asked = 0);
 
 }  // namespace tethercalc

@@ -187,6 +187,8 @@ class SteadyFlight {
   [[nodiscard]] ForceBalance force_balance(double radius, double weight) const;
   [[nodiscard]] double sized_battery(double radius) const;
   [[nodiscard]] double searched_radius(double weight) const;
+  /// The radius between two at which the motors lift `weight`, where that grows without leaps.
+  [[nodiscard]] double radius_of_smooth_weight(double weight, double light, double heavy) const;
   /// kg that the battery lands, but for its own.
   [[nodiscard]] double mass_without_battery_at(double radius) const;
 

@@ -142,10 +142,15 @@ struct HangingSituation {
   auto operator<=>(const HangingSituation&) const = default;  ///< member by member
 };
 
+class SimilarCables;
+
 /// The load of a tether that hangs as weight and wind have it (`CableSolver`), as a smooth function
-/// of its conductor's radius: the cable is solved at radii a quarter of an octave apart, when one
-/// between them is asked for, and forces over the cable's own load, hypot(weight, drag)·height +
-/// winch tension, are cubic in ln r between those, with their slopes. Within 1e-5 of the solver.
+/// of its conductor's radius. Where length, place and profile of the wind are known, and the cable
+/// does not stretch nor its drag depend on the Reynolds number, drag over weight decides how it
+/// hangs, and `SimilarCables` have the load to about 1e-9 of the greatest tension.
+/// Else the cable is solved at radii a quarter of an octave apart, when one between them is asked
+/// for, and forces over the cable's own load, hypot(weight, drag)·height + winch tension, are cubic
+/// in ln r between those, with their slopes: mostly within 1e-5 of the solver.
 /// Where more is to be paid out than there is, it does not reach.
 /// Where the solver finds no equilibrium, the cubic spans up to an octave; a cable with slack right
 /// above its station that hardly any wind moves is taken as the fold it is in still air, all of its
@@ -157,7 +162,7 @@ struct HangingSituation {
 class HangingLoad {
  public:
   /// Of the cable in this situation; nothing is solved yet.
-  explicit HangingLoad(const HangingSituation& situation) : situation_(situation) {}
+  explicit HangingLoad(const HangingSituation& situation);
 
   /// The parts of a load, N, and m of cable in the air.
   struct Parts {
@@ -175,6 +180,9 @@ class HangingLoad {
   /// m in the air, where that does not depend on the radius.
   [[nodiscard]] std::optional<double> fixed_length() const { return situation_.paid_out.length; }
 
+  /// Whether it hangs with conductors of every size, or with none.
+  [[nodiscard]] bool hangs_alike() const { return similar_ != nullptr; }
+
   /// The load with conductors of `radius` ≥ 0; thinner ones than 10 µm have the forces of such over
   /// their own load.
   [[nodiscard]] const AtRadius& at(double radius) const;
@@ -187,12 +195,13 @@ class HangingLoad {
     Values value{};
     Values slope{};
   };
-  struct Scale {
-    double value = 0;
-    double slope = 0;
+  /// Shares of the cable's own load, and their derivatives by the radius.
+  struct Shares {
+    Values value{};
+    Values slope{};
   };
-  [[nodiscard]] Scale own_load(double radius) const;
-  [[nodiscard]] CableOutcome solve(CableSolver& solver, double radius, Values& values) const;
+  [[nodiscard]] std::optional<Shares> of_similar_cables(double radius) const;
+  [[nodiscard]] std::optional<Shares> between_nodes(double radius) const;
   [[nodiscard]] Node solved_node(double log_radius) const;
   [[nodiscard]] const Node& node(long place) const;
   /// Whether forces between two places that are `width` apart in ln r are no cubic.
@@ -202,9 +211,15 @@ class HangingLoad {
   [[nodiscard]] std::optional<std::array<long, 2>> places_about(double log_radius) const;
 
   HangingSituation situation_;
+  std::shared_ptr<const SimilarCables> similar_;  ///< null where more decides how it hangs
   mutable std::unordered_map<long, Node> nodes_;
-  mutable double last_radius_ = std::numeric_limits<double>::quiet_NaN();
-  mutable AtRadius last_;
+  /// Of the last radii that were asked for, each at a place that its digits decide.
+  struct Known {
+    double radius = std::numeric_limits<double>::quiet_NaN();
+    AtRadius at;
+  };
+  mutable std::array<Known, 8> known_;
+  [[nodiscard]] AtRadius computed_at(double radius) const;
 };
 
 /// The tether of a design in one flight state by the model that it asks for, as functions of its
@@ -220,6 +235,9 @@ class TetherInFlight {
 
   /// Whether it hangs as weight and wind have it, so that nothing of it is a polynomial of r.
   [[nodiscard]] bool is_solved() const { return hanging_ != nullptr; }
+
+  /// Whether it hangs with conductors of every size, or with none.
+  [[nodiscard]] bool hangs_alike() const { return !hanging_ || hanging_->hangs_alike(); }
 
   /// The load on the drone.
   [[nodiscard]] TetherLoad load(double radius) const;

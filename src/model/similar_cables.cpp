@@ -1,0 +1,262 @@
+#include "model/similar_cables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace tethercalc {
+namespace {
+
+/// Drag over weight below which a cable above its station is a fold, over its slack.
+constexpr double folded_below = 0.02;
+/// What a polynomial's last terms may be of the greatest tension: the solver's own error is 1e-10
+/// mostly.
+constexpr double little_of_tension = 4e-9;
+constexpr double widest_piece = 1.0 / 4;  // octaves
+constexpr double narrowest_piece = 1.0 / 1024;
+/// log2(drag/weight) beyond which nothing is remembered.
+constexpr double most_octaves = 60;
+
+double weight_at(const HangingSituation& situation, double radius) {
+  const auto& [w0, w1, w2] = situation.weight;
+  return w0 + radius * (w1 + radius * w2);
+}
+
+double weight_slope_at(const HangingSituation& situation, double radius) {
+  return situation.weight[1] + 2 * radius * situation.weight[2];
+}
+
+/// N/m², of the wind at its reference height on a width.
+double pressure_on(const HangingSituation& situation) {
+  const double speed = situation.air.wind.x;
+  return 0.5 * situation.air.density * situation.drag_coefficient * speed * speed;
+}
+
+/// Cable beyond the height, over that; 0 for a drone aside or in motion.
+double slack_above_station(const HangingSituation& situation) {
+  const bool rests = situation.air.drone_velocity == Vector3{};
+  return situation.offset == 0 && rests && situation.paid_out.length
+             ? *situation.paid_out.length / situation.height - 1
+             : 0;
+}
+
+}  // namespace
+
+OwnLoad own_load(const HangingSituation& situation, double radius) {
+  const double weight = weight_at(situation, radius);
+  const double per_width = pressure_on(situation);
+  const double drag = per_width * (situation.width[0] + situation.width[1] * radius);
+  const double both = std::sqrt(weight * weight + drag * drag);
+  const double slope =
+      both > 0
+          ? (weight * weight_slope_at(situation, radius) + drag * per_width * situation.width[1]) /
+                both
+          : 0;
+  return {situation.height * both + situation.paid_out.winch_tension.value_or(0),
+          situation.height * slope};
+}
+
+DragOverWeight drag_over_weight(const HangingSituation& situation, double radius) {
+  const double weight = weight_at(situation, radius);
+  const double per_width = pressure_on(situation);
+  const double drag = per_width * (situation.width[0] + situation.width[1] * radius);
+  const double value = drag / weight;
+  return {value,
+          (per_width * situation.width[1] - value * weight_slope_at(situation, radius)) / weight};
+}
+
+CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver, double radius,
+                          LoadShares& shares) {
+  const PaidOut& paid_out = situation.paid_out;
+  const Cable cable{.weight = weight_at(situation, radius),
+                    .diameter = situation.width[0] + situation.width[1] * radius,
+                    .drag_coefficient = situation.drag_coefficient,
+                    .cylinder_diameter = situation.cylinder_diameter(radius),
+                    .axial_stiffness = situation.axial_stiffness};
+  const Vector3 drone{situation.offset, 0, situation.height};
+  // The wind swings a fold above its station aside by half of drag over weight. With a fiftieth of
+  // its slack it stays a fold, and no solution is needed; with three times its slack nearly so.
+  const double drag = drag_across(cable, situation.air, situation.air.wind.x);
+  const double slack = slack_above_station(situation);
+  const auto swings_less_than = [&](double slacks) { return drag < slacks * slack * cable.weight; };
+  const bool folded = swings_less_than(folded_below);
+  CableOutcome outcome = CableOutcome::not_found;
+  if (!folded) outcome = solver.solve(cable, situation.air, paid_out, drone);
+  double drag_of_fold = 0;
+  if (folded || (outcome == CableOutcome::not_found && swings_less_than(3))) {
+    drag_of_fold = drag * situation.height;
+    MovingAir still = situation.air;
+    still.wind = {};
+    outcome = solver.solve(cable, still, paid_out, drone);
+  }
+  if (outcome != CableOutcome::hangs) return outcome;
+  const HangingCable hangs = solver.result();
+  if (hangs.length > situation.cable_there_is) return CableOutcome::too_short;
+  const double load = own_load(situation, radius).value;
+  shares = {std::max(0.0, drag_of_fold - hangs.on_drone.x) / load, -hangs.on_drone.z / load,
+            hangs.tension_at_drone / load, hangs.tension_at_station / load, hangs.length};
+  return outcome;
+}
+
+std::optional<HangingSituation> normal_form(const HangingSituation& situation) {
+  const MovingAir& air = situation.air;
+  const double height = situation.height;
+  const double length = situation.paid_out.length.value_or(0);
+  if (!(length > std::hypot(height, situation.offset)) || length > situation.cable_there_is ||
+      !(height > 0) || situation.axial_stiffness || situation.by_reynolds_number ||
+      air.wind.y != 0 || air.wind.z != 0 || air.drone_velocity != Vector3{}) {
+    return std::nullopt;
+  }
+  HangingSituation normal{.weight = {1, 0, 0}, .width = {0, 2}, .air = {}, .paid_out = {}};
+  normal.height = 1;
+  normal.offset = situation.offset / height;
+  normal.paid_out.length = length / height;
+  normal.air.density = 1;
+  normal.air.wind.x = air.wind.x > 0 ? 1 : -1;
+  normal.air.profile = air.profile;
+  if (air.profile == WindProfile::uniform) return normal;
+  normal.air.station_height = air.station_height / height;
+  normal.air.reference_height = air.reference_height / height;
+  if (air.profile == WindProfile::power_law) {
+    normal.air.exponent = air.exponent;
+  } else {
+    normal.air.roughness_length = air.roughness_length / height;
+  }
+  return normal;
+}
+
+std::shared_ptr<const SimilarCables> SimilarCables::of(const HangingSituation& situation) {
+  // A flight log has thousands of heights.
+  constexpr std::size_t most_kept = 1 << 13;
+  thread_local std::map<HangingSituation, std::shared_ptr<const SimilarCables>> known;
+  const std::optional<HangingSituation> normal = normal_form(situation);
+  if (!normal) return nullptr;
+  if (known.size() >= most_kept) known.clear();
+  auto& cables = known[*normal];
+  if (!cables) cables = std::make_shared<const SimilarCables>(*normal);
+  return cables;
+}
+
+SimilarCables::SimilarCables(const HangingSituation& normal)
+    : normal_(normal), first_(folded_below * slack_above_station(normal)), folds_(first_ > 0) {
+  if (!folds_) first_ = 1;
+}
+
+std::optional<SimilarCables::At> SimilarCables::at(double ratio) const {
+  if (ratio == 0) {
+    if (!still_) still_ = solved_at(0);
+    return still_;
+  }
+  const double octaves = std::log2(ratio / first_);
+  if (!(std::abs(octaves) < most_octaves) || (folds_ && octaves < 0)) return solved_at(ratio);
+  double width = widest_piece;
+  double from = width * std::floor(octaves / width);
+  Piece* piece = &pieces_[static_cast<int>(from / width)];
+  for (;;) {
+    if (piece->kind == Piece::Kind::unknown) make(*piece, from, width);
+    if (piece->kind == Piece::Kind::smooth) return on(*piece, (octaves - from) / width);
+    if (piece->kind == Piece::Kind::solved_where_asked) return solved_at(ratio);
+    width /= 2;
+    const bool upper = octaves >= from + width;
+    if (upper) from += width;
+    piece = &(*piece->halves)[upper ? 1 : 0];
+  }
+}
+
+std::optional<SimilarCables::At> SimilarCables::solved_at(double ratio) const {
+  CableSolver solver;
+  At at;
+  if (solve_shares(normal_, solver, ratio, at.value) != CableOutcome::hangs) return std::nullopt;
+  if (ratio == 0) return at;
+  LoadShares below{};
+  if (solve_shares(normal_, solver, ratio * std::exp(-slope_step), below) != CableOutcome::hangs) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < forces; ++i) at.slope[i] = (at.value[i] - below[i]) / slope_step;
+  return at;
+}
+
+void SimilarCables::make(Piece& piece, double from, double width) const {
+  if (fit(piece, from, width)) {
+    piece.kind = Piece::Kind::smooth;
+  } else if (width > narrowest_piece) {
+    piece.halves = std::make_unique<std::array<Piece, 2>>();
+    piece.kind = Piece::Kind::halved;
+  } else {
+    piece.kind = Piece::Kind::solved_where_asked;
+  }
+}
+
+bool SimilarCables::fit(Piece& piece, double from, double width) const {
+  // cos(π·i/8)
+  static const std::array<double, 2 * degree> cosines = [] {
+    std::array<double, 2 * degree> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = std::cos(std::numbers::pi * static_cast<double>(i) / degree);
+    }
+    return out;
+  }();
+  // Both ends from nothing, as the pieces beside this have them; between them each from the last.
+  CableSolver solver(most_steps_for_load);
+  Series solved{};
+  double tension = 0;
+  for (std::size_t j = 0; j <= degree; ++j) {
+    if (j == degree) solver = CableSolver(most_steps_for_load);
+    LoadShares shares{};
+    const double octaves = from + 0.5 * width * (1 + cosines[j]);
+    if (solve_shares(normal_, solver, first_ * std::exp2(octaves), shares) != CableOutcome::hangs) {
+      return false;
+    }
+    std::copy_n(shares.begin(), forces, solved[j].begin());
+    tension = std::max(tension, shares[2]);
+  }
+  for (std::size_t k = 0; k <= degree; ++k) {
+    Forces& term = piece.value[k];
+    term = {};
+    for (std::size_t j = 0; j <= degree; ++j) {
+      const double weight = (j == 0 || j == degree ? 1.0 : 2.0) / degree *
+                            (k == 0 || k == degree ? 0.5 : 1.0) * cosines[j * k % cosines.size()];
+      for (std::size_t i = 0; i < forces; ++i) term[i] += weight * solved[j][i];
+    }
+    if (k < degree - 1) continue;
+    for (const double part : term) {
+      if (!(std::abs(part) < little_of_tension * tension)) return false;
+    }
+  }
+  // d/dx of T_k by those before it; x runs from −1 to 1 as ln(drag/weight) by width·ln 2.
+  const double per_x = 2 / (width * std::numbers::ln2);
+  Series& slope = piece.slope;
+  for (std::size_t k = degree; k-- > 0;) {
+    for (std::size_t i = 0; i < forces; ++i) {
+      const double beyond = k + 2 <= degree ? slope[k + 2][i] : 0;
+      slope[k][i] = beyond + 2 * static_cast<double>(k + 1) * piece.value[k + 1][i] * per_x;
+    }
+  }
+  for (double& part : slope[0]) part *= 0.5;
+  return true;
+}
+
+SimilarCables::At SimilarCables::on(const Piece& piece, double share) const {
+  // Clenshaw's recurrence.
+  const double x = 2 * share - 1;
+  std::array<double, 2 * forces> now{};
+  std::array<double, 2 * forces> before{};
+  for (std::size_t k = degree; k > 0; --k) {
+    for (std::size_t i = 0; i < forces; ++i) {
+      const double value = piece.value[k][i] + 2 * x * now[i] - before[i];
+      const double slope = piece.slope[k][i] + 2 * x * now[forces + i] - before[forces + i];
+      before[i] = std::exchange(now[i], value);
+      before[forces + i] = std::exchange(now[forces + i], slope);
+    }
+  }
+  At at;
+  for (std::size_t i = 0; i < forces; ++i) {
+    at.value[i] = piece.value[0][i] + x * now[i] - before[i];
+    at.slope[i] = piece.slope[0][i] + x * now[forces + i] - before[forces + i];
+  }
+  at.value[forces] = *normal_.paid_out.length;
+  return at;
+}
+
+}  // namespace tethercalc

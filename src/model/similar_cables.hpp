@@ -1,0 +1,100 @@
+// The loads of cables that differ by nothing but the wind's drag over their weight.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "tethercalc/model/tether_load.hpp"
+
+namespace tethercalc {
+
+/// A load over the cable's own (`own_load`): against the wind, down, tension at the drone, tension
+/// at the ground; and m of cable in the air.
+using LoadShares = std::array<double, 5>;
+
+/// Of a solver whose loads are remembered.
+constexpr int most_steps_for_load = 4000;
+/// Of a logarithm: half of the solver's digits for a slope, and no more error than its square.
+constexpr double slope_step = 1e-4;
+
+/// N, and N/m of the radius.
+struct OwnLoad {
+  double value = 0;
+  double slope = 0;
+};
+
+/// hypot(weight, drag)·height + winch tension.
+[[nodiscard]] OwnLoad own_load(const HangingSituation& situation, double radius);
+
+/// Solves the cable with conductors of `radius`, from the solver's last solution.
+CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver, double radius,
+                          LoadShares& shares);
+
+/// Cables of one length over their height, of one place of the drone and one profile of the wind
+/// over it, that do not stretch and have one drag coefficient. Forces over the cable's own load
+/// then depend on drag over weight alone, and are solved once for all sizes of conductor, speeds of
+/// the wind, densities and, but for a profile, heights.
+///
+/// Over the logarithm of drag over weight they are polynomials of degree 8 through as many solved
+/// cables (Chebyshev's points) on a quarter of an octave, or on halves of halves of it until what
+/// they miss is about 1e-9 of the tension. Where wind and weight balance along the chord forces
+/// turn by x·ln x: in the last 1/1024 of an octave about that the cable is solved where it is asked
+/// for. A piece is always the same, whatever was asked for before. Remembers what it solved; not
+/// for two threads at once.
+class SimilarCables {
+ public:
+  /// Those that hang like `situation`; null where more than drag over weight tells them apart. One
+  /// for all that ask in a thread.
+  [[nodiscard]] static std::shared_ptr<const SimilarCables> of(const HangingSituation& situation);
+
+  /// `normal` as `normal_form` has it.
+  explicit SimilarCables(const HangingSituation& normal);
+
+  /// What a load is over the cable's own, and its derivative by the logarithm of drag over weight.
+  struct At {
+    LoadShares value{};
+    LoadShares slope{};
+  };
+  /// Nothing where no equilibrium is found.
+  [[nodiscard]] std::optional<At> at(double drag_over_weight) const;
+
+ private:
+  static constexpr std::size_t degree = 8;
+  /// Forces, without the length.
+  static constexpr std::size_t forces = 4;
+  using Forces = std::array<double, forces>;
+  using Series = std::array<Forces, degree + 1>;
+
+  /// A part of an octave of drag over weight.
+  struct Piece {
+    enum class Kind { unknown, smooth, halved, solved_where_asked } kind = Kind::unknown;
+    Series value{};  ///< by Chebyshev's polynomials
+    Series slope{};  ///< of the derivative by the logarithm
+    std::unique_ptr<std::array<Piece, 2>> halves{};
+  };
+  void make(Piece& piece, double from, double width) const;
+  [[nodiscard]] bool fit(Piece& piece, double from, double width) const;
+  [[nodiscard]] At on(const Piece& piece, double share) const;
+  [[nodiscard]] std::optional<At> solved_at(double drag_over_weight) const;
+
+  HangingSituation normal_;
+  double first_;                         ///< drag over weight where octaves begin
+  bool folds_;                           ///< below that the cable is a fold
+  mutable std::map<int, Piece> pieces_;  ///< the widest, by their number from there
+  mutable std::optional<At> still_;      ///< without wind
+};
+
+/// `situation` with a weight of 1 N/m, a height of 1 m and the drag over the weight as the radius;
+/// nothing where more than that decides how its cable hangs.
+[[nodiscard]] std::optional<HangingSituation> normal_form(const HangingSituation& situation);
+
+/// Drag over weight with conductors of `radius`, and its derivative by that.
+struct DragOverWeight {
+  double value = 0;
+  double slope = 0;  ///< 1/m
+};
+[[nodiscard]] DragOverWeight drag_over_weight(const HangingSituation& situation, double radius);
+
+}  // namespace tethercalc

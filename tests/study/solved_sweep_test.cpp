@@ -1,0 +1,73 @@
+// Rows of a sweep with cables as they hang: each by itself, whatever was computed before it.
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <thread>
+#include <vector>
+
+#include "support/random_designs.hpp"
+#include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/study/sweep.hpp"
+
+using namespace tethercalc;
+using test::Random;
+
+namespace {
+
+/// The numbers that a row has.
+std::vector<double> row_of(const Design& design) {
+  const SweepOutcome outcome = sweep_outcome(design, false);
+  std::vector<double> row{outcome.area()};
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    const OperatingPoint& point = outcome.points.in(condition);
+    row.insert(row.end(), {point.total_power, point.headroom, point.pitch, point.takeoff_mass});
+  }
+  return row;
+}
+
+/// The rows of the designs in this order, by a thread that has computed nothing yet.
+std::vector<std::vector<double>> rows_in_new_thread(const std::vector<Design>& designs,
+                                                    const std::vector<std::size_t>& order) {
+  std::vector<std::vector<double>> rows(designs.size());
+  std::thread([&] {
+    for (const std::size_t i : order) rows[i] = row_of(designs[i]);
+  }).join();
+  return rows;
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+TEST_CASE("a row of a sweep over a solved tether is the same whatever was computed before it") {
+  test::each_random(2, [](Random& random) {
+    Design base = test::published_design();
+    base.tether.model = TetherModel::solved;
+    base.requirements.thrust_headroom = 1.3;
+    base.tether.slack = random.magnitude(5e-3, 0.1);
+    if (random.chance(0.5)) base.flight.horizontal_offset = random.uniform(0, 12);
+    if (random.chance(0.3)) base.flight.wind_profile = WindProfile::logarithmic;
+    std::vector<Design> designs;
+    std::vector<std::size_t> order;
+    for (int i = 0; i < 8; ++i) {
+      Design design = base;
+      design.flight.headwind = random.uniform(0, 8);
+      design.flight.air_density = random.uniform(0.9, 1.3);
+      design.drone.mass = random.uniform(1.3, 1.8);
+      if (base.flight.wind_profile == WindProfile::uniform) {
+        design.tether.length = random.uniform(15, 40);
+      }
+      order.push_back(designs.size());
+      designs.push_back(design);
+    }
+    const auto forward = rows_in_new_thread(designs, order);
+    std::reverse(order.begin(), order.end());
+    const auto backward = rows_in_new_thread(designs, order);
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+      INFO("row " << i << " headwind " << designs[i].flight.headwind);
+      CHECK(std::equal(forward[i].begin(), forward[i].end(), backward[i].begin(), same));
+      CHECK(same(row_of(designs[i])[0], forward[i][0]));
+      CHECK(same(optimize(designs[i]).area, forward[i][0]));
+    }
+  });
+}
