@@ -175,6 +175,8 @@ class Command {
            "In kg/m³ (default: 1.293 for drag, the spec's for diagnose)");
     option("--pressure-hPa HPA", flight.pressure_hPa, "For the air density, with");
     option("--temperature-C CELSIUS", flight.temperature_C, "the air temperature");
+    comma_list("--columns COLUMNS", flight.columns,
+               "Of a CSV with other names, NAME=COLUMN,...: airspeed_km_h=wind,vd_m_s=-climb");
     return whole("--core N", flight.core, 0, 255, "EKF core to read (default: 0)").group("Options");
   }
 

@@ -62,7 +62,7 @@ Drawn log(const PlotOptions& options) {
   try {
     return {log_figure(
         heading(options, base_name(file)),
-        observe_part(read_flight_logs({file}, flight.core, logs_in_files(), note_on_error).front(),
+        observe_part(read_flight_logs({file}, flight, logs_in_files(), note_on_error).front(),
                      identification_options(flight, logs_in_files())))};
   } catch (const UnsuitableFlight& error) {
     throw InputError(file, error.what());

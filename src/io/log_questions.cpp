@@ -78,8 +78,9 @@ LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
   for (const std::string& name : options.flight_logs) {
-    FlightLogReading reading =
-        read.flight(name, {.core = options.flight.core, .level_where_missing = true});
+    FlightLogReading reading = read.flight(name, {.core = options.flight.core,
+                                                  .level_where_missing = true,
+                                                  .columns = options.flight.columns});
     const bool several = options.flight_logs.size() > 1;
     if (several) {
       notes.push_back({WarningKind::log_flight_of_several,
@@ -141,7 +142,8 @@ double pitch_offset(const FlightOptions& options, const LogReaders& read) {
   }
   if (options.trim_log.empty()) return 0;
   try {
-    return pitch_offset_from_hover(read.flight(options.trim_log, {options.core}).log);
+    return pitch_offset_from_hover(
+        read.flight(options.trim_log, {.core = options.core, .columns = options.columns}).log);
   } catch (const UnsuitableFlight& error) {
     throw InputError(options.trim_log, error.what());
   }
@@ -228,11 +230,12 @@ DragIdentificationOptions identification_options(const FlightOptions& flight,
   return options;
 }
 
-std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, int core,
-                                        const LogReaders& read, const NoteTaker& note) {
+std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
+                                        const FlightOptions& flight, const LogReaders& read,
+                                        const NoteTaker& note) {
   std::vector<FlightLog> logs;
   for (const std::string& name : names) {
-    FlightLogReading reading = read.flight(name, {core});
+    FlightLogReading reading = read.flight(name, {.core = flight.core, .columns = flight.columns});
     for (const auto& [kind, amiss] : reading.notes)
       note({kind, fmt::format("{}: {}", name, amiss)});
     if (!reading.log.north_wind.empty()) {
@@ -248,7 +251,7 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
                        const FlightOptions& flight, const LogReaders& read, const NoteTaker& note) {
   const DragIdentificationOptions how = identification_options(flight, read);
   try {
-    return study_drag(name, read_flight_logs(logs, flight.core, read, note), how);
+    return study_drag(name, read_flight_logs(logs, flight, read, note), how);
   } catch (const UnsuitableFlight& error) {
     throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
   }
@@ -287,8 +290,8 @@ AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design
     question.flight = read_flights(options, question.hypotheses, read, asked.flight_notes);
   if (!options.power_log.empty()) {
     PowerLogReading reading =
-        read.power(options.power_log,
-                   {options.free_flight, battery_numbers(options.batteries), options.flight.core});
+        read.power(options.power_log, {options.free_flight, battery_numbers(options.batteries),
+                                       options.flight.core, options.flight.columns});
     question.power = {.log = std::move(reading.log),
                       .base = base_effects(options, LogKind::power, question.hypotheses)};
     // Beside another log's flight these are that one's.

@@ -37,6 +37,7 @@ struct FlightOptions {
   std::optional<double> pressure_hPa;
   std::optional<double> temperature_C;
   bool published_kinematics = false;
+  std::vector<std::string> columns{};  ///< of logs in CSV, as in FlightLogOptions
 };
 
 /// Throws InputError, about `option`, where `value` is not from `least` to `most`.
@@ -70,7 +71,8 @@ void check_range(const char* option, double value, double least, double most, co
 
 /// The logs of these names.
 [[nodiscard]] std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
-                                                      int core, const LogReaders& read,
+                                                      const FlightOptions& flight,
+                                                      const LogReaders& read,
                                                       const NoteTaker& note);
 
 /// The drag of these logs, `name` their heading. Throws InputError where they show none.
