@@ -147,8 +147,9 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
       continue;
     }
     const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
-    power[i] = grown * steady.output_power(motor_curve_power(
-                           steady.motor(), steady.necessary_thrust(weight, tan_pitch))) +
+    const double thrust = steady.necessary_thrust(weight, tan_pitch);
+    power[i] = grown * steady.output_power(motor_curve_power(steady.motor(), thrust),
+                                           steady.power_share(tan_pitch).value) +
                beside_motors;
     const double rest = power[i];
     for (const auto& added : model.added_power) power[i] += added(model, log, i, rest);
