@@ -193,8 +193,9 @@ class Command {
       const char* base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]") {
     return group("Logs")
         .repeatable("--flight LOG", logs.flight_logs, flight_help)
-        .option("--power LOG", logs.power_log, power_help)
-        .option("--log LOG", logs.whole_log, "Both from one log of one flight")
+        .repeatable("--power LOG", logs.power_logs, power_help)
+        .repeatable("--log LOG", logs.whole_logs,
+                    "Both from one log of one flight; repeatable, as --power is, for free flights")
         .batteries(logs.batteries)
         .flag("--free-flight", logs.free_flight,
               "The power was logged in flight without the tether, from a battery")

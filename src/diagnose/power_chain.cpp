@@ -1,7 +1,10 @@
 #include "diagnose/power_chain.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "model/constants.hpp"
@@ -30,6 +33,28 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 }
 
 }  // namespace
+
+void append_flight(PowerLog& all, const PowerLog& flight) {
+  if (all.time.empty()) {
+    all = flight;
+    return;
+  }
+  for (const PowerChannel& channel : power_channels) {
+    if ((all.*channel.values).empty() == (flight.*channel.values).empty()) continue;
+    throw std::invalid_argument(
+        fmt::format("{} {}, unlike the log before: flights that are judged together need the same "
+                    "channels",
+                    (flight.*channel.values).empty() ? "lacks" : "has", channel.name));
+  }
+  constexpr double apart = 5;  // s, more than any step within a log
+  const double later = all.time.back() + apart - flight.time.front();
+  for (const double time : flight.time) all.time.push_back(time + later);
+  for (const PowerChannel& channel : power_channels) {
+    auto& values = all.*channel.values;
+    const auto& further = flight.*channel.values;
+    values.insert(values.end(), further.begin(), further.end());
+  }
+}
 
 Design without_tether(Design design) {
   design.tether.model = TetherModel::straight;

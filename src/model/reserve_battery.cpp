@@ -130,7 +130,7 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
     battery = secant > low && secant < high ? secant : 0.5 * (low + high);
     if (!(low < battery && battery < high)) break;
     const double here = asked(battery) - battery;
-    if (std::abs(here) <= 1e-13 * (mass + battery)) break;
+    if (std::abs(here) <= 1e-15 * (mass + battery)) break;
     if (here > 0) {
       stayed = std::max(stayed, 0) + 1;
       low = battery;

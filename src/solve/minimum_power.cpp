@@ -122,7 +122,7 @@ class ValleySearch {
     const double of_motor =
         start.power + motor_.slope(piece) * (at.thrust.value - start.thrust);  // W of its sheet
     double motor_slope = at.share * motor_.slope(piece) * at.thrust.slope;     // W/m
-    if (at.share_slope != 0) {
+    if (at.share_slope != 0 && at.thrust.slope < infinity) {
       // Where a heavier drone leans less the power may fall: then any more radius pays.
       motor_slope = std::max(0.0, motor_slope + at.share_slope * of_motor);
     }
