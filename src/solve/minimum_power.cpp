@@ -119,30 +119,33 @@ class ValleySearch {
   /// The trade, were the motor curve to follow `piece` everywhere.
   [[nodiscard]] Trade trade_at(const ThrustAt& at, std::size_t piece) const {
     const MotorPoint& start = vertices_[piece];
-    const double of_motor =
-        start.power + motor_.slope(piece) * (at.thrust.value - start.thrust);  // W of its sheet
-    double motor_slope = at.share * motor_.slope(piece) * at.thrust.slope;     // W/m
+    const double beyond = at.thrust.value - start.thrust;
+    const double of_motor = start.power + motor_.slope(piece) * beyond;  // W of its sheet
+    double slope = input_slope_ * at.share * motor_.slope(piece);  // W/N at the converter's input
+    double power = idle_ + input_slope_ * at.share * start.power + slope * beyond;
+    double by_share = input_slope_ * of_motor;
+    if (!constant_efficiency_) {
+      const double per_newton = flight_.output_power(motor_.slope(piece), at.share);
+      const double output = flight_.output_power(start.power, at.share) + per_newton * beyond;
+      power = flight_.design().drone.auxiliary_power + efficiency_.input_power(output);
+      slope = per_newton * efficiency_.input_slope(output);
+      by_share = flight_.output_power(of_motor, 1) * efficiency_.input_slope(output);
+    }
+    double spent = slope * at.thrust.slope;
     if (at.share_slope != 0 && at.thrust.slope < infinity) {
       // Where a heavier drone leans less the power may fall: then any more radius pays.
-      motor_slope = std::max(0.0, motor_slope + at.share_slope * of_motor);
-    }
-    double power = idle_ + input_slope_ * at.share * of_motor;
-    double slope = input_slope_ * motor_slope;  // W/m at the converter's input
-    if (!constant_efficiency_) {
-      const double output = flight_.output_power(of_motor, at.share);
-      power = flight_.design().drone.auxiliary_power + efficiency_.input_power(output);
-      slope = flight_.output_power(motor_slope, 1) * efficiency_.input_slope(output);
+      spent = std::max(0.0, spent + by_share * at.share_slope);
     }
     const double resistance = flight_.tether().resistance(at.radius);
     if (heated_) {
       // To 1e-7: at the bottom the power is flat.
       const TetherHeatState state = tether_.state(power, at.radius, at.radius, 3e-4);
       if (state.steady) {
-        return {-state.current * state.current * state.resistance_slope, slope};
+        return {-state.current * state.current * state.resistance_slope, spent};
       }
       // Where it runs away, a thicker cable is cooler as long as P²/r² falls.
       if (supplied_power(flight_.design().supply.voltage, resistance, power) > 0) {
-        return {power / at.radius, slope};
+        return {power / at.radius, spent};
       }
     }
     const double least_current = power * per_voltage_;
@@ -151,7 +154,7 @@ class ValleySearch {
     const double share = 1 + std::sqrt(std::max(0.0, discriminant));
     const double current_squared =
         discriminant >= 0 ? 4 * least_current * least_current : power / resistance;
-    return {-current_squared * flight_.tether().resistance_slope(at.radius), slope * share * share};
+    return {-current_squared * flight_.tether().resistance_slope(at.radius), spent * share * share};
   }
 
   /// About −d ln r/d ln(saved/spent) on `piece`: through the place before, where that was on the

@@ -330,7 +330,7 @@ TEST_CASE("an airspeed with the direction that the air comes from is a measured 
 }
 
 TEST_CASE("columns of other names and units are read by what --columns says of them") {
-  const std::string text = "t,yaw_deg,psi,v,climb,amp,remark\n0,7,0.5,36,2,1500,a\n";
+  const std::string text = "t,yaw_deg,psi,v,climb,amp,remark\n0,7,0.5,36,2,150,a\n";
   const std::vector<std::string> columns{"time_ms=t",     "yaw_rad = psi", "vn_km_h=v",
                                          "vd_m_s=-climb", "ve_m_s=amp",    "pitch_deg=yaw_deg"};
   const FlightLogReading reading = parse_flight_log(
