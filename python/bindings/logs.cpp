@@ -167,15 +167,15 @@ Answer diagnosis_answer(const std::shared_ptr<const ToldDiagnosis>& told,
   return answer;
 }
 
-Answer diagnose(const py::object& spec, const Texts& flight_logs, const std::string& power_log,
-                const std::string& whole_log, const Texts& base, const Texts& effect_files,
+Answer diagnose(const py::object& spec, const Texts& flight_logs, const Texts& power_logs,
+                const Texts& whole_logs, const Texts& base, const Texts& effect_files,
                 const Texts& batteries, bool free_flight, const FlightOptions& flight) {
   const auto file = design_of(spec)->file();
   const LogsAsked asked =
-      with_halves({flight_logs, power_log, whole_log, batteries, free_flight, base, flight});
+      with_halves({flight_logs, power_logs, whole_logs, batteries, free_flight, base, flight});
   const auto told = std::make_shared<const ToldDiagnosis>(interruptible(
       [=](const StopFlag& stop) { return diagnosed(*file, asked, effect_files, stop); }));
-  return diagnosis_answer(told, heading(asked.flight_logs), heading({asked.power_log}));
+  return diagnosis_answer(told, heading(asked.flight_logs), heading(asked.power_logs));
 }
 
 }  // namespace
@@ -210,11 +210,11 @@ void bind_logs(py::module_& module) {
   using Text = const std::string&;
   // In the order of its fields.
   py::class_<FlightOptions>(module, "_Flight")
-      .def(py::init<int, Text, Text, Text, Number, Number, Number, Number, Number, bool>(),
+      .def(py::init<int, Text, Text, Text, Number, Number, Number, Number, Number, bool, Texts>(),
            py::arg("core"), py::arg("start"), py::arg("end"), py::arg("trim_log"),
            py::arg("pitch_offset_deg"), py::arg("mass_g"), py::arg("air_density_kg_m3"),
-           py::arg("pressure_hPa"), py::arg("temperature_C"),
-           py::arg("published_kinematics") = false);
+           py::arg("pressure_hPa"), py::arg("temperature_C"), py::arg("published_kinematics"),
+           py::arg("columns"));
   module.def("_drag", drag, py::arg("logs"), py::arg("flown"));
   module.def("_diagnose", diagnose, py::arg("spec"), py::arg("flight"), py::arg("power"),
              py::arg("log"), py::arg("base"), py::arg("effects"), py::arg("batteries"),

@@ -90,6 +90,10 @@ def _paths(paths: Paths | None) -> list[str]:
     return [os.fspath(path) for path in several]
 
 
+def _columns(columns: Mapping[str, str] | None) -> list[str]:
+    return [f"{name}={column}" for name, column in (columns or {}).items()]
+
+
 def _path(path: Path | None) -> str:
     return "" if path is None else os.fspath(path)
 
@@ -265,6 +269,7 @@ def drag(
     start: float | str | None = None,
     end: float | str | None = None,
     core: int = 0,
+    columns: Mapping[str, str] | None = None,
     published_kinematics: bool = False,
 ) -> Answer:
     """The drag that flights of one drone show, with honest errors.
@@ -273,6 +278,8 @@ def drag(
     them the part that moves is used. The air density is given, or follows from pressure and
     temperature; so is the pitch offset, or measured by `trim_log`, a hover flight. What is assumed
     where neither is given, and what is amiss with a log, is warned of; `notes` has the same.
+
+    `columns` says what logs in CSV call their columns: {"airspeed_km_h": "wind", "vd_m_s": "-climb"}.
 
     `front_area_m2`, `top_area_m2` and `linear_m_s` have `value`, `standard_error` and `ci95`, the
     ends of the 95 % interval; `wind_m_s` has one a flight. `rmse_m_s2` is what the fit leaves of
@@ -290,6 +297,7 @@ def drag(
         pressure_hPa,
         temperature_C,
         published_kinematics,
+        _columns(columns),
     )
     return _core._drag(_paths(logs), flown)
 
@@ -298,8 +306,8 @@ def diagnose(
     spec: Spec,
     *,
     flight: Paths | None = None,
-    power: Path | None = None,
-    log: Path | None = None,
+    power: Paths | None = None,
+    log: Paths | None = None,
     base: Texts | None = None,
     effects: Paths | None = None,
     batteries: Sequence[int] = (),
@@ -313,10 +321,12 @@ def diagnose(
     start: float | str | None = None,
     end: float | str | None = None,
     core: int = 0,
+    columns: Mapping[str, str] | None = None,
 ) -> Answer:
     """What the simulation of measured flights gets wrong, why, and how far the design moves.
 
-    `flight` and `power` are logs of either kind, `log` is one that holds both. `base` names
+    `flight` and `power` are logs of either kind, `log` is one that holds both; several are of one
+    drone, and of free flights where their power is judged. `base` names
     effects that are taken for granted, `effects` files with further ones. What is known of the
     flight is written as for `drag`; mass and air are else the spec's. `batteries` are the numbers
     of the monitors that feed the motors, `free_flight` says that the power was logged without the
@@ -339,12 +349,14 @@ def diagnose(
         air_density_kg_m3,
         pressure_hPa,
         temperature_C,
+        False,
+        _columns(columns),
     )
     return _core._diagnose(
         spec,
         _paths(flight),
-        _path(power),
-        _path(log),
+        _paths(power),
+        _paths(log),
         _texts(base),
         _paths(effects),
         [str(number) for number in batteries],

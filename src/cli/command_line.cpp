@@ -175,6 +175,8 @@ class Command {
            "In kg/m³ (default: 1.293 for drag, the spec's for diagnose)");
     option("--pressure-hPa HPA", flight.pressure_hPa, "For the air density, with");
     option("--temperature-C CELSIUS", flight.temperature_C, "the air temperature");
+    comma_list("--columns COLUMNS", flight.columns,
+               "Of a CSV with other names, NAME=COLUMN,...: airspeed_km_h=wind,vd_m_s=-climb");
     return whole("--core N", flight.core, 0, 255, "EKF core to read (default: 0)").group("Options");
   }
 
@@ -191,8 +193,9 @@ class Command {
       const char* base_help = "Effects taken as part of the base model, EFFECT[,EFFECT...]") {
     return group("Logs")
         .repeatable("--flight LOG", logs.flight_logs, flight_help)
-        .option("--power LOG", logs.power_log, power_help)
-        .option("--log LOG", logs.whole_log, "Both from one log of one flight")
+        .repeatable("--power LOG", logs.power_logs, power_help)
+        .repeatable("--log LOG", logs.whole_logs,
+                    "Both from one log of one flight; repeatable, as --power is, for free flights")
         .batteries(logs.batteries)
         .flag("--free-flight", logs.free_flight,
               "The power was logged in flight without the tether, from a battery")

@@ -62,7 +62,7 @@ Drawn log(const PlotOptions& options) {
   try {
     return {log_figure(
         heading(options, base_name(file)),
-        observe_part(read_flight_logs({file}, flight.core, logs_in_files(), note_on_error).front(),
+        observe_part(read_flight_logs({file}, flight, logs_in_files(), note_on_error).front(),
                      identification_options(flight, logs_in_files())))};
   } catch (const UnsuitableFlight& error) {
     throw InputError(file, error.what());
@@ -90,11 +90,11 @@ Drawn drag(const PlotOptions& options) {
 
 Drawn diagnosis(const PlotOptions& options) {
   const DiagnoseOptions how = with_both_halves(options.made_of);
-  if (how.flight_logs.empty() == how.power_log.empty()) {
+  if (how.flight_logs.empty() == how.power_logs.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }
   const std::string log =
-      how.power_log.empty() ? name_of_flights(how.flight_logs) : base_name(how.power_log);
+      name_of_flights(how.power_logs.empty() ? how.flight_logs : how.power_logs);
   const AnsweredDiagnosis told = diagnose_logs(how, titled_spec(options));
   try {
     return {diagnosis_figure(heading(options, log), told.flight ? *told.flight : *told.power)};
@@ -246,11 +246,11 @@ int run_report(const DiagnoseOptions& options, const std::string& rules, const s
   PageContent content = content_of_design(file, chosen_motors({"alike"}, file, files_in("")));
   content.command = command;
   if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
-  if (!options.flight_logs.empty() || !options.power_log.empty()) {
+  if (!options.flight_logs.empty() || !options.power_logs.empty()) {
     const AnsweredDiagnosis told = diagnose_logs(options, file);
     if (told.flight)
       content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
-    if (told.power) content.diagnoses.push_back({base_name(options.power_log), *told.power});
+    if (told.power) content.diagnoses.push_back({name_of_flights(options.power_logs), *told.power});
   }
   if (book) content.rules = study_rules({file.design, ruled_area(content.optimum)}, *book);
   emit(output, report_page(content));

@@ -112,7 +112,9 @@ void check(const MotorOptions& options) {
     if (!flown && !options.batteries.empty()) {
       problems.add("--battery", "chooses battery monitors of a --power-log; give one");
     }
-    if (!options.columns.empty()) problems.add("--columns", "names columns of a file; give one");
+    if (!flown && !options.columns.empty()) {
+      problems.add("--columns", "names columns of a file; give one");
+    }
     if (!options.where.empty()) problems.add("--where", "chooses rows of a file; give one");
   }
   problems.throw_if_any();
@@ -166,8 +168,10 @@ std::string forward_words(const FlownForward& forward) {
 /// The motor of a free flight.
 ShownMotor motor_of_flight(const MotorOptions& options) {
   const DesignFile file = read_spec(options.spec);
-  const PowerLogReading flight = read_power_log(
-      options.power_log, {.free_flight = true, .batteries = battery_numbers(options.batteries)});
+  const PowerLogReading flight =
+      read_power_log(options.power_log, {.free_flight = true,
+                                         .batteries = battery_numbers(options.batteries),
+                                         .columns = options.columns});
   const double density = file.design.flight.air_density;
   FlownMotor flown;
   try {

@@ -1,7 +1,10 @@
 #include "diagnose/power_chain.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "model/constants.hpp"
@@ -30,6 +33,28 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 }
 
 }  // namespace
+
+void append_flight(PowerLog& all, const PowerLog& flight) {
+  if (all.time.empty()) {
+    all = flight;
+    return;
+  }
+  for (const PowerChannel& channel : power_channels) {
+    if ((all.*channel.values).empty() == (flight.*channel.values).empty()) continue;
+    throw std::invalid_argument(
+        fmt::format("{} {}, unlike the log before: flights that are judged together need the same "
+                    "channels",
+                    (flight.*channel.values).empty() ? "lacks" : "has", channel.name));
+  }
+  constexpr double apart = 5;  // s, more than any step within a log
+  const double later = all.time.back() + apart - flight.time.front();
+  for (const double time : flight.time) all.time.push_back(time + later);
+  for (const PowerChannel& channel : power_channels) {
+    auto& values = all.*channel.values;
+    const auto& further = flight.*channel.values;
+    values.insert(values.end(), further.begin(), further.end());
+  }
+}
 
 Design without_tether(Design design) {
   design.tether.model = TetherModel::straight;
@@ -147,8 +172,9 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
       continue;
     }
     const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
-    power[i] = grown * steady.output_power(motor_curve_power(
-                           steady.motor(), steady.necessary_thrust(weight, tan_pitch))) +
+    const double thrust = steady.necessary_thrust(weight, tan_pitch);
+    power[i] = grown * steady.output_power(motor_curve_power(steady.motor(), thrust),
+                                           steady.power_share(tan_pitch).value) +
                beside_motors;
     const double rest = power[i];
     for (const auto& added : model.added_power) power[i] += added(model, log, i, rest);

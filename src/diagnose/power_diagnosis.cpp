@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "diagnose/log_model.hpp"
 #include "diagnose/power_residuals.hpp"
@@ -482,6 +483,18 @@ void size_up(const LogModel& view, const Selection& selection, Unexplained& told
                   strongest.shape, size, strongest.unit);
 }
 
+/// Mean predicted over mean measured, of the samples that are predicted.
+double mean_ratio(std::span<const double> predicted, std::span<const double> measured) {
+  double of_predicted = 0;
+  double of_measured = 0;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    if (!std::isfinite(predicted[i])) continue;
+    of_predicted += predicted[i];
+    of_measured += measured[i];
+  }
+  return of_predicted / of_measured;
+}
+
 /// Measured and predicted, before and after, of every stage in its own unit.
 void compare_stages(const PowerResiduals& residuals, const PowerLogModel& view,
                     const Selection& selection, Diagnosis& diagnosis) {
@@ -489,13 +502,15 @@ void compare_stages(const PowerResiduals& residuals, const PowerLogModel& view,
     const PowerStage& stage = residuals.stages()[k];
     const std::vector<double> before = held_out(residuals, k, selection.base, view);
     const std::vector<double> after = held_out(residuals, k, selection.extended, view);
-    diagnosis.further.push_back(
-        {stage.quantity, stage.unit, stage_rmse(stage, before), stage_rmse(stage, after)});
     const std::vector<double> measured = measured_in(stage, residuals.log());
+    std::vector<double> predicted = predicted_in(stage, measured, before);
+    std::vector<double> with_findings = predicted_in(stage, measured, after);
+    diagnosis.further.push_back({stage.quantity, stage.unit, stage_rmse(stage, before),
+                                 stage_rmse(stage, after), mean_ratio(predicted, measured),
+                                 mean_ratio(with_findings, measured)});
     diagnosis.compared.push_back({stage.quantity, stage.stage == Stage::tether ? "V" : "W",
                                   std::string(to_string(stage.stage)), residuals.log().time,
-                                  measured, predicted_in(stage, measured, before),
-                                  predicted_in(stage, measured, after)});
+                                  measured, std::move(predicted), std::move(with_findings)});
   }
 }
 
@@ -533,6 +548,25 @@ void compare_tilt(const PowerLogModel& view, const Selection& selection, Diagnos
   diagnosis.compared.push_back({TiltComparison::quantity, TiltComparison::unit,
                                 std::string(to_string(Stage::airframe)), shown.time,
                                 shown.over_mass, before, after});
+}
+
+/// Gives `base`, whose drag nobody measured, the drag that the tilt of the same flight shows, where
+/// it shows any. Held against that the tilt would only say what it was taken for.
+void take_drag_of_tilt(const DragByTilt& shown, const PowerLog& log, double false_alarm_probability,
+                       PowerModel& base, Diagnosis& diagnosis) {
+  const auto tilt = TiltComparison::of(shown, base, log, false_alarm_probability, diagnosis.notes);
+  if (!tilt) return;
+  base.design.drone.drag = tilt->drag_of(base);
+  diagnosis.drag_by_tilt = shown;
+  const Drone& drone = base.design.drone;
+  diagnosis.notes.push_back(
+      {WarningKind::tilt_drag_taken,
+       fmt::format("the spec's drag is an estimate: the power is judged with the drag that the "
+                   "tilt shows of a drone of {:.0f} g, a front area of {:.5f} m², a top area of "
+                   "{:.5f} m² and {:.2f} m/s of linear drag, so the tilt does not say whether the "
+                   "drone is heavier or its motors are hungrier",
+                   drone.mass / unit::gram, drone.drag.front_area, drone.drag.top_area,
+                   drone.drag.linear_speed)});
 }
 
 /// What the tilt says in words, and what a verdict by it rests on.
@@ -602,11 +636,15 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   check_power_units(design, log);
 
   if (progress) progress("screening the instruments");
-  const PowerModel base{design};
+  PowerModel base{design};
+  const double tilt_alarm = chance_of_a_false_alarm / static_cast<double>(candidates.size());
+  if (shown_by_tilt && design.drone.drag.is_estimate) {
+    take_drag_of_tilt(*shown_by_tilt, log, tilt_alarm, base, diagnosis);
+  }
   ScreenedPowerLog screened = screen_power_log(base, log);
   std::map<Stage, std::string> unusable = drop_unusable_stages(screened);
   average_fast_samples(screened);
-  diagnosis.notes = screened.notes;
+  diagnosis.notes.insert(diagnosis.notes.end(), screened.notes.begin(), screened.notes.end());
   note_assumptions(design, log, diagnosis.notes);
   PowerResiduals residuals(base, screened);
   if (drop_scattered_stages(residuals, screened, unusable)) {
@@ -617,7 +655,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   if (residuals.stages().empty()) return result;
 
   std::optional<TiltComparison> tilt;
-  if (shown_by_tilt) {
+  if (shown_by_tilt && !design.drone.drag.is_estimate) {
     tilt = TiltComparison::of(*shown_by_tilt, base, residuals.log(),
                               chance_of_a_false_alarm / static_cast<double>(effects.size()),
                               diagnosis.notes);

@@ -284,7 +284,7 @@ std::vector<Effect> power_effects() {
       {.id = "translational_lift",
        .title = "Moving through the air saves hover power",
        .mechanism = "In forward flight the rotors take in more air, so the induced part of the "
-                    "power falls with airspeed.",
+                    "power falls with airspeed, until leaning against the drag costs more.",
        .stage = Stage::motors,
        .parameters =
            {{"induced_share", "1", 1, 0, 0, 0.95, 0.05, "drone.translational_lift.induced_share",
@@ -293,7 +293,7 @@ std::vector<Effect> power_effects() {
              "drone.translational_lift.hover_induced_speed_m_s",
              [](const Design& d) { return d.drone.translational_lift.hover_induced_speed; }}},
        .to_separate = to_separate_airspeed,
-       .change = "P·(1 − s·(1 − ν(v/v_h))), ν√((v/v_h)² + ν²) = 1",
+       .change = "P·(1 − s·(1 − λ)), (λ − μ·sinα)·√(μ²cos²α + λ²) = 1, μ = v/v_h, α the tilt",
        .channel = "airspeed",
        .on_power =
            [](PowerModel& m, Values x) {

@@ -18,6 +18,8 @@ namespace {
 
 // More would scroll the first, which is usually the cause, off the screen.
 constexpr std::size_t most_cell_problems = 20;
+// A table of another make has as many unknown columns.
+constexpr std::size_t most_header_problems = 100;
 
 std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
@@ -26,8 +28,8 @@ std::string_view without_byte_order_mark(std::string_view text) {
 
 class CellProblems : public Problems {
  public:
-  explicit CellProblems(std::string_view file)
-      : Problems(most_cell_problems, std::string(file)), file_(file) {}
+  explicit CellProblems(std::string_view file, std::size_t most = most_cell_problems)
+      : Problems(most, std::string(file)), file_(file) {}
 
   void add(std::size_t line, std::string message) {
     Problems::add(fmt::format("{}:{}", file_, line), std::move(message));
@@ -75,22 +77,38 @@ std::vector<std::string> names_of(std::span<const CsvColumn> wanted) {
   return names;
 }
 
+std::string_view name_in_file(const CsvColumn& column) {
+  return column.header.empty() ? column.name : std::string_view(column.header);
+}
+
+/// The column as messages call it.
+std::string shown_name(const CsvColumn& column) {
+  return column.header.empty() ? std::string(column.name)
+                               : fmt::format("{} ({})", column.name, shown_cell(column.header));
+}
+
 /// For each cell of a row, which wanted column it fills, if any.
 using CellMeaning = std::vector<std::optional<std::size_t>>;
 
-CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted,
-                        OtherCsvColumns others, CellProblems& problems) {
+/// Throws where anything is wrong with the header: every further message would only confuse.
+CellMeaning read_header(std::string_view line, std::string_view file,
+                        std::span<const CsvColumn> wanted, OtherCsvColumns others,
+                        std::string_view hint) {
+  CellProblems problems(file, most_header_problems);
+  const std::vector<std::string> known = names_of(wanted);
   CellMeaning meaning;
   std::vector<bool> found(wanted.size(), false);
+  bool all_known = true;
   for (const std::string_view name : split_csv_line(line)) {
-    const auto match = std::ranges::find(wanted, name, &CsvColumn::name);
+    const auto match = std::ranges::find_if(wanted, [&](const CsvColumn& column) {
+      return !column.absent && name_in_file(column) == name;
+    });
     if (match == wanted.end()) {
       meaning.emplace_back();
-      if (others == OtherCsvColumns::rejected) {
-        const std::vector<std::string> names = names_of(wanted);
-        problems.add(1, fmt::format("unknown column \"{}\", known are {}{}", shown_cell(name),
-                                    fmt::join(names, ","), did_you_mean(name, names)));
-      }
+      if (others == OtherCsvColumns::ignored) continue;
+      problems.add(
+          1, fmt::format("unknown column \"{}\"{}", shown_cell(name), did_you_mean(name, known)));
+      all_known = false;
       continue;
     }
     const auto index = static_cast<std::size_t>(match - wanted.begin());
@@ -103,6 +121,10 @@ CellMeaning read_header(std::string_view line, std::span<const CsvColumn> wanted
       problems.add(1, fmt::format("column \"{}\" is missing from the header", wanted[i].name));
     }
   }
+  if (!all_known) {
+    problems.add(1, fmt::format("known columns are {}{}", fmt::join(known, ","), hint));
+  }
+  problems.throw_if_any();
   return meaning;
 }
 
@@ -117,7 +139,7 @@ void take_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
                std::vector<double>& above, CellProblems& problems) {
   const auto reject = [&](const std::string& expected) {
     const std::string found = cell.empty() ? "empty" : "\"" + shown_cell(cell) + "\"";
-    problems.add(line, fmt::format("{} is {}, expected {}", column.name, found, expected));
+    problems.add(line, fmt::format("{} is {}, expected {}", shown_name(column), found, expected));
   };
   double value = 0;
   const auto [end, error] = read_number(cell.data(), cell.data() + cell.size(), value);
@@ -127,10 +149,11 @@ void take_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
   if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
     return reject("a finite number");
   }
+  value = column.factor * value + column.offset;
   if (value < column.minimum || value > column.maximum) return reject(allowed_values(column));
   if (column.increasing && !above.empty() && value <= above.back()) {
     return problems.add(line, fmt::format("{} is {}, expected more than the {} before it",
-                                          column.name, value, above.back()));
+                                          shown_name(column), value, above.back()));
   }
   above.push_back(value);
 }
@@ -139,7 +162,7 @@ void take_cell(std::string_view cell, const CsvColumn& column, std::size_t line,
 
 std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
                                                   std::span<const CsvColumn> wanted,
-                                                  OtherCsvColumns others) {
+                                                  OtherCsvColumns others, std::string_view hint) {
   CellProblems problems(file_name);
   text = without_byte_order_mark(text);
   if (text.empty()) {
@@ -147,8 +170,7 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
                                 fmt::join(names_of(wanted), ",")));
     problems.throw_if_any();
   }
-  const CellMeaning meaning = read_header(take_line(text), wanted, others, problems);
-  problems.throw_if_any();  // without a header, every further message would only confuse
+  const CellMeaning meaning = read_header(take_line(text), file_name, wanted, others, hint);
 
   std::vector<std::vector<double>> columns(wanted.size());
   std::size_t line_number = 1;
@@ -170,6 +192,13 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
   }
   problems.throw_if_any();
   return columns;
+}
+
+std::vector<std::string> csv_header(std::string_view text) {
+  text = without_byte_order_mark(text);
+  std::vector<std::string> names;
+  for (const std::string_view name : split_csv_line(take_line(text))) names.emplace_back(name);
+  return names;
 }
 
 CsvRows::CsvRows(std::string_view text, std::string file, char separator)

@@ -21,6 +21,10 @@ struct CsvColumn {
   double maximum = std::numeric_limits<double>::max();
   bool increasing = false;  ///< each value must be greater than the one in the row above
   bool ignored = false;     ///< known, but not read: its cells may hold any text
+  std::string header = {};  ///< what the file calls it; empty: `name`
+  bool absent = false;      ///< the file has it not: what is called so there is something else
+  double factor = 1;        ///< a value is this times the cell's number
+  double offset = 0;        ///< and this more
 };
 
 enum class OtherCsvColumns {
@@ -34,14 +38,19 @@ enum class OtherCsvColumns {
 /// quoted; blanks around a cell are ignored.
 ///
 /// Returns one vector per wanted column, in the order wanted, all as long as the file has rows;
-/// an optional column that the file lacks, or one that is ignored, is an empty vector.
+/// an optional column that the file lacks, or one that is ignored, is an empty vector. Where a
+/// column is unknown the message about those that are known ends with `hint`.
 ///
 /// Throws InputError with every problem of the file, each as "file:line": missing, unknown (with
 /// the closest wanted name) and repeated columns; rows of the wrong length; cells that are empty,
 /// not a number, not finite or out of range; no rows. Beyond 20 problems only their number is told.
 std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
                                                   std::span<const CsvColumn> wanted,
-                                                  OtherCsvColumns others);
+                                                  OtherCsvColumns others,
+                                                  std::string_view hint = {});
+
+/// The names in the first line, as `read_csv_columns` understands it.
+[[nodiscard]] std::vector<std::string> csv_header(std::string_view text);
 
 /// Walks through the text of a CSV file (RFC 4180): commas or another separator, cells in double
 /// quotes where they hold separators, quotes (doubled) or line breaks; LF or CRLF, with or without

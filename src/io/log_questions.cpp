@@ -27,7 +27,7 @@ void check_range(const char* option, double value, double least, double most, co
 namespace {
 
 bool is_given(const LogsAsked& options, LogKind kind) {
-  return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_log.empty();
+  return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_logs.empty();
 }
 
 /// The effects of --base that a log of `kind` can show. Every name must be one of a given log.
@@ -78,8 +78,9 @@ LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
   for (const std::string& name : options.flight_logs) {
-    FlightLogReading reading =
-        read.flight(name, {.core = options.flight.core, .level_where_missing = true});
+    FlightLogReading reading = read.flight(name, {.core = options.flight.core,
+                                                  .level_where_missing = true,
+                                                  .columns = options.flight.columns});
     const bool several = options.flight_logs.size() > 1;
     if (several) {
       notes.push_back({WarningKind::log_flight_of_several,
@@ -101,9 +102,44 @@ LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
   return flight;
 }
 
+/// The power of all flights, one after the other.
+PowerLog read_power(const LogsAsked& options, const LogReaders& read, std::vector<Warning>& notes) {
+  const bool several = options.power_logs.size() > 1;
+  if (several && !options.free_flight) {
+    throw InputError(
+        options.whole_logs.empty() ? "--power" : "--log",
+        "is several logs, whose power is judged together for free flights only "
+        "(--free-flight): on a tether the heat of the cable does not go on from one to "
+        "the next");
+  }
+  const PowerLogOptions how{options.free_flight, battery_numbers(options.batteries),
+                            options.flight.core, options.flight.columns};
+  PowerLog all;
+  for (const std::string& name : options.power_logs) {
+    PowerLogReading reading = read.power(name, how);
+    try {
+      append_flight(all, reading.log);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(name, error.what());
+    }
+    if (several) {
+      notes.push_back(
+          {WarningKind::log_flight_of_several,
+           fmt::format("{} is judged as the flight from {:.0f} s to {:.0f} s", name,
+                       all.time.back() - (reading.log.time.back() - reading.log.time.front()),
+                       all.time.back())});
+    }
+    for (Warning& note : reading.notes) {
+      if (several) note.sentence = fmt::format("{}: {}", name, note.sentence);
+      notes.push_back(std::move(note));
+    }
+  }
+  return all;
+}
+
 /// What is said of a power log needs one.
 void check_power_options(const LogsAsked& options) {
-  if (!options.power_log.empty()) return;
+  if (!options.power_logs.empty()) return;
   if (options.free_flight) {
     throw InputError("--free-flight", "is of the power; give --power LOG, or --log LOG");
   }
@@ -141,7 +177,8 @@ double pitch_offset(const FlightOptions& options, const LogReaders& read) {
   }
   if (options.trim_log.empty()) return 0;
   try {
-    return pitch_offset_from_hover(read.flight(options.trim_log, {options.core}).log);
+    return pitch_offset_from_hover(
+        read.flight(options.trim_log, {.core = options.core, .columns = options.columns}).log);
   } catch (const UnsuitableFlight& error) {
     throw InputError(options.trim_log, error.what());
   }
@@ -164,12 +201,12 @@ std::vector<int> battery_numbers(const std::vector<std::string>& typed) {
 }
 
 LogsAsked with_halves(LogsAsked options) {
-  if (options.whole_log.empty()) return options;
-  if (!options.flight_logs.empty() || !options.power_log.empty()) {
+  if (options.whole_logs.empty()) return options;
+  if (!options.flight_logs.empty() || !options.power_logs.empty()) {
     throw InputError("--log", "is both, flight and power; give it, or --flight and --power");
   }
-  options.flight_logs = {options.whole_log};
-  options.power_log = options.whole_log;
+  options.flight_logs = options.whole_logs;
+  options.power_logs = options.whole_logs;
   return options;
 }
 
@@ -228,11 +265,12 @@ DragIdentificationOptions identification_options(const FlightOptions& flight,
   return options;
 }
 
-std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names, int core,
-                                        const LogReaders& read, const NoteTaker& note) {
+std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
+                                        const FlightOptions& flight, const LogReaders& read,
+                                        const NoteTaker& note) {
   std::vector<FlightLog> logs;
   for (const std::string& name : names) {
-    FlightLogReading reading = read.flight(name, {core});
+    FlightLogReading reading = read.flight(name, {.core = flight.core, .columns = flight.columns});
     for (const auto& [kind, amiss] : reading.notes)
       note({kind, fmt::format("{}: {}", name, amiss)});
     if (!reading.log.north_wind.empty()) {
@@ -248,7 +286,7 @@ DragStudy studied_drag(const std::string& name, const std::vector<std::string>& 
                        const FlightOptions& flight, const LogReaders& read, const NoteTaker& note) {
   const DragIdentificationOptions how = identification_options(flight, read);
   try {
-    return study_drag(name, read_flight_logs(logs, flight.core, read, note), how);
+    return study_drag(name, read_flight_logs(logs, flight, read, note), how);
   } catch (const UnsuitableFlight& error) {
     throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
   }
@@ -274,7 +312,7 @@ std::vector<Warning> assumptions_of(const FlightOptions& flight,
 
 AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design,
                                   std::vector<Effect> own, const LogReaders& read) {
-  if (options.flight_logs.empty() && options.power_log.empty()) {
+  if (options.flight_logs.empty() && options.power_logs.empty()) {
     throw InputError("diagnose",
                      "needs a measured log: --flight LOG, --power LOG, or --log LOG for both");
   }
@@ -285,20 +323,16 @@ AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design
   check_effects(options, question.hypotheses);
   if (!options.flight_logs.empty())
     question.flight = read_flights(options, question.hypotheses, read, asked.flight_notes);
-  if (!options.power_log.empty()) {
-    PowerLogReading reading =
-        read.power(options.power_log,
-                   {options.free_flight, battery_numbers(options.batteries), options.flight.core});
-    question.power = {.log = std::move(reading.log),
+  if (!options.power_logs.empty()) {
+    question.power = {.log = read_power(options, read, asked.power_notes),
                       .base = base_effects(options, LogKind::power, question.hypotheses)};
     // Beside another log's flight these are that one's.
-    if (options.flight_logs.empty() || !options.whole_log.empty()) {
+    if (options.flight_logs.empty() || !options.whole_logs.empty()) {
       question.power->mass = flown_mass(options.flight);
       question.power->air_density = air_density(options.flight);
     }
-    asked.power_notes = std::move(reading.notes);
   }
-  question.one_flight = !options.whole_log.empty();
+  question.one_flight = !options.whole_logs.empty();
   return asked;
 }
 

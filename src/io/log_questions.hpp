@@ -37,6 +37,7 @@ struct FlightOptions {
   std::optional<double> pressure_hPa;
   std::optional<double> temperature_C;
   bool published_kinematics = false;
+  std::vector<std::string> columns{};  ///< of logs in CSV, as in FlightLogOptions
 };
 
 /// Throws InputError, about `option`, where `value` is not from `least` to `most`.
@@ -70,7 +71,8 @@ void check_range(const char* option, double value, double least, double most, co
 
 /// The logs of these names.
 [[nodiscard]] std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
-                                                      int core, const LogReaders& read,
+                                                      const FlightOptions& flight,
+                                                      const LogReaders& read,
                                                       const NoteTaker& note);
 
 /// The drag of these logs, `name` their heading. Throws InputError where they show none.
@@ -85,16 +87,16 @@ void check_range(const char* option, double value, double least, double most, co
 /// The logs that a design is held against, and how.
 struct LogsAsked {
   std::vector<std::string> flight_logs;  ///< flights of one drone
-  std::string power_log;
-  std::string whole_log;               ///< or: both halves in one log, see with_halves
-  std::vector<std::string> batteries;  ///< see battery_numbers
-  bool free_flight = false;            ///< the power was logged without the tether
-  std::vector<std::string> base;       ///< ids of effects that are part of the base model
+  std::vector<std::string> power_logs;   ///< likewise; several of free flights only
+  std::vector<std::string> whole_logs;   ///< or: logs of both halves each, see with_halves
+  std::vector<std::string> batteries;    ///< see battery_numbers
+  bool free_flight = false;              ///< the power was logged without the tether
+  std::vector<std::string> base;         ///< ids of effects that are part of the base model
   FlightOptions flight;
 };
 
-/// The options with a log of both halves as the log of each. Throws InputError where another log
-/// stands beside it.
+/// The options with the logs of both halves as the logs of each. Throws InputError where another
+/// log stands beside them.
 [[nodiscard]] LogsAsked with_halves(LogsAsked options);
 
 /// A question with its logs, and what is to be said of how they were read.

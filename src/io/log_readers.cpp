@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/checked_values.hpp"
 #include "io/csv_log_columns.hpp"
 #include "io/log_damage.hpp"
 #include "io/logged_vehicle.hpp"
@@ -286,15 +287,80 @@ FlightLogReading read_ulog(const AutopilotLog& log, int core) {
   return reading;
 }
 
+/// Roll, pitch and yaw of a quaternion that turns the drone's forward, right and down to north,
+/// east and down.
+void take_angles_from_quaternion(LogTable& table, const std::string& name) {
+  if (!table.has("quaternion_w")) return;
+  const std::size_t size = table["time_s"].size();
+  for (const char* angle : {"roll_deg", "pitch_deg", "yaw_deg"}) table[angle].resize(size);
+  Problems problems(20, name);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double w = table["quaternion_w"][i];
+    const double x = table["quaternion_x"][i];
+    const double y = table["quaternion_y"][i];
+    const double z = table["quaternion_z"][i];
+    const double square = w * w + x * x + y * y + z * z;
+    constexpr double rounding = 0.02;  // of two decimals
+    if (std::abs(square - 1) > 2 * rounding) {
+      problems.add(fmt::format("{}:{}", name, i + 2),
+                   fmt::format("the quaternion's length is {:.3g}, expected 1", std::sqrt(square)));
+    }
+    const double up = std::clamp(2 * (w * y - z * x) / square, -1.0, 1.0);
+    table["roll_deg"][i] = std::atan2(w * x + y * z, square / 2 - x * x - y * y) / unit::degree;
+    table["pitch_deg"][i] = std::asin(up) / unit::degree;
+    table["yaw_deg"][i] = std::atan2(w * z + x * y, square / 2 - y * y - z * z) / unit::degree;
+  }
+  problems.throw_if_any();
+}
+
+/// The velocity over ground of one along the drone's own axes.
+void take_velocity_from_body(LogTable& table) {
+  if (!table.has("body_forward_m_s")) return;
+  const std::size_t size = table["time_s"].size();
+  for (const char* velocity : {"vn_m_s", "ve_m_s", "vd_m_s"}) table[velocity].resize(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double roll = table["roll_deg"].empty() ? 0 : table["roll_deg"][i] * unit::degree;
+    const double pitch = table["pitch_deg"][i] * unit::degree;
+    const double yaw = table["yaw_deg"][i] * unit::degree;
+    const double right = table["body_right_m_s"][i];
+    const double down = table["body_down_m_s"][i];
+    // The roll undone, then the pitch, then the yaw.
+    const double level_right = right * std::cos(roll) - down * std::sin(roll);
+    const double below = right * std::sin(roll) + down * std::cos(roll);
+    const double forward = table["body_forward_m_s"][i];
+    const double ahead = forward * std::cos(pitch) + below * std::sin(pitch);
+    table["vn_m_s"][i] = ahead * std::cos(yaw) - level_right * std::sin(yaw);
+    table["ve_m_s"][i] = ahead * std::sin(yaw) + level_right * std::cos(yaw);
+    table["vd_m_s"][i] = below * std::cos(pitch) - forward * std::sin(pitch);
+  }
+}
+
+/// The wind that makes up the difference between the velocity over ground and the airspeed.
+void take_wind_from_direction(LogTable& table) {
+  if (!table.has("air_from_deg")) return;
+  const std::size_t size = table["time_s"].size();
+  for (const char* wind : {"wind_north_m_s", "wind_east_m_s"}) table[wind].resize(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double from = table["air_from_deg"][i] * unit::degree;
+    const double airspeed = table["airspeed_m_s"][i];
+    table["wind_north_m_s"][i] = table["vn_m_s"][i] - airspeed * std::cos(from);
+    table["wind_east_m_s"][i] = table["ve_m_s"][i] - airspeed * std::sin(from);
+  }
+}
+
 FlightLogReading read_csv(std::string_view text, const std::string& name,
                           const FlightLogOptions& options) {
   constexpr std::array<std::string_view, 2> of_level_flight{"roll_deg", "vd_m_s"};
-  LogTable table(text, name, &LogCsvColumn::flight,
+  LogTable table(text, name, &LogCsvColumn::flight, options.columns,
                  options.level_where_missing ? std::span<const std::string_view>(of_level_flight)
                                              : std::span<const std::string_view>());
   check_wind_columns(table, name);
+  take_angles_from_quaternion(table, name);
+  take_velocity_from_body(table);
+  take_wind_from_direction(table);
   FlightLogReading reading;
   reading.source = "CSV";
+  table.note_passed_over(reading.notes);
   for (const auto& [column, taken_for] :
        {std::pair{"roll_deg", "level flight"}, std::pair{"vd_m_s", "flight at one height"}}) {
     if (table.has(column)) continue;
@@ -325,6 +391,7 @@ FlightLogReading read_csv(std::string_view text, const std::string& name,
 
 FlightLogReading parse_flight_log(const AutopilotLog& log, const FlightLogOptions& options) {
   check_core(options.core);
+  check_no_columns(options.columns, log.name());
   return log.format() == LogFormat::ulog ? read_ulog(log, options.core)
                                          : read_dataflash(log, options.core);
 }

@@ -278,6 +278,7 @@ PowerLogReading logged_power(const AutopilotLog& log, const FlightLogReading& fl
 }
 
 PowerLogReading parse_power_log(const AutopilotLog& log, const PowerLogOptions& options) {
+  check_no_columns(options.columns, log.name());
   return logged_power(log, parse_flight_log(log, {.core = options.core}), time_in_the_air(log),
                       options);
 }
@@ -327,12 +328,13 @@ PowerLogReading power_of_table(std::string_view text, const std::string& name,
   }
   std::vector<std::string_view> optional{"airspeed_m_s"};
   if (options.free_flight) optional.emplace_back("height_m");
-  LogTable table(text, name, &LogCsvColumn::power, optional);
+  LogTable table(text, name, &LogCsvColumn::power, options.columns, optional);
   check_wind_columns(table, name);
   if (table.has("bus_power_W") && (table.has("bus_voltage_V") || table.has("bus_current_A"))) {
     fail_in(name, "bus_power_W goes without bus_voltage_V and bus_current_A: they give it too");
   }
   PowerLogReading reading{.log = {}, .source = "CSV"};
+  table.note_passed_over(reading.notes);
   if (!table.has("airspeed_m_s")) {
     table["airspeed_m_s"] = made_airspeed(table, name, reading.notes);
   }

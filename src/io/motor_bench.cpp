@@ -16,6 +16,7 @@
 
 #include "io/bench_header.hpp"
 #include "io/closest_name.hpp"
+#include "io/column_choice.hpp"
 #include "io/csv.hpp"
 #include "io/letters.hpp"
 #include "io/motor_points.hpp"
@@ -80,16 +81,15 @@ std::vector<Row> rows_of(std::string_view text, const std::string& file, char se
 /// A --columns: what a column of this header holds.
 struct NamedColumn {
   BenchColumnMeaning meaning;
-  std::string header;
+  ColumnChoice choice;
 };
 
 std::vector<NamedColumn> named_columns(const std::vector<std::string>& given, Problems& problems) {
   std::vector<NamedColumn> out;
   for (const std::string& text : given) {
-    const std::size_t equals = text.find('=');
-    const std::string quantity(trimmed(std::string_view(text).substr(0, equals)));
-    const auto meaning = bench_column_meaning(quantity);
-    if (equals == std::string::npos || !meaning) {
+    auto choice = column_choice(text);
+    const auto meaning = choice ? bench_column_meaning(choice->quantity) : std::nullopt;
+    if (!meaning) {
       problems.add(
           "--columns",
           fmt::format("{} does not say what a column holds; allowed is QUANTITY=HEADER with "
@@ -98,7 +98,7 @@ std::vector<NamedColumn> named_columns(const std::vector<std::string>& given, Pr
                       quoted(text)));
       continue;
     }
-    out.push_back({*meaning, std::string(trimmed(std::string_view(text).substr(equals + 1)))});
+    out.push_back({*meaning, std::move(*choice)});
   }
   return out;
 }
@@ -121,10 +121,9 @@ Columns columns_of(const std::vector<std::string>& header, const std::vector<Nam
   Columns out;
   std::map<BenchQuantity, bool> by_name;  // a name that was given outranks what is understood
   for (const NamedColumn& column : named) {
-    const auto at = std::ranges::find(header, column.header);
-    if (at == header.end()) continue;
-    out.found[column.meaning.quantity] = {static_cast<std::size_t>(at - header.begin()),
-                                          column.meaning.factor};
+    const auto at = chosen_column(column.choice, header);
+    if (!at) continue;
+    out.found[column.meaning.quantity] = {at->index, at->sign * column.meaning.factor};
     if (column.meaning.quantity == BenchQuantity::throttle) {
       out.throttle_unit = column.meaning.throttle_unit;
     }
@@ -220,9 +219,10 @@ bool header_will_do(const Table& table, const std::vector<NamedColumn>& named, P
   }
   const std::vector<std::string> shown = all_shown(table.header);
   for (const NamedColumn& column : named) {
-    if (std::ranges::find(table.header, column.header) != table.header.end()) continue;
-    problems.add(where, fmt::format("there is no column {}{}; found are {}", quoted(column.header),
-                                    did_you_mean(column.header, shown), fmt::join(shown, " | ")));
+    const std::string& name = column.choice.header;
+    if (chosen_column(column.choice, table.header)) continue;
+    problems.add(where, fmt::format("there is no column {}{}; found are {}", quoted(name),
+                                    did_you_mean(name, shown), fmt::join(shown, " | ")));
   }
   for (const std::string& problem : table.columns.problems) problems.add(where, problem);
   std::string missing;

@@ -75,7 +75,7 @@ const std::array all_spec_fields{
               "Drag is 1 + this times as large flying forward, 1 - this flying backward.", 1,
               at<&Design::drone, &Drone::drag, &AirframeDrag::fore_aft_asymmetry>},
     SpecField{"/drone/translational_lift/induced_share", number, "", between(0, 0.95), "0",
-              "Part of the hover power that is induced and falls with airspeed.", 1,
+              "Part of the hover power that is induced: it falls with airspeed, and grows with the lean.", 1,
               at<&Design::drone, &Drone::translational_lift, &TranslationalLift::induced_share>},
     SpecField{
         "/drone/translational_lift/hover_induced_speed_m_s", number, "m/s", above(0, 100), "6",

@@ -123,9 +123,36 @@ double induced_velocity_ratio(double speed_ratio) {
   return 1 / std::sqrt(std::hypot(1, half_square) + half_square);
 }
 
-double translational_lift_factor(const TranslationalLift& lift, double airspeed) {
-  if (lift.induced_share == 0) return 1;
-  return 1 - lift.induced_share * (1 - induced_velocity_ratio(airspeed / lift.hover_induced_speed));
+Inflow inflow_ratio(double speed_ratio, double tan_pitch) {
+  const double mu = std::abs(speed_ratio);
+  if (mu == 0) return {};
+  const double cosine_squared = 1 / (1 + tan_pitch * tan_pitch);
+  const double cosine = std::sqrt(cosine_squared);
+  const double from_airspeed = mu * tan_pitch * cosine;
+  const double along_squared = mu * mu * cosine_squared;
+  // From the right of the root of a function that bends up there, in λ − μ·sinα.
+  double induced = induced_velocity_ratio(mu * cosine);
+  double ratio = induced + from_airspeed;
+  for (int step = 0; step < 100 && from_airspeed > 0; ++step) {
+    const double through = along_squared + ratio * ratio;
+    const double excess = induced * induced * through - 1;
+    const double change = excess / (2 * induced * (through + induced * ratio));
+    induced -= change;
+    ratio = induced + from_airspeed;
+    if (std::abs(change) <= 1e-9 * induced) break;  // Newton squares the error in every step
+  }
+  const double through = along_squared + ratio * ratio;
+  const double by_tilt = mu * cosine * cosine_squared;
+  const double slope = (by_tilt * through + induced * along_squared * tan_pitch * cosine_squared) /
+                       (through + induced * ratio);
+  return {ratio, slope};
+}
+
+PowerShare translational_lift_share(const TranslationalLift& lift, double airspeed,
+                                    double tan_pitch) {
+  if (lift.induced_share == 0) return {};
+  const Inflow inflow = inflow_ratio(airspeed / lift.hover_induced_speed, tan_pitch);
+  return {1 - lift.induced_share * (1 - inflow.ratio), lift.induced_share * inflow.slope};
 }
 
 IsotonicMotorPoints isotonic_motor_points(std::span<const MotorPoint> measured) {

@@ -58,13 +58,18 @@ OperatingPoint evaluate(const SteadyFlight& flight, double area) {
           : or_nan(flight.tan_pitch(radius, weight, flight.tan_pitch_limit() * (1 + rounding)));
   point.pitch = flight.pitch_sign() * std::atan(tangent);
   point.necessary_thrust = flight.necessary_thrust(weight, tangent);
+  // What is available does not end where the tilt does.
+  const double leaning = std::isnan(tangent) && flight.share_changes()
+                             ? flight.tan_pitch(radius, weight, infinity)
+                             : tangent;
+  const double share = flight.power_share(leaning).value;
   point.drone_power =
-      or_nan(flight.drone_power(within_reach(point.necessary_thrust, flight.motor())));
+      or_nan(flight.drone_power(within_reach(point.necessary_thrust, flight.motor()), share));
   if (is_heated(design.tether)) warm_up(flight, radius, point);
   // A cable that runs away has no state in which anything is available.
   const bool exists = !point.thermal_runaway && !std::isinf(point.battery_mass);
   point.available_power = exists ? flight.available_power(point.tether_resistance) : nan;
-  point.available_thrust = exists ? flight.available_thrust(point.available_power) : nan;
+  point.available_thrust = exists ? flight.available_thrust(point.available_power, share) : nan;
   point.headroom = point.available_thrust / point.necessary_thrust;
   point.total_power =
       exists ? supplied_power(design.supply.voltage, point.tether_resistance, point.drone_power)

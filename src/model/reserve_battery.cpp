@@ -63,9 +63,11 @@ double landing_thrust(const Drone& drone, double mass, const Landing& landing) {
   return all_thrust(drone, mass, landing).value / drone.motor_count;
 }
 
-double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing) {
+namespace {
+
+/// The mass where the motors draw that share of their data-sheet power, however they lean.
+double mass_at_share(const Drone& drone, double mass, const Landing& landing, double share) {
   const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
-  if (per_watt == 0) return 0;
   const auto vertices = drone.motor.vertices();
   InclinedThrust all = all_thrust(drone, mass, landing);
   if (!(all.value / drone.motor_count < drone.motor.max_thrust())) return infinity;
@@ -76,13 +78,12 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
   for (std::size_t i = drone.motor.piece(all.value / drone.motor_count); i + 1 < vertices.size();
        ++i) {
     const double upper = held_mass(drone, vertices[i + 1].thrust, landing);
-    const double price = per_watt * power_per_newton(drone, i, landing.power_share);
+    const double price = per_watt * power_per_newton(drone, i, share);
     constexpr int most_steps = 100;
     for (int step = 0; step < most_steps; ++step) {
       const double thrust = all.value / drone.motor_count;
       const double power = vertices[i].power + drone.motor.slope(i) * (thrust - vertices[i].thrust);
-      const double missing =
-          per_watt * battery_power(drone, power, landing.power_share) - (takeoff - mass);
+      const double missing = per_watt * battery_power(drone, power, share) - (takeoff - mass);
       const double rate = 1 - price * all.slope;
       if (!(missing <= rate * (upper - takeoff))) break;
       const double gain = missing / rate;
@@ -97,6 +98,54 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
   return infinity;
 }
 
+PowerShare share_of(const Drone& drone, double mass, const Landing& landing) {
+  const double tangent = equilibrium_tan_pitch(force_balance(drone, mass, landing), infinity);
+  return translational_lift_share(drone.translational_lift, landing.airspeed, tangent);
+}
+
+}  // namespace
+
+double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing) {
+  if (drone.reserve_battery.specific_energy == 0) return 0;
+  if (drone.translational_lift.induced_share == 0 || landing.airspeed == 0) {
+    return mass_at_share(drone, mass, landing, 1);
+  }
+  // The heavier the drone the less it leans, the smaller the share of the power and with it the
+  // battery: what the share at a battery asks for falls as that grows, and meets it once.
+  const auto asked = [&](double battery) {
+    const double share = share_of(drone, mass + battery, landing).value;
+    return mass_at_share(drone, mass, landing, share);
+  };
+  double low = 0;
+  double high = held_mass(drone, drone.motor.max_thrust(), landing) - mass;
+  double above = asked(low) - low;
+  if (!(high > low) || !(asked(high) <= high)) return infinity;
+  high = std::min(high, above);
+  double below = asked(high) - high;
+  // Secants in a bracket; where one end stays, half of its distance counts, so that both move.
+  int stayed = 0;
+  double battery = high;
+  for (int step = 0; step < 200 && below < 0; ++step) {
+    const double secant = (low * below - high * above) / (below - above);
+    battery = secant > low && secant < high ? secant : 0.5 * (low + high);
+    if (!(low < battery && battery < high)) break;
+    const double here = asked(battery) - battery;
+    if (std::abs(here) <= 1e-15 * (mass + battery)) break;
+    if (here > 0) {
+      stayed = std::max(stayed, 0) + 1;
+      low = battery;
+      above = here;
+      if (stayed > 1) below *= 0.5;
+    } else {
+      stayed = std::min(stayed, 0) - 1;
+      high = battery;
+      below = here;
+      if (stayed < -1) above *= 0.5;
+    }
+  }
+  return battery;
+}
+
 BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,
                                      const Landing& landing) {
   const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
@@ -104,12 +153,22 @@ BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,
   const ForceBalance balance = force_balance(drone, takeoff_mass, landing);
   const double tangent = equilibrium_tan_pitch(balance, infinity);
   const InclinedThrust by_mass = inclined_thrust(balance, tangent, landing.gravity, 0);
-  const double by_drag = tangent == 0 ? 0 : inclined_thrust(balance, tangent, 0, 1).slope;
+  const InclinedThrust by_drag =
+      tangent == 0 ? InclinedThrust{} : inclined_thrust(balance, tangent, 0, 1);
   const std::size_t piece = drone.motor.piece(by_mass.value / drone.motor_count);
-  const double price = per_watt * power_per_newton(drone, piece, landing.power_share);
-  const double more = price * by_mass.slope;
+  const PowerShare share =
+      translational_lift_share(drone.translational_lift, landing.airspeed, tangent);
+  const double price = per_watt * power_per_newton(drone, piece, share.value);
+  double more = price * by_mass.slope;
+  double more_by_drag = price * by_drag.slope;
+  if (share.slope != 0) {
+    const double power = drone.motor.power(by_mass.value / drone.motor_count);
+    const double by_share = per_watt * (battery_power(drone, power, 1) - drone.auxiliary_power);
+    more += by_share * share.slope * by_mass.tan_slope;
+    more_by_drag += by_share * share.slope * by_drag.tan_slope;
+  }
   if (!(more < 1)) return {infinity, infinity};
-  return {more / (1 - more), price * by_drag / (1 - more)};
+  return {more / (1 - more), more_by_drag / (1 - more)};
 }
 
 double mass_without_battery(const Drone& drone, double takeoff_mass, double height,

@@ -47,8 +47,8 @@ SteadyFlight SteadyFlight::in(Condition condition) const {
 
 void SteadyFlight::set_airspeed(double speed) {
   const Drone& drone = design_->drone;
-  power_scale_ = drone.motor_count * drone.motor_power_factor *
-                 translational_lift_factor(drone.translational_lift, speed);
+  power_scale_ = drone.motor_count * drone.motor_power_factor;
+  share_changes_ = drone.translational_lift.induced_share > 0 && speed != 0;
   area_force_factor_ = area_force_factor(drone.drag, design_->flight.air_density, speed);
 }
 
@@ -60,8 +60,7 @@ SteadyFlight::LandingInWind SteadyFlight::landing_in_wind(const Design& design, 
   const Drone& drone = design.drone;
   landing.beside_tether.area_force_factor =
       area_force_factor(drone.drag, design.flight.air_density, state.airspeed);
-  landing.beside_tether.power_share =
-      translational_lift_factor(drone.translational_lift, state.airspeed);
+  landing.beside_tether.airspeed = state.airspeed;
   const StraightTether tether(design.tether, wall, state, design.flight.air_density,
                               design.flight.gravity);
   landing.least_drag = tether.least_drag();
@@ -200,12 +199,29 @@ SteadyFlight::Thrust SteadyFlight::thrust_of(double radius, Weight weight, doubl
   return {all.value * per_motor_, all.slope * per_motor_, all.tan_slope};
 }
 
-double SteadyFlight::available_thrust(double available_power) const {
+double SteadyFlight::least_tan_pitch(const Radii& between, double lighter, double of_drag) const {
+  const double heaviest = weight(between.hi);
+  if (!(heaviest < std::numeric_limits<double>::infinity())) return 0;
+  ForceBalance balance = force_balance(between.lo, heaviest + lighter);
+  balance.tether_drag *= of_drag;
+  return equilibrium_tan_pitch(balance, std::numeric_limits<double>::infinity());
+}
+
+double SteadyFlight::most_tan_pitch(const Radii& between, double lighter, double of_drag) const {
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  const double least = weight(between.lo) - lighter;
+  if (!(least > 0) || !(least < unlimited)) return unlimited;
+  ForceBalance balance = force_balance(between.hi, least);
+  balance.tether_drag *= of_drag;
+  return equilibrium_tan_pitch(balance, unlimited);
+}
+
+double SteadyFlight::available_thrust(double available_power, double share) const {
   double output = converter_output_power(design_->supply.converter,
                                          available_power - design_->drone.auxiliary_power);
   const Converter& converter = design_->supply.converter;
   if (converter.rated_output_power) output = std::min(output, *converter.rated_output_power);
-  return motor().thrust(output / power_scale_);
+  return motor().thrust(output / (power_scale_ * share));
 }
 
 }  // namespace tethercalc

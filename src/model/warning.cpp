@@ -30,6 +30,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "log_velocity_invalid",
                                                                    "log_attitude_missing",
                                                                    "log_column_missing",
+                                                                   "log_columns_passed_over",
                                                                    "log_wind_unused",
                                                                    "log_bus_chosen",
                                                                    "log_airspeed_derived",

@@ -103,8 +103,8 @@ ordered_json drag(const Request& request) {
 LogsAsked logs_asked(const Request& request) {
   LogsAsked options;
   options.flight_logs = request.list("flights");
-  options.power_log = request.text_or("power", "");
-  options.whole_log = request.text_or("log", "");
+  if (const auto power = request.text_or("power", ""); !power.empty()) options.power_logs = {power};
+  if (const auto log = request.text_or("log", ""); !log.empty()) options.whole_logs = {log};
   options.batteries = request.list("batteries");
   options.free_flight = request.flag("free_flight");
   options.base = request.list("base");
@@ -126,7 +126,7 @@ ordered_json diagnose(const Request& request) {
   };
   draw("flight", options.flight_logs.size() == 1 ? options.flight_logs.front() : "flights",
        told.flight);
-  draw("power", options.power_log, told.power);
+  draw("power", options.power_logs.empty() ? "" : options.power_logs.front(), told.power);
   return {{"text", told_text(told, {})},
           {"result", told_json(told)},
           {"figures", std::move(figures)},

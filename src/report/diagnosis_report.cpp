@@ -373,7 +373,9 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
     return ordered_json{{"quantity", c.quantity},
                         {"unit", c.unit},
                         {"base_rmse", number_or_null(c.base_rmse)},
-                        {"extended_rmse", number_or_null(c.extended_rmse)}};
+                        {"extended_rmse", number_or_null(c.extended_rmse)},
+                        {"base_mean_ratio", number_or_null(c.base_mean_ratio)},
+                        {"extended_mean_ratio", number_or_null(c.extended_mean_ratio)}};
   });
   add_notes(out, d.notes);
   out["design_impact"] = nullptr;

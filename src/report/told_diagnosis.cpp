@@ -19,7 +19,7 @@ DiagnosisStudy studied(const AskedDiagnosis& asked, const LogsAsked& options,
   } catch (const UnsuitableLog& error) {
     throw InputError(error.kind() == LogKind::flight
                          ? fmt::format("{}", fmt::join(options.flight_logs, ", "))
-                         : options.power_log,
+                         : fmt::format("{}", fmt::join(options.power_logs, ", ")),
                      error.what());
   }
 }

@@ -36,7 +36,9 @@ class FlightDemands {
     const Design& design = flight.design();
     heated_ = is_heated(design.tether);
     convex_weight_ =
-        design.drone.reserve_battery.specific_energy == 0 || flight.motor().is_convex();
+        design.drone.reserve_battery.specific_energy == 0 ||
+        (flight.motor().is_convex() &&
+         !(flight.lands_in_wind() && design.drone.translational_lift.induced_share > 0));
   }
 
   [[nodiscard]] const SteadyFlight& flight() const { return flight_; }
@@ -44,7 +46,9 @@ class FlightDemands {
   [[nodiscard]] bool heated() const { return heated_; }
 
   /// N, the most that may be necessary, whatever the cable.
-  [[nodiscard]] double most_thrust() const { return flight_.most_thrust() / headroom_; }
+  [[nodiscard]] double most_thrust() const {
+    return flight_.most_thrust(flight_.power_share(0).value) / headroom_;
+  }
 
   struct Margin {
     double value = 0;      ///< relative; −1 where there is no steady state
@@ -57,10 +61,16 @@ class FlightDemands {
   [[nodiscard]] Margin margin(const ThrustAt& need, const ThrustAt& supply) const {
     const double asked = power_for_headroom(need);
     const double cold = flight_.tether().resistance(supply.radius);
-    const double power_margin = flight_.available_power(cold) / asked - 1;
+    double power_margin = flight_.available_power(cold) / asked - 1;
+    const auto rated_output = flight_.design().supply.converter.rated_output_power;
+    if (rated_output && flight_.share_changes()) {
+      const double output =
+          flight_.output_power(flight_.motor().power(headroom_ * need.thrust.value), need.share);
+      power_margin = std::min(power_margin, *rated_output / output - 1);
+    }
     if (!heated_ || power_margin < 0) return {power_margin};
-    const TetherHeatState state =
-        tether_.state(flight_.drone_power(need.thrust.value), supply.radius, need.radius);
+    const TetherHeatState state = tether_.state(flight_.drone_power(need.thrust.value, need.share),
+                                                supply.radius, need.radius);
     if (!state.steady) return {-1, infinity, infinity};
     const double least = flight_.available_power(state.resistance) / asked - 1;
     const auto rated = flight_.design().tether.insulation.rated_temperature_C;
@@ -76,7 +86,8 @@ class FlightDemands {
   /// −1 or 1 where the margin of a cold cable is certain to fall or to rise all the way from a to
   /// b, else 0.
   [[nodiscard]] int trend(const ThrustAt& a, const ThrustAt& b) const {
-    if (flight_.tether().is_solved()) return 0;  // nothing is known of how its load bends
+    // Nothing is known of how the load of a solved tether bends, nor a share of the power.
+    if (flight_.tether().is_solved() || flight_.share_changes()) return 0;
     if (!convex_weight_ && flight_.battery_piece(a.radius) != flight_.battery_piece(b.radius)) {
       return 0;
     }
@@ -96,7 +107,7 @@ class FlightDemands {
 
  private:
   [[nodiscard]] double power_for_headroom(const ThrustAt& need) const {
-    return flight_.drone_power(headroom_ * need.thrust.value);
+    return flight_.drone_power(headroom_ * need.thrust.value, need.share);
   }
 
   /// W at the converter's input for one more N of one motor, between a and b.
@@ -113,12 +124,13 @@ class FlightDemands {
       price.most = std::max(price.most, motor.slope(i));
     }
     // On a piece of the efficiency curve the slope of the input power is monotone.
-    const double from = flight_.output_power(motor.power(headroom_ * a.thrust.value));
-    const double to = flight_.output_power(motor.power(headroom_ * b.thrust.value));
+    const double from = flight_.output_power(motor.power(headroom_ * a.thrust.value), a.share);
+    const double to = flight_.output_power(motor.power(headroom_ * b.thrust.value), b.share);
     if (!std::isnan(converter_kink(converter, from, to))) return {0, infinity};
     const EfficiencyPiece piece = efficiency_piece(converter, 0.5 * (from + to));
     const auto [least, most] = std::minmax({piece.input_slope(from), piece.input_slope(to)});
-    return {price.least * flight_.output_power(least), price.most * flight_.output_power(most)};
+    return {price.least * flight_.output_power(least, a.share),
+            price.most * flight_.output_power(most, b.share)};
   }
 
   const SteadyFlight& flight_;
@@ -142,13 +154,13 @@ class RadiiSearch {
     const double most = demands_.most_thrust();
     // A hair's breadth more is what rounding makes of it.
     if (!(first.thrust.value <= most * (1 + 1e-12))) return;
-    const bool solved = flight.tether().is_solved();
-    if (solved) {
+    const bool may_fall = flight.tether().is_solved() || flight.share_changes();
+    if (may_fall) {
       lo = std::max(lo, demands_.needed_radius(least_up_to(flight, first, hi)));
       if (!(lo < hi)) return;
       first = thrust_at(flight, lo, first.tan_pitch);
     }
-    for (int step = 0; step < 8 && !solved;
+    for (int step = 0; step < 8 && !may_fall;
          ++step) {  // nothing is met up to the radius that would suffice
       const double needed = demands_.needed_radius(first);
       if (!(needed < hi)) return;
@@ -369,7 +381,9 @@ class BestHeadroomSearch {
   void search(double lo, double hi) {
     // Below, not even a millionth of what is necessary is available.
     const double necessary = flight_.necessary_thrust(flight_.weight(lo), 0);
-    lo = std::max(lo, flight_.radius_of_available_power(flight_.drone_power(1e-6 * necessary)));
+    const double least_share = flight_.power_share(0).value;
+    lo = std::max(
+        lo, flight_.radius_of_available_power(flight_.drone_power(1e-6 * necessary, least_share)));
     if (lo < hi) improve(look(thrust_at(flight_, lo, 0)), look(thrust_at(flight_, hi, 0)));
   }
 
@@ -388,7 +402,7 @@ class BestHeadroomSearch {
     Look here{at};
     double resistance = flight_.tether().resistance(at.radius);
     if (heated_) {
-      const double power = flight_.drone_power(at.thrust.value);
+      const double power = flight_.drone_power(at.thrust.value, at.share);
       if (supplied_power(flight_.design().supply.voltage, resistance, power) > 0) {
         const TetherHeatState state = tether_.state(power, at.radius, at.radius);
         if (!state.steady) return here;
@@ -397,7 +411,7 @@ class BestHeadroomSearch {
       }
     }
     here.arriving = flight_.available_power(resistance);
-    here.available = flight_.available_thrust(here.arriving);
+    here.available = flight_.available_thrust(here.arriving, at.share);
     here.headroom = here.available / at.thrust.value;
     if (here.headroom > best_.value) {
       const double area = conductor_area(at.radius);
@@ -438,16 +452,18 @@ class BestHeadroomSearch {
   /// No less than the headroom between a and b: that of the conductor at b with the load at a, or
   /// of a cold one, but less than 1, where the load cannot be delivered at all.
   [[nodiscard]] double most_headroom(const Look& a, const Look& b) const {
-    const double least = least_up_to(flight_, a.at, b.at.radius).thrust.value;
+    const ThrustAt least = least_up_to(flight_, a.at, b.at.radius);
     const auto over = [&](double resistance) {
-      return flight_.available_thrust(flight_.available_power(resistance)) / least;
+      return flight_.available_thrust(flight_.available_power(resistance), least.share) /
+             least.thrust.value;
     };
     const double cold = over(least_cold_resistance(flight_, a.at.radius, b.at.radius));
     if (!heated_ || cold <= best_.value) return cold;
-    const double warm = over(least_resistance(tether_, flight_, a.at.radius, least, b.at.radius));
+    const double warm = over(least_resistance(tether_, flight_, least, b.at.radius));
+    const double most_share = shares_between(flight_, a.at, b.at).second;
     const bool delivered =
         supplied_power(flight_.design().supply.voltage, flight_.tether().resistance(a.at.radius),
-                       flight_.drone_power(b.at.thrust.value)) > 0;
+                       flight_.drone_power(b.at.thrust.value, most_share)) > 0;
     return delivered ? warm : std::max(warm, std::min(1.0, cold));
   }
 
@@ -463,14 +479,18 @@ class BestHeadroomSearch {
       return lo * (1 + rounding) < radius && radius < hi * (1 - rounding);
     };
     if (a.available > 0 && a.available < b.available) {
-      const double most = flight_.most_thrust();
+      const double most = flight_.most_thrust(b.at.share);
       const double end = b.available < most ? nan : radius_of_available(most, a, b);
       if (inside(end)) return end;
-      const double kink = radius_of_available(thrust_kink(flight_, a.available, b.available), a, b);
+      // Where the share changes, a converter's kinks are left to the search for the hump.
+      const double share = flight_.share_changes() ? nan : a.at.share;
+      const double kink =
+          radius_of_available(thrust_kink(flight_, a.available, b.available, share), a, b);
       if (inside(kink)) return kink;
     }
     if (heated_) {
-      const double thrust = thrust_kink(flight_, a.at.thrust.value, b.at.thrust.value);
+      const double thrust = thrust_kink(flight_, a.at.thrust.value, b.at.thrust.value,
+                                        flight_.share_changes() ? nan : a.at.share);
       const double kink =
           std::isnan(thrust) ? nan : at_thrust(flight_, thrust, lo, hi, a.at).radius;
       if (inside(kink)) return kink;
@@ -482,21 +502,26 @@ class BestHeadroomSearch {
   /// would leave much less where a little power makes a leap of thrust.
   [[nodiscard]] double radius_of_available(double thrust, const Look& a, const Look& b) {
     if (std::isnan(thrust)) return nan;
-    const double power = flight_.drone_power(thrust) * (1 + 1e-14);
-    if (!heated_) return flight_.radius_of_available_power(power);
-    // One over the power is a line over one over the radius squared, but for the heat.
+    const auto power = [&](const Look& look) {
+      return flight_.drone_power(thrust, look.at.share) * (1 + 1e-14);
+    };
+    if (!heated_ && !flight_.share_changes()) return flight_.radius_of_available_power(power(a));
+    // One over the power is a line over one over the radius squared, but for the heat and for what
+    // the tilt adds to the power.
     Look lo = a;
     Look hi = b;
     double radius = nan;
     for (int step = 0; step < 8; ++step) {
-      const double share = (1 / power - 1 / hi.arriving) / (1 / lo.arriving - 1 / hi.arriving);
+      const double thinner = power(lo) / lo.arriving;
+      const double thicker = power(hi) / hi.arriving;
+      const double share = (1 - thicker) / (thinner - thicker);
       const double thin = 1 / (lo.at.radius * lo.at.radius);
       const double thick = 1 / (hi.at.radius * hi.at.radius);
       radius = 1 / std::sqrt(thick + share * (thin - thick));
       if (!(lo.at.radius < radius && radius < hi.at.radius)) break;
       const Look here = between(a, radius);
-      if (!(std::abs(here.arriving / power - 1) > 1e-13)) break;
-      (here.arriving < power ? lo : hi) = here;
+      if (!(std::abs(here.arriving / power(here) - 1) > 1e-13)) break;
+      (here.arriving < power(here) ? lo : hi) = here;
     }
     return radius;
   }
@@ -518,8 +543,8 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
       flight.radius_of_weight(1e6 * design.drone.motor_count * flight.motor().max_thrust());
   BestHeadroomSearch search(flight);
   const double least_weight = flight.lifted_without_tether();
-  const double asked = flight.radius_of_available_power(
-      flight.drone_power(1e-6 * flight.necessary_thrust(least_weight, 0)));
+  const double asked = flight.radius_of_available_power(flight.drone_power(
+      1e-6 * flight.necessary_thrust(least_weight, 0), flight.power_share(0).value));
   for (const Interval& range : radii_within_tilt(flight, heaviest, asked)) {
     search.search(range.lo, range.hi);
   }

@@ -27,20 +27,20 @@ double near_exp(double x) { return (2 + x) / (2 - x); }
 class ValleySearch {
  public:
   ValleySearch(const SteadyFlight& flight, const WarmTether& tether, const MotorCurve& motor,
-               Pieces pieces, Interval radii)
+               Pieces pieces, Interval radii, double share)
       : flight_(flight),
         tether_(tether),
         motor_(motor),
         vertices_(motor.vertices()),
         pieces_(pieces),
         per_voltage_(1 / flight.design().supply.voltage),
-        idle_(flight.input_power(0)),
-        input_slope_(flight.input_power(1) - idle_),
+        idle_(flight.input_power(0, 1)),
+        input_slope_(flight.input_power(1, 1) - idle_),
         constant_efficiency_(is_proportional(flight.design().supply.converter)),
         efficiency_(constant_efficiency_
                         ? EfficiencyPiece{}
                         : efficiency_piece(flight.design().supply.converter,
-                                           flight.output_power(motor.power(pieces.within)))),
+                                           flight.output_power(motor.power(pieces.within), share))),
         heated_(is_heated(flight.design().tether)),
         left_{radii.lo, false},
         right_{radii.hi, false} {}
@@ -54,7 +54,7 @@ class ValleySearch {
 
  private:
   [[nodiscard]] bool runs_away(const ThrustAt& at) const {
-    const double power = flight_.input_power(motor_.power(at.thrust.value));
+    const double power = flight_.input_power(motor_.power(at.thrust.value), at.share);
     return !tether_.state(power, at.radius, at.radius).steady;
   }
 
@@ -119,20 +119,27 @@ class ValleySearch {
   /// The trade, were the motor curve to follow `piece` everywhere.
   [[nodiscard]] Trade trade_at(const ThrustAt& at, std::size_t piece) const {
     const MotorPoint& start = vertices_[piece];
-    double slope = input_slope_ * motor_.slope(piece);  // W/N at the converter's input
-    double power = idle_ + input_slope_ * start.power + slope * (at.thrust.value - start.thrust);
+    const double beyond = at.thrust.value - start.thrust;
+    const double of_motor = start.power + motor_.slope(piece) * beyond;  // W of its sheet
+    double slope = input_slope_ * at.share * motor_.slope(piece);  // W/N at the converter's input
+    double power = idle_ + input_slope_ * at.share * start.power + slope * beyond;
+    double by_share = input_slope_ * of_motor;
     if (!constant_efficiency_) {
-      const double per_newton = flight_.output_power(motor_.slope(piece));
-      const double output =
-          flight_.output_power(start.power) + per_newton * (at.thrust.value - start.thrust);
+      const double per_newton = flight_.output_power(motor_.slope(piece), at.share);
+      const double output = flight_.output_power(start.power, at.share) + per_newton * beyond;
       power = flight_.design().drone.auxiliary_power + efficiency_.input_power(output);
       slope = per_newton * efficiency_.input_slope(output);
+      by_share = flight_.output_power(of_motor, 1) * efficiency_.input_slope(output);
+    }
+    double spent = slope * at.thrust.slope;
+    if (at.share_slope != 0 && at.thrust.slope < infinity) {
+      // Where a heavier drone leans less the power may fall: then any more radius pays.
+      spent = std::max(0.0, spent + by_share * at.share_slope);
     }
     const double resistance = flight_.tether().resistance(at.radius);
     if (heated_) {
       // To 1e-7: at the bottom the power is flat.
       const TetherHeatState state = tether_.state(power, at.radius, at.radius, 3e-4);
-      const double spent = slope * at.thrust.slope;
       if (state.steady) {
         return {-state.current * state.current * state.resistance_slope, spent};
       }
@@ -147,8 +154,7 @@ class ValleySearch {
     const double share = 1 + std::sqrt(std::max(0.0, discriminant));
     const double current_squared =
         discriminant >= 0 ? 4 * least_current * least_current : power / resistance;
-    return {-current_squared * flight_.tether().resistance_slope(at.radius),
-            slope * at.thrust.slope * share * share};
+    return {-current_squared * flight_.tether().resistance_slope(at.radius), spent * share * share};
   }
 
   /// About −d ln r/d ln(saved/spent) on `piece`: through the place before, where that was on the
@@ -176,6 +182,7 @@ class ValleySearch {
     there.radius = radius;
     there.tan_pitch = at.tan_guess(radius);
     there.thrust.value += at.thrust.slope * (radius - at.radius);
+    there.share += at.share_slope * (radius - at.radius);
     return there;
   }
 
@@ -246,14 +253,14 @@ class ValleySearch {
 ThrustAt valley_bottom(const SteadyFlight& flight, const WarmTether& tether,
                        const MotorCurve& motor, Pieces pieces, Interval radii,
                        const ThrustAt& start) {
-  return ValleySearch(flight, tether, motor, pieces, radii).bottom(start);
+  return ValleySearch(flight, tether, motor, pieces, radii, start.share).bottom(start);
 }
 
 /// +infinity where the motors cannot make the thrust or the line cannot deliver the power.
 double total_power(const SteadyFlight& flight, const WarmTether& tether, const ThrustAt& at,
                    double last_step = TetherHeat::finest_step) {
   const double voltage = flight.design().supply.voltage;
-  const double power = flight.drone_power(at.thrust.value);
+  const double power = flight.drone_power(at.thrust.value, at.share);
   if (is_heated(flight.design().tether)) {
     const TetherHeatState state = tether.state(power, at.radius, at.radius, last_step);
     return state.steady ? state.current * voltage : infinity;
@@ -303,18 +310,19 @@ class LeastPowerSearch {
   /// Last step of a heat balance where the power is only compared: its error is about the square.
   static constexpr double roughly = 1e-3;
 
-  /// Nothing is proved of warm cables, solved ones and of curved efficiencies, but between radii of
-  /// this ratio their power bends no more sharply than its parts.
+  /// Nothing is proved of warm cables, solved ones, of curved efficiencies and of a share of the
+  /// motors' power that changes with the tilt, but between radii of this ratio their power bends no
+  /// more sharply than its parts.
   static constexpr double narrow = 1.5;
   /// Of a cable that its winch hardly holds up, the length grows sharply before its end.
   static constexpr double narrow_by_winch = 1.02;
 
   /// With the thrust at `at` over a cold cable of `radius`.
   [[nodiscard]] double power_over(const ThrustAt& at, double radius) const {
-    const double thrust = least_up_to(flight_, at, radius).thrust.value;
+    const ThrustAt least = least_up_to(flight_, at, radius);
     return supplied_power(flight_.design().supply.voltage,
                           least_cold_resistance(flight_, at.radius, radius),
-                          flight_.drone_power(thrust));
+                          flight_.drone_power(least.thrust.value, least.share));
   }
 
   void improve(const Look& a, const Look& b) {
@@ -373,9 +381,10 @@ class LeastPowerSearch {
   }
 
   [[nodiscard]] double warm_power_over(const ThrustAt& at, double radius) const {
-    const double thrust = least_up_to(flight_, at, radius).thrust.value;
-    const double resistance = least_resistance(tether_, flight_, at.radius, thrust, radius);
-    return supplied_power(flight_.design().supply.voltage, resistance, flight_.drone_power(thrust));
+    const ThrustAt least = least_up_to(flight_, at, radius);
+    return supplied_power(flight_.design().supply.voltage,
+                          least_resistance(tether_, flight_, least, radius),
+                          flight_.drone_power(least.thrust.value, least.share));
   }
 
   [[nodiscard]] bool runs_away(const Look& look) const {
@@ -401,8 +410,10 @@ class LeastPowerSearch {
     const double battery =
         motor.is_convex() && !any_kink ? nan : battery_kink(flight_, a.radius, b.radius, any_kink);
     if (!std::isnan(battery)) return thrust_at(flight_, battery, a.tan_guess(battery));
-    const double thrust =
-        motor.is_convex() && !any_kink ? nan : thrust_kink(flight_, a.thrust.value, b.thrust.value);
+    const double thrust = motor.is_convex() && !any_kink
+                              ? nan
+                              : thrust_kink(flight_, a.thrust.value, b.thrust.value,
+                                            flight_.share_changes() ? nan : a.share);
     if (a.thrust.value < thrust && thrust < b.thrust.value) {
       const ThrustAt kink = at_thrust(flight_, thrust, a.radius, b.radius, a);
       if (a.radius < kink.radius && kink.radius < b.radius) return kink;
@@ -436,14 +447,15 @@ class LeastPowerSearch {
   [[nodiscard]] bool bends_up(const ThrustAt& a, const ThrustAt& b, const MotorCurve& motor,
                               bool one_piece) const {
     const Converter& converter = flight_.design().supply.converter;
-    const bool unproved = heated_ || flight_.tether().is_solved();
+    const bool unproved = heated_ || flight_.tether().is_solved() || flight_.share_changes();
     const bool by_winch = flight_.tether().is_solved() && flight_.design().tether.winch_pull > 0;
     if (unproved && !(b.radius < (by_winch ? narrow_by_winch : narrow) * a.radius)) return false;
     if (is_proportional(converter)) return true;
     const double lo = motor.power(a.thrust.value);
     const double hi = motor.power(b.thrust.value);
-    if (!std::isnan(converter_kink(converter, flight_.output_power(lo), flight_.output_power(hi),
-                                   one_piece))) {
+    const auto [less, more] = shares_between(flight_, a, b);
+    if (!std::isnan(converter_kink(converter, flight_.output_power(lo, less),
+                                   flight_.output_power(hi, more), one_piece))) {
       return false;
     }
     // A slope that an efficiency bends down may vanish again beyond a kink that bends it up.
@@ -453,8 +465,8 @@ class LeastPowerSearch {
     if (b.radius < narrow * a.radius && !kinked) return true;
     // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
     // efficiency gains twice over where it rises with the load.
-    const double low = efficiency_at(converter, flight_.output_power(lo));
-    const double high = efficiency_at(converter, flight_.output_power(hi));
+    const double low = efficiency_at(converter, flight_.output_power(lo, a.share));
+    const double high = efficiency_at(converter, flight_.output_power(hi, b.share));
     const double gain = std::max(0.0, (high - low) / (hi - lo));
     const double more_power = motor.slope(pieces.last) * b.thrust.slope;
     return !(3 * low < 2 * gain * more_power * b.radius);
@@ -478,7 +490,7 @@ double first_guess(const SteadyFlight& flight, double lightest, double thrust, d
   // With the current and the price of thrust of the lightest tether, and as if only the conductor
   // had mass: r⁴ = I²·saved/(price·curvature).
   const double current = power / voltage;
-  const double price = (flight.input_power(1) - flight.input_power(0)) *
+  const double price = (flight.input_power(1, 1) - flight.input_power(0, 1)) *
                        motor.slope(motor.piece(thrust)) * design.flight.gravity /
                        design.drone.motor_count;
   const double saved = -flight.tether().straight().resistance_slope(1);
@@ -502,9 +514,14 @@ double least_weight(const SteadyFlight& flight, double lightest) {
   return flight.tether().is_solved() ? flight.lifted_without_tether() : flight.weight(lightest);
 }
 
-/// The radius from which on the line delivers what the motors need to hover with `weight`.
+/// What the motors need at least to carry `weight`: level.
+double least_hover_power(const SteadyFlight& flight, double weight) {
+  return flight.drone_power(flight.necessary_thrust(weight, 0), flight.power_share(0).value);
+}
+
+/// The radius from which on the line delivers that.
 double delivering_radius(const SteadyFlight& flight, double weight) {
-  const double power = flight.drone_power(flight.necessary_thrust(weight, 0));
+  const double power = least_hover_power(flight, weight);
   const double voltage = flight.design().supply.voltage;
   return flight.tether().radius_of_resistance(voltage * voltage / (4 * power));
 }
@@ -520,14 +537,15 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
       std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
   if (!(lightest <= radii.hi)) return none;
   const double weight = least_weight(flight, lightest);
-  if (!(flight.drone_power(flight.necessary_thrust(weight, 0)) < infinity)) return none;
+  if (!(least_hover_power(flight, weight) < infinity)) return none;
   radii.lo = std::max(lightest, delivering_radius(flight, weight));
   if (!(radii.lo <= radii.hi)) return none;
 
   const double thrust =
       std::min(motor.max_thrust(),
                flight.necessary_thrust(weight, flight.level_drag_tan_pitch(lightest, weight)));
-  const double guess = first_guess(flight, lightest, thrust, flight.drone_power(thrust));
+  const double guess = first_guess(flight, lightest, thrust,
+                                   flight.drone_power(thrust, flight.power_share(0).value));
   const double start = guess > radii.lo && guess < radii.hi ? guess : 0.5 * (radii.lo + radii.hi);
   const MotorCurve& convex = motor.convex_hull();
   const WarmTether tether(flight);
@@ -542,9 +560,9 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
     is_bottom = is_proportional(design.supply.converter);
     if (is_bottom) break;
     const auto [lo, hi] = std::minmax(within, best.thrust.value);
-    is_bottom =
-        std::isnan(converter_kink(design.supply.converter, flight.output_power(convex.power(lo)),
-                                  flight.output_power(convex.power(hi))));
+    is_bottom = std::isnan(converter_kink(design.supply.converter,
+                                          flight.output_power(convex.power(lo), best.share),
+                                          flight.output_power(convex.power(hi), best.share)));
     within = best.thrust.value;
   }
   LeastPowerSearch search(flight, tether, best, is_bottom);
@@ -576,7 +594,8 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
 
 bool hull_is_one_valley(const Design& design) {
   return design.tether.model == TetherModel::straight && is_proportional(design.supply.converter) &&
-         !is_heated(design.tether) && design.drone.reserve_battery.specific_energy == 0;
+         !is_heated(design.tether) && design.drone.reserve_battery.specific_energy == 0 &&
+         design.drone.translational_lift.induced_share == 0;
 }
 
 MinimumPower lesser(const MinimumPower& a, const MinimumPower& b) {

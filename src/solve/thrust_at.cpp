@@ -9,7 +9,13 @@ namespace tethercalc {
 
 ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
   const SteadyFlight::Balance balance = flight.balance(radius, tan_guess);
-  return {radius, balance.tan_pitch, balance.thrust};
+  ThrustAt at{radius, balance.tan_pitch, balance.thrust};
+  if (flight.share_changes() && balance.tan_pitch < infinity) {
+    const PowerShare share = flight.power_share(balance.tan_pitch);
+    at.share = share.value;
+    at.share_slope = share.slope * balance.thrust.tan_slope;
+  }
+  return at;
 }
 
 ThrustAt at_thrust(const SteadyFlight& flight, double thrust, double lo, double hi, ThrustAt from) {
@@ -47,13 +53,28 @@ ThrustAt with_more_load(const SteadyFlight& flight, ThrustAt at, double share) {
 }  // namespace
 
 ThrustAt least_up_to(const SteadyFlight& flight, const ThrustAt& at, double radius) {
-  if (!flight.tether().is_solved()) return at;
-  return with_more_load(flight, at, left_of_load(at.radius, radius) - 1);
+  const bool solved = flight.tether().is_solved();
+  const double left = solved ? left_of_load(at.radius, radius) : 1;
+  ThrustAt least = solved ? with_more_load(flight, at, left - 1) : at;
+  if (flight.share_changes()) {
+    // The load at any radius in between is at most that at the upper end over what is left of it.
+    const double heavier = solved ? (1 / left - 1) * flight.tether().load(radius).down : 0;
+    least.share =
+        flight.power_share(flight.least_tan_pitch({at.radius, radius}, heavier, left)).value;
+  }
+  return least;
 }
 
 ThrustAt most_down_to(const SteadyFlight& flight, const ThrustAt& at, double radius) {
-  if (!flight.tether().is_solved()) return at;
-  return with_more_load(flight, at, 1 / left_of_load(radius, at.radius) - 1);
+  const bool solved = flight.tether().is_solved();
+  const double left = solved ? left_of_load(radius, at.radius) : 1;
+  ThrustAt most = solved ? with_more_load(flight, at, 1 / left - 1) : at;
+  if (flight.share_changes()) {
+    const double lighter = solved ? (1 - left) * flight.tether().load(radius).down : 0;
+    const double tangent = flight.most_tan_pitch({radius, at.radius}, lighter, 1 / left);
+    most.share = tangent < infinity ? flight.power_share(tangent).value : infinity;
+  }
+  return most;
 }
 
 namespace {
@@ -126,6 +147,12 @@ std::size_t bent_battery_piece(const SteadyFlight& flight, double lo, double hi,
 
 }  // namespace
 
+std::pair<double, double> shares_between(const SteadyFlight& flight, const ThrustAt& a,
+                                         const ThrustAt& b) {
+  if (!flight.share_changes()) return {a.share, b.share};
+  return {least_up_to(flight, a, b.radius).share, most_down_to(flight, b, a.radius).share};
+}
+
 Pieces pieces_between(const MotorCurve& motor, double lo, double hi) {
   const std::size_t first = motor.piece(lo * (1 + kink_rounding));
   return {first, std::max(first, motor.piece(hi * (1 - kink_rounding))), 0.5 * (lo + hi)};
@@ -148,16 +175,17 @@ double converter_kink(const Converter& converter, double lo, double hi, bool of_
   return nan;
 }
 
-double thrust_kink(const SteadyFlight& flight, double lo, double hi) {
+double thrust_kink(const SteadyFlight& flight, double lo, double hi, double share) {
   const MotorCurve& motor = flight.motor();
   const Pieces pieces = pieces_between(motor, lo, hi);
   if (pieces.first != pieces.last) {
     return motor.vertices()[pieces.first + (pieces.last - pieces.first + 1) / 2].thrust;
   }
+  if (std::isnan(share)) return nan;
   return motor.thrust(converter_kink(flight.design().supply.converter,
-                                     flight.output_power(motor.power(lo)),
-                                     flight.output_power(motor.power(hi))) /
-                      flight.output_power(1));
+                                     flight.output_power(motor.power(lo), share),
+                                     flight.output_power(motor.power(hi), share)) /
+                      flight.output_power(1, share));
 }
 
 bool battery_bends(const SteadyFlight& flight, double lo, double hi, bool either_way) {
@@ -193,10 +221,11 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
   const double lo = headroom * a.thrust.value;
   const double hi = headroom * b.thrust.value;
   const Pieces pieces = pieces_between(motor, lo, hi);
+  const auto [less, more] = shares_between(flight, a, b);
   return pieces.first == pieces.last &&
          std::isnan(converter_kink(flight.design().supply.converter,
-                                   flight.output_power(motor.power(lo)),
-                                   flight.output_power(motor.power(hi)))) &&
+                                   flight.output_power(motor.power(lo), less),
+                                   flight.output_power(motor.power(hi), more))) &&
          !battery_bends(flight, a.radius, b.radius);
 }
 
@@ -229,10 +258,11 @@ double least_cold_resistance(const SteadyFlight& flight, double thinner, double 
   return tether.contact_resistance() + shorter / (thicker * thicker);
 }
 
-double least_resistance(const WarmTether& tether, const SteadyFlight& flight, double thinner,
-                        double thrust, double thicker) {
+double least_resistance(const WarmTether& tether, const SteadyFlight& flight, const ThrustAt& least,
+                        double thicker) {
+  const double thinner = least.radius;
   const double cold = least_cold_resistance(flight, thinner, thicker);
-  const double power = flight.drone_power(thrust);
+  const double power = flight.drone_power(least.thrust.value, least.share);
   if (!is_heated(flight.design().tether) || !(power < infinity)) return cold;
   const double of_shorter = cold / flight.tether().resistance(thicker);
   const TetherHeatState state = tether.state(power, thicker, thinner);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "tethercalc/model/steady_flight.hpp"
@@ -15,6 +16,8 @@ struct ThrustAt {
   double radius = 0;
   double tan_pitch = 0;
   SteadyFlight::Thrust thrust;
+  double share = 1;        ///< `SteadyFlight::power_share` there
+  double share_slope = 0;  ///< its derivative by the radius
 
   /// Where to look for the tangent of the tilt at a radius nearby.
   [[nodiscard]] double tan_guess(double at_radius) const {
@@ -33,7 +36,8 @@ struct ThrustAt {
 
 /// No more than what is necessary at any radius from `at`'s up to `radius`, and no less at any from
 /// `at`'s down to `radius`: the thrust at `at`, which never falls with the radius, of a solved
-/// tether less or plus what its load may fall by (`HangingLoad`).
+/// tether less or plus what its load may fall by (`HangingLoad`). Its share of the motors' power is
+/// that of the least tilt in between, or of the greatest.
 [[nodiscard]] ThrustAt least_up_to(const SteadyFlight& flight, const ThrustAt& at, double radius);
 [[nodiscard]] ThrustAt most_down_to(const SteadyFlight& flight, const ThrustAt& at, double radius);
 
@@ -58,9 +62,13 @@ struct Pieces {
 [[nodiscard]] double converter_kink(const Converter& converter, double lo, double hi,
                                     bool of_any_kind = true);
 
-/// A thrust strictly between two where the power for it has a kink, by the motors or the converter;
-/// NaN where there is none.
-[[nodiscard]] double thrust_kink(const SteadyFlight& flight, double lo, double hi);
+/// A thrust strictly between two where the power for it has a kink, by the motors or, with that
+/// share of their power, by the converter; NaN where there is none.
+[[nodiscard]] double thrust_kink(const SteadyFlight& flight, double lo, double hi, double share);
+
+/// No more and no less than the share of the motors' power at any radius between two.
+[[nodiscard]] std::pair<double, double> shares_between(const SteadyFlight& flight,
+                                                       const ThrustAt& a, const ThrustAt& b);
 
 /// Whether the reserve battery's mass bends down strictly between two radii, or bends either way.
 [[nodiscard]] bool battery_bends(const SteadyFlight& flight, double lo, double hi,
@@ -99,11 +107,11 @@ class WarmTether {
 [[nodiscard]] double least_cold_resistance(const SteadyFlight& flight, double thinner,
                                            double thicker);
 
-/// No more than the loop's resistance, Ω, at any radius between a `thinner` one, where `thrust` N
-/// per motor are necessary, and a `thicker` one; +infinity where the current heats the cable
+/// No more than the loop's resistance, Ω, at any radius from that of `least`, which is no more than
+/// is necessary at any of them, up to a `thicker` one; +infinity where the current heats the cable
 /// without end at all of them.
 [[nodiscard]] double least_resistance(const WarmTether& tether, const SteadyFlight& flight,
-                                      double thinner, double thrust, double thicker);
+                                      const ThrustAt& least, double thicker);
 
 /// m, thinner conductors than which are not looked at: 3e-10 mm².
 constexpr double thinnest_radius = 1e-8;

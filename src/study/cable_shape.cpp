@@ -39,7 +39,7 @@ LoadedHover hover_under(const SteadyFlight& flight, double radius, double paid_o
   const double tangent = std::hypot(forward, across / weight);
   out.pitch = std::atan(tangent);
   out.thrust = flight.necessary_thrust(weight, tangent);
-  out.drone_power = flight.drone_power(out.thrust);
+  out.drone_power = flight.drone_power(out.thrust, flight.power_share(tangent).value);
   FlightState laid_out = flight.state();
   laid_out.deployed = paid_out;
   const double resistance = SteadyFlight(design, laid_out).tether().resistance(radius);

@@ -1,6 +1,8 @@
 #include "hidden_effects/one_flight.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 
@@ -49,6 +51,7 @@ DiagnosisQuestion one_flight_of(const HiddenDrone& hidden) {
   scenario.track.airspeed = std::move(flown.airspeed);
   for (const double lift : flown.specific_lift) {
     scenario.track.thrust.push_back(flight.mass * lift);
+    scenario.track.tilt.push_back(std::acos(std::min(1.0, 9.80665 / lift)));
   }
   question.power = LoggedPower{power_truth::as_power_log(power_truth::simulate(scenario))};
   if (!hidden.whole_chain) question.power->log.drone_voltage.clear();

@@ -49,16 +49,20 @@ double kg_per_metre(const Rig& rig) {
   return 2 * (2700 * rig.area + 1360 * (outer_area - rig.area));
 }
 
-/// W at the bus for a thrust in N, without the random deviation.
-double motor_power_at(const Rig& rig, const HiddenEffects& hidden, double thrust, double speed) {
+/// W at the bus for a thrust in N, leaning by `angle`, without the random deviation.
+double motor_power_at(const Rig& rig, const HiddenEffects& hidden, double thrust, double speed,
+                      double angle) {
   const double thrust_g = thrust / 4 / gravity * 1000;
-  // Glauert's level-flight momentum theory: v_i·√(v² + v_i²) = v_h².
+  // Glauert's momentum theory: v_i·√((v cosα)² + (v sinα + v_i)²) = v_h².
+  const double through = speed * std::sin(angle);
   double induced = hidden.induced_speed;
   for (int i = 0; i < 200; ++i) {
-    const double next = hidden.induced_speed * hidden.induced_speed / std::hypot(speed, induced);
+    const double next = hidden.induced_speed * hidden.induced_speed /
+                        std::hypot(speed * std::cos(angle), through + induced);
     induced = 0.5 * (induced + next);
   }
-  const double relief = 1 - hidden.translational_lift * (1 - induced / hidden.induced_speed);
+  const double relief =
+      1 - hidden.translational_lift * (1 - (induced + through) / hidden.induced_speed);
   // Rankine and Froude: induced power goes with the inverse root of the density.
   return 4 * rig.motor_size * motor_watts(thrust_g / rig.motor_size) * hidden.motor_power_factor *
          relief / std::sqrt(hidden.air_density_factor);
@@ -81,7 +85,7 @@ double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, d
     const double drag = 0.5 * density * area * (speed * speed + 19.27 * speed);
     angle = std::atan((drag + tether_drag) / weight);
   }
-  return motor_power_at(rig, hidden, weight / std::cos(angle), speed);
+  return motor_power_at(rig, hidden, weight / std::cos(angle), speed, angle);
 }
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
@@ -160,9 +164,10 @@ Log simulate(const Scenario& scenario) {
       h = scenario.track.height[i];
       v = scenario.track.airspeed[i];
     }
-    double power = (tracked ? motor_power_at(rig, hidden, scenario.track.thrust[i], v)
-                            : motor_power(rig, hidden, h, v, dropped)) *
-                   (1 + deviation);
+    double power =
+        (tracked ? motor_power_at(rig, hidden, scenario.track.thrust[i], v, scenario.track.tilt[i])
+                 : motor_power(rig, hidden, h, v, dropped)) *
+        (1 + deviation);
     if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
     power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
     power *= 1 + hidden.motor_power_growth * share;

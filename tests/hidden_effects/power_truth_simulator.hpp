@@ -88,6 +88,7 @@ struct Scenario {
     std::vector<double> height;    ///< m
     std::vector<double> airspeed;  ///< m/s
     std::vector<double> thrust;    ///< N, of all motors
+    std::vector<double> tilt;      ///< rad, of their discs
   };
   Track track{};
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "tethercalc/diagnose/power_log.hpp"
@@ -42,6 +43,23 @@ TEST_CASE("the documented columns of a log in CSV are those that are read, in th
   REQUIRE(begin != std::string::npos);
   const auto end = text.find("\n\n", begin);
   CHECK(text.substr(begin + head.size(), end + 1 - begin - head.size()) == expected);
+}
+
+TEST_CASE("the documented units of --columns are those that are read") {
+  const std::string text = page();
+  for (const LogCsvUnit& unit : log_csv_units()) {
+    const std::string own = fmt::format("`_{}`", unit.own);
+    const std::string other = fmt::format("`_{}`", unit.other);
+    INFO(own << " " << other);
+    bool told = false;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      const auto at = line.find(own);
+      told = told || (line.starts_with("| `_") && at != std::string::npos &&
+                      line.find(other, at) != std::string::npos);
+    }
+    CHECK(told);
+  }
 }
 
 TEST_CASE("every channel of a power log has a column, and no name stands twice") {

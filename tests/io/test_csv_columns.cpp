@@ -1,6 +1,9 @@
 // CSV: what is accepted, and what every refusal says.
+#include <fmt/format.h>
+
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -100,9 +103,9 @@ TEST_CASE("a number with anything behind or before it is not a number") {
 
 TEST_CASE("header problems name the column, and the closest known one") {
   CHECK(problems_of("time,load_N\n0,1\n") ==
-        "run.csv:1: unknown column \"time\", known are time_s,load_N,note_V; did you mean "
-        "\"time_s\"?\n"
-        "run.csv:1: column \"time_s\" is missing from the header");
+        "run.csv:1: unknown column \"time\"; did you mean \"time_s\"?\n"
+        "run.csv:1: column \"time_s\" is missing from the header\n"
+        "run.csv:1: known columns are time_s,load_N,note_V");
   CHECK(problems_of("time_s,load_N,load_N\n0,1,1\n") ==
         "run.csv:1: column \"load_N\" appears twice");
 }
@@ -257,6 +260,131 @@ TEST_CASE(
   CHECK_THAT(ground.notes.front().sentence, Catch::Contains("ground speed is taken as airspeed"));
   CHECK_THROWS_WITH(read("time_s,bus_power_W\n1,450\n"),
                     Catch::Contains("column \"airspeed_m_s\" is missing"));
+}
+
+TEST_CASE("an attitude may be a quaternion") {
+  const std::string header =
+      "time_s,quaternion_w,quaternion_x,quaternion_y,quaternion_z,vn_m_s,ve_m_s,vd_m_s\n";
+  const auto row = [](int time, double w, double x, double y, double z) {
+    return fmt::format("{},{:.15g},{:.15g},{:.15g},{:.15g},1,2,3\n", time, w, x, y, z);
+  };
+  // Half of each angle, about one axis each; the last is a yaw of 90° after a pitch of 40°.
+  const double c = std::cos(20 * unit::degree);
+  const double s = std::sin(20 * unit::degree);
+  const double r = std::sqrt(0.5);
+  const FlightLog log =
+      parse_flight_log(bytes_of(header + row(0, c, s, 0, 0) + row(1, c, 0, s, 0) +
+                                row(2, c, 0, 0, s) + row(3, r * c, -r * s, r * s, r * c)),
+                       "log.csv")
+          .log;
+  const std::vector<std::array<double, 3>> degrees{{40, 0, 0}, {0, 40, 0}, {0, 0, 40}, {0, 40, 90}};
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    INFO(i);
+    CHECK(log.roll[i] == Approx(degrees[i][0] * unit::degree).margin(1e-12));
+    CHECK(log.pitch[i] == Approx(degrees[i][1] * unit::degree).margin(1e-12));
+    CHECK(log.yaw[i] == Approx(degrees[i][2] * unit::degree).margin(1e-12));
+  }
+  CHECK(flight_problems(header + "0,1,0,0,0,1,2,3\n1,0,0,0,0,1,2,3\n") ==
+        "flight.csv:3: the quaternion's length is 0, expected 1");
+  CHECK_THAT(flight_problems("time_s,quaternion_w,vn_m_s,ve_m_s,vd_m_s\n0,1,1,2,3\n"),
+             Catch::Contains("column \"quaternion_x\" is missing"));
+  CHECK_THAT(flight_problems("yaw_deg," + header + "0,1,0,0,0,1,2,3,4\n"),
+             Catch::Contains("go without yaw_deg"));
+}
+
+TEST_CASE("a velocity may be along the drone's own axes") {
+  const std::string header =
+      "time_s,roll_deg,pitch_deg,yaw_deg,body_forward_m_s,body_right_m_s,body_down_m_s\n";
+  const FlightLog log = parse_flight_log(bytes_of(header +
+                                                  // ahead to the north-east, level
+                                                  "0,0,0,45,2,0,0\n"
+                                                  // nose up to the east: forward is up, too
+                                                  "1,0,30,90,2,0,0\n"
+                                                  // on its right side: right is down, down is west
+                                                  "2,90,0,0,0,3,1\n"),
+                                         "log.csv")
+                            .log;
+  const double root = std::sqrt(2.0);
+  CHECK(log.north_velocity[0] == Approx(root));
+  CHECK(log.east_velocity[0] == Approx(root));
+  CHECK(log.down_velocity[0] == Approx(0).margin(1e-12));
+  CHECK(log.north_velocity[1] == Approx(0).margin(1e-12));
+  CHECK(log.east_velocity[1] == Approx(std::sqrt(3.0)));
+  CHECK(log.down_velocity[1] == Approx(-1));
+  CHECK(log.north_velocity[2] == Approx(0).margin(1e-12));
+  CHECK(log.east_velocity[2] == Approx(-1));
+  CHECK(log.down_velocity[2] == Approx(3));
+}
+
+TEST_CASE("an airspeed with the direction that the air comes from is a measured wind") {
+  const std::string header =
+      flight_header.substr(0, flight_header.size() - 1) + ",airspeed_m_s,air_from_deg\n";
+  // To the north at 4 m/s with 5 m/s of air from the east: it moves 4 to the north, 5 to the west.
+  const FlightLog log = parse_flight_log(bytes_of(header + "0,0,0,0,4,0,0,5,90\n"), "log.csv").log;
+  CHECK(log.north_wind.front() == Approx(4));
+  CHECK(log.east_wind.front() == Approx(-5));
+  const std::string both =
+      header.substr(0, header.size() - 1) + ",airspeed_forward_m_s\n0,0,0,0,1,2,3,4,5,6\n";
+  CHECK_THAT(flight_problems(both),
+             Catch::Contains("airspeed_forward_m_s and air_from_deg go without each other"));
+}
+
+TEST_CASE("columns of other names and units are read by what --columns says of them") {
+  const std::string text = "t,yaw_deg,psi,v,climb,amp,remark\n0,7,0.5,36,2,150,a\n";
+  const std::vector<std::string> columns{"time_ms=t",     "yaw_rad = psi", "vn_km_h=v",
+                                         "vd_m_s=-climb", "ve_m_s=amp",    "pitch_deg=yaw_deg"};
+  const FlightLogReading reading = parse_flight_log(
+      bytes_of(text), "log.csv", {.level_where_missing = true, .columns = columns});
+  CHECK(reading.log.time.front() == 0);
+  CHECK(reading.log.yaw.front() == Approx(0.5));
+  CHECK(reading.log.pitch.front() == Approx(7 * unit::degree));  // not a heading any more
+  CHECK(reading.log.north_velocity.front() == Approx(10));
+  CHECK(reading.log.down_velocity.front() == -2);
+  REQUIRE(reading.notes.size() == 2);
+  CHECK(reading.notes.front().sentence == "not used: the columns remark");
+
+  const PowerLog power =
+      parse_power_log(bytes_of("ms,knots,mA,U,F\n1500,10,2000,12,50\n"), "log.csv",
+                      {.free_flight = true,
+                       .columns = {"time_ms=ms", "airspeed_kn=knots", "bus_current_mA=mA",
+                                   "bus_voltage_V=U", "ambient_temperature_F=F"}})
+          .log;
+  CHECK(power.time.front() == Approx(1.5));
+  CHECK(power.airspeed.front() == Approx(5.14444).epsilon(1e-5));
+  CHECK(bus_power_of(power).front() == Approx(24));
+  CHECK(power.ambient_temperature_C.front() == Approx(10));
+}
+
+TEST_CASE("all that is wrong with --columns is told at once, with the closest name") {
+  const auto problems = [](const std::vector<std::string>& columns) -> std::string {
+    try {
+      (void)parse_power_log(bytes_of("t,speed,p\n0,1,2\n"), "log.csv",
+                            {.free_flight = true, .columns = columns});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  CHECK(problems({"time_s=t", "airspeed_m_s=speed", "bus_power_W=p"}) == "accepted");
+  const std::string all = problems({"time_s=tt", "airsped_m_s=speed", "airspeed_kg=speed", "p"});
+  CHECK_THAT(all, Catch::Contains("log.csv:1: there is no column \"tt\" for time_s"));
+  CHECK_THAT(all, Catch::Contains("--columns: \"airsped_m_s\" is no column of a log") &&
+                      Catch::Contains("did you mean \"airspeed_m_s\"?"));
+  CHECK_THAT(all, Catch::Contains("\"airspeed_kg\" has no unit of airspeed_m_s; allowed are "
+                                  "airspeed_m_s, airspeed_km_h"));
+  CHECK_THAT(all, Catch::Contains("\"p\" does not say what a column holds"));
+  CHECK_THAT(problems({"time_s=t", "airspeed_m_s=speed", "airspeed_kn=p"}),
+             Catch::Contains("airspeed_m_s is given twice"));
+  CHECK_THAT(problems({"time_s=t", "airspeed_m_s=p", "bus_power_W=p"}),
+             Catch::Contains("the column \"p\" is given twice"));
+  CHECK_THAT(problems({"time_s=t", "bus_power_W=p"}),
+             Catch::Contains("column \"airspeed_m_s\" is missing"));
+  // Cells are told by both names.
+  CHECK_THROWS_WITH(
+      parse_power_log(
+          bytes_of("t,speed,p\n0,1,x\n"), "log.csv",
+          {.free_flight = true, .columns = {"time_s=t", "airspeed_m_s=speed", "bus_power_W=p"}}),
+      "log.csv:2: bus_power_W (p) is \"x\", expected a number such as -1.25");
 }
 
 TEST_CASE("a file that is not there is refused with the system's reason") {

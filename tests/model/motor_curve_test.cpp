@@ -131,3 +131,44 @@ TEST_CASE("a curve in other air is the same curve in thrusts and powers times th
   });
   CHECK(MotorCurve().in_air(0.5).max_thrust() == 0);
 }
+
+TEST_CASE("the air through a leaning disc solves Glauert's equation, and the slope is its own") {
+  for (const double mu : {0.01, 0.3, 1.0, -2.5, 8.0, 40.0}) {
+    CHECK(inflow_ratio(mu, 0).ratio == Approx(induced_velocity_ratio(mu)).epsilon(1e-14));
+    double before = 0;
+    for (const double tangent : {0.0, 1e-6, 0.05, 0.3, 1.0, 6.0}) {
+      INFO(mu << " " << tangent);
+      const double angle = std::atan(tangent);
+      const double through = std::abs(mu) * std::sin(angle);
+      const Inflow inflow = inflow_ratio(mu, tangent);
+      const double induced = inflow.ratio - through;
+      CHECK(induced > 0);
+      CHECK(induced * std::hypot(mu * std::cos(angle), inflow.ratio) == Approx(1).epsilon(1e-10));
+      CHECK(inflow.ratio >= before);  // leaning costs
+      before = inflow.ratio;
+      constexpr double step = 1e-5;
+      const double by_steps =
+          (inflow_ratio(mu, tangent + step).ratio - inflow_ratio(mu, tangent).ratio) / step;
+      CHECK(inflow.slope == Approx(by_steps).epsilon(1e-3).margin(1e-4 * std::abs(mu)));
+    }
+  }
+}
+
+TEST_CASE(
+    "the air through a disc is that of hover at rest, and of a climb where it stands upright") {
+  CHECK(inflow_ratio(0, 0.5).ratio == 1);
+  // An axial climb of twice the hover's induced speed: v_c/2 + √(v_c²/4 + 1) (Leishman, 2.13).
+  CHECK(inflow_ratio(2, 1e9).ratio == Approx(1 + std::sqrt(2.0)));
+}
+
+TEST_CASE("motors that lean take the drag's power on top of what level discs take") {
+  const TranslationalLift lift{0.6, 7};
+  // Fast, little is induced: then s·v·sinα/v_h of the power is the drag times the airspeed.
+  const double tangent = 0.25;
+  const double sine = tangent / std::sqrt(1 + tangent * tangent);
+  const double more = translational_lift_share(lift, 50, tangent).value -
+                      translational_lift_share(lift, 50, 0).value;
+  CHECK(more == Approx(0.6 * 50 * sine / 7).epsilon(0.03));
+  CHECK(translational_lift_share({0, 7}, 20, 0.5).value == 1);  // neutral
+  CHECK(translational_lift_share(lift, 0, 0.5).value == 1);
+}

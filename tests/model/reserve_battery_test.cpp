@@ -69,7 +69,7 @@ TEST_CASE("the battery holds up the drone, the whole tether and itself, for as l
         0, test::plain::pi / 2);
     const double power =
         design.drone.motor_count * design.drone.motor_power_factor *
-            translational_lift_factor(design.drone.translational_lift, wind) *
+            translational_lift_share(design.drone.translational_lift, wind, std::tan(tilt)).value *
             design.drone.motor.power(weight / std::cos(tilt) / design.drone.motor_count) +
         design.drone.auxiliary_power;
     const double energy = p.battery_mass * battery.specific_energy;

@@ -104,11 +104,13 @@ inline Point evaluate(const Design& d, double area, Condition condition) {
   p.pitch = v < 0 ? -theta : theta;
 
   const double n = d.drone.motor_count;
-  // Glauert's induced velocity in level flight: ν√(μ² + ν²) = 1.
-  const double mu = v / d.drone.translational_lift.hover_induced_speed;
-  const double induced = bisect([&](double nu) { return nu * std::hypot(mu, nu) - 1; }, 0, 1);
-  const double f =
-      d.drone.motor_power_factor * (1 - d.drone.translational_lift.induced_share * (1 - induced));
+  // Glauert's induced velocity of a disc that leans by θ: ν√((μ cosθ)² + (μ sinθ + ν)²) = 1.
+  const double mu = std::abs(v) / d.drone.translational_lift.hover_induced_speed;
+  const double through = mu * std::sin(theta);
+  const double induced = bisect(
+      [&](double nu) { return nu * std::hypot(mu * std::cos(theta), through + nu) - 1; }, 0, 1);
+  const double f = d.drone.motor_power_factor *
+                   (1 - d.drone.translational_lift.induced_share * (1 - induced - through));
   const double u = d.supply.voltage;
   const double u_min = std::max(d.supply.converter.min_input_voltage, u / 2);
   p.available_power = u_min * (u - u_min) / p.resistance;

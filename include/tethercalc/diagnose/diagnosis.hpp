@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -134,6 +135,9 @@ struct HoldoutComparison {
   std::string unit;          ///< of both errors
   double base_rmse = 0;      ///< of the base model
   double extended_rmse = 0;  ///< with the findings
+  /// Mean held-out prediction over mean measurement, in a power log; NaN elsewhere.
+  double base_mean_ratio = std::numeric_limits<double>::quiet_NaN();
+  double extended_mean_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// How much of the base model's held-out squared error has which origin, in percent. The parts of

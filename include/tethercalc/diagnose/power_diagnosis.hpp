@@ -34,7 +34,8 @@ inline constexpr double shortest_power_log = 180;
 /// mass. It is then one more comparison, of the stage "airframe": a heavier drone leans less, one
 /// with hungrier motors as before. `Diagnosis::drag_by_tilt` is what was compared, and the drag of
 /// the extended design what it comes to for a drone of that design's mass. A flight that tells its
-/// drag from none no better than that stays out, with a note.
+/// drag from none no better than that stays out, with a note. A design whose drag is an estimate is
+/// given that of the tilt at its mass, and judged with it, and nothing is compared.
 ///
 /// Compared are the stages whose channels there are:
 ///

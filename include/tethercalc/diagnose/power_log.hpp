@@ -64,4 +64,8 @@ inline constexpr std::array<PowerChannel, 9> power_channels{{
   return power;
 }
 
+/// Puts a further free flight of the same drone behind those of `all`, its time counted on from
+/// there. Throws std::invalid_argument where it has other channels than they have.
+void append_flight(PowerLog& all, const PowerLog& flight);
+
 }  // namespace tethercalc

@@ -21,6 +21,10 @@ struct FlightLogOptions {
   /// Whether a CSV file may lack `roll_deg` and `vd_m_s`. They then count as 0, level flight at one
   /// height, and a note says so.
   bool level_where_missing = false;
+  /// Of a CSV file, NAME=COLUMN each: the column that holds what the one called NAME would, its
+  /// numbers in the unit at the end of NAME: "yaw_rad=heading". A minus before the column turns its
+  /// sign.
+  std::vector<std::string> columns{};
 };
 
 /// A flight log, and how it came about.
@@ -52,7 +56,9 @@ struct FlightLogReading {
 /// (yaw), velocities within ±500 m/s, time increasing. Which of them may be missing, the options
 /// tell. A measured wind may stand beside them: `wind_north_m_s` and `wind_east_m_s`, the velocity
 /// of the air over ground (of a wind from the north `wind_north_m_s` is negative), or
-/// `airspeed_forward_m_s` along the heading, from which the wind ahead follows.
+/// `airspeed_forward_m_s` along the heading, from which the wind ahead follows, or `airspeed_m_s`
+/// with `air_from_deg`, the direction that this air comes from. Instead of the angles there may be
+/// a quaternion, instead of the velocity the one along the drone's own axes; see docs/csv.md.
 ///
 /// From a ULog: vehicle_local_position and vehicle_attitude, of core 0 the estimate that flew; of
 /// another core its own estimator_local_position and estimator_attitude. The wind that PX4 writes
@@ -83,6 +89,7 @@ struct PowerLogOptions {
   std::vector<int> batteries{};
   /// Of the estimator, as in FlightLogOptions.
   int core = 0;
+  std::vector<std::string> columns{};  ///< as in FlightLogOptions
 };
 
 /// A power log, and how it came about.

@@ -145,23 +145,44 @@ struct MotorEntry {
   std::vector<Warning> warnings;       ///< what was done to noisy points, and what is not known
 };
 
-/// Part of the motor power that falls with airspeed. Neutral: `induced_share` 0, the published
-/// model, in which a thrust costs the same power at every airspeed.
+/// Part of the motor power that changes with airspeed: rotors that move through the air accelerate
+/// more of it by less, and lean against the drag, whose power they make, too. Neutral:
+/// `induced_share` 0, the published model, in which a thrust costs the same power at every
+/// airspeed.
 struct TranslationalLift {
   double induced_share = 0;        ///< in [0, 1): part of the hover power that is induced
   double hover_induced_speed = 6;  ///< m/s, > 0: speed of the air through the rotor disc in hover,
                                    ///< √(T/(2ρA_disc)) of the ideal rotor
 };
 
-/// Induced velocity in level flight over that in hover, in (0, 1], for `speed_ratio` = airspeed
+/// Induced velocity of a level disc over that in hover, in (0, 1], for `speed_ratio` = airspeed
 /// over hover induced velocity (of either sign): the root of ν·√(μ² + ν²) = 1, i.e. ν² = √(1 +
 /// μ⁴/4) − μ²/2 (Glauert's momentum theory; Leishman, Principles of Helicopter Aerodynamics, 2nd
 /// ed., section 2.14, with the disc level).
 [[nodiscard]] double induced_velocity_ratio(double speed_ratio);
 
-/// Motor power at `airspeed` (m/s) over the power the static motor curve gives for the same thrust:
-/// 1 − s·(1 − ν(v/v_h)). 1 at rest.
-[[nodiscard]] double translational_lift_factor(const TranslationalLift& lift, double airspeed);
+/// Velocity of the air through a disc over that in hover, and its derivative by the tangent of the
+/// disc's tilt.
+struct Inflow {
+  double ratio = 1;
+  double slope = 0;
+};
+
+/// Of a disc that leans against the air with a tangent of `tan_pitch` ≥ 0: the root λ > μ·sinα of
+/// (λ − μ·sinα)·√(μ²cos²α + λ²) = 1 (Glauert; Leishman, the same section). What comes from the
+/// airspeed, μ·sinα, is the drag's power: T·v·sinα = D·v. Level it is `induced_velocity_ratio`.
+[[nodiscard]] Inflow inflow_ratio(double speed_ratio, double tan_pitch);
+
+/// A share of the static motor curve's power, and its derivative by the tangent of the tilt.
+struct PowerShare {
+  double value = 1;
+  double slope = 0;
+};
+
+/// Motor power at `airspeed` (m/s), leaning with `tan_pitch` ≥ 0, over the power the static motor
+/// curve gives for the same thrust: 1 − s·(1 − λ). 1 at rest; the least is that of level discs.
+[[nodiscard]] PowerShare translational_lift_share(const TranslationalLift& lift, double airspeed,
+                                                  double tan_pitch);
 
 /// Measured points that contradicted each other and were replaced by their mean.
 struct PooledMotorPoints {

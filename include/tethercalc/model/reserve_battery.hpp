@@ -35,7 +35,7 @@ struct Landing {
   double gravity = 0;            ///< m/s²
   double area_force_factor = 0;  ///< N/m², `area_force_factor` of the airframe in the wind
   double tether_drag = 0;        ///< N of the whole tether in the wind
-  double power_share = 1;        ///< `translational_lift_factor` of the rotors in the wind
+  double airspeed = 0;           ///< m/s of that wind, of either sign
 };
 
 /// N of one motor that holds `mass` kg in the wind of `landing`.

@@ -124,6 +124,14 @@ class SteadyFlight {
   [[nodiscard]] double necessary_thrust(double weight, double tan_pitch) const {
     return weight * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
   }
+  /// Tangents that the tilt is not below, and not above, at any radius between two, with a weight
+  /// that is less by `lighter` N, or more where that is the bound, and `of_drag` times the tether's
+  /// drag: of a solved tether, whose load may fall as the radius grows.
+  [[nodiscard]] double least_tan_pitch(const Radii& between, double lighter = 0,
+                                       double of_drag = 1) const;
+  [[nodiscard]] double most_tan_pitch(const Radii& between, double lighter = 0,
+                                      double of_drag = 1) const;
+
   /// Tilt and thrust of the equilibrium, where no limit holds the tilt.
   struct Balance {
     double tan_pitch = 0;  ///< of the tilt
@@ -147,10 +155,10 @@ class SteadyFlight {
   }
   /// Thrust the motors make of `available_power` at the converter's input, which gives no more than
   /// its rated output.
-  [[nodiscard]] double available_thrust(double available_power) const;
+  [[nodiscard]] double available_thrust(double available_power, double share) const;
 
   /// The most thrust of one motor that converter and motors have, whatever arrives.
-  [[nodiscard]] double most_thrust() const { return available_thrust(1e300); }
+  [[nodiscard]] double most_thrust(double share) const { return available_thrust(1e300, share); }
 
   /// Radius at which the available power is exactly `power`: 0 for power ≤ 0, +infinity where
   /// contacts alone keep it lower.
@@ -163,17 +171,30 @@ class SteadyFlight {
                     : std::numeric_limits<double>::infinity();
   }
 
-  /// Power at the converter's input for a thrust, +infinity where the motors cannot make it.
-  [[nodiscard]] double drone_power(double thrust) const {
-    return input_power(motor().power(thrust));
+  /// The share of the motors' data-sheet power that a thrust takes in this air, leaning with
+  /// `tan_pitch`; see `translational_lift_share`. It grows with the tilt.
+  [[nodiscard]] PowerShare power_share(double tan_pitch) const {
+    return share_changes_
+               ? translational_lift_share(drone().translational_lift, state_.airspeed, tan_pitch)
+               : PowerShare{};
+  }
+  /// Whether it depends on the tilt, and with it on the radius.
+  [[nodiscard]] bool share_changes() const { return share_changes_; }
+
+  /// Power at the converter's input for a thrust, +infinity where the motors cannot make it. Here
+  /// and below `share` is a `power_share`.
+  [[nodiscard]] double drone_power(double thrust, double share) const {
+    return input_power(motor().power(thrust), share);
   }
   /// The same for one motor's data-sheet power in W.
-  [[nodiscard]] double input_power(double motor_power) const {
-    return converter_input_power(design_->supply.converter, power_scale_ * motor_power) +
+  [[nodiscard]] double input_power(double motor_power, double share) const {
+    return converter_input_power(design_->supply.converter, output_power(motor_power, share)) +
            design_->drone.auxiliary_power;
   }
   /// Power at the converter's output for one motor's data-sheet power.
-  [[nodiscard]] double output_power(double motor_power) const { return power_scale_ * motor_power; }
+  [[nodiscard]] double output_power(double motor_power, double share) const {
+    return power_scale_ * share * motor_power;
+  }
 
  private:
   void set_airspeed(double speed);
@@ -216,6 +237,7 @@ class SteadyFlight {
   double deliverable_;  ///< V², P_avail·R
   double per_motor_;    ///< one over the number of motors
   double power_scale_;  ///< converter output per data-sheet power of one motor: n·f
+  bool share_changes_;
 };
 
 }  // namespace tethercalc

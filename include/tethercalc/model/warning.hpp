@@ -34,6 +34,7 @@ enum class WarningKind {
   log_velocity_invalid,       ///< samples whose velocity their estimator does not trust
   log_attitude_missing,       ///< samples without an attitude at their time
   log_column_missing,         ///< a column of a flight that was taken for rest
+  log_columns_passed_over,    ///< columns of a table that nothing is known of
   log_wind_unused,            ///< wind or airspeed of a log that is no measurement
   log_bus_chosen,             ///< the battery monitors that a power log is made of
   log_airspeed_derived,       ///< an airspeed that was measured in part or not at all
@@ -57,7 +58,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 45;
+inline constexpr std::size_t warning_kind_count = 46;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.
