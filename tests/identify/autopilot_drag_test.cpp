@@ -7,6 +7,7 @@
 #include "support/flight_csv.hpp"
 #include "support/reference_data.hpp"
 #include "support/simulated_flight.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 
 using namespace tethercalc;
 
