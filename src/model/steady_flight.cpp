@@ -17,12 +17,12 @@ std::shared_ptr<const Drone> with_motors_in_flight(const Design& design) {
 
 }  // namespace
 
-SteadyFlight::SteadyFlight(const Design& design, const FlightState& state)
+SteadyFlight::SteadyFlight(const Design& design, const FlightState& state, ConductorsAsked asked)
     : design_(&design),
       rescaled_(with_motors_in_flight(design)),
       state_(state),
       wall_(insulation_wall(design.tether.insulation, design.supply.voltage)),
-      tether_(design.tether, wall_, state, design.flight),
+      tether_(design.tether, wall_, state, design.flight, asked),
       fixed_mass_(design.drone.mass + converter_mass(design.supply.converter)),
       has_battery_(design.drone.reserve_battery.specific_energy > 0),
       gravity_(design.flight.gravity),
@@ -34,8 +34,8 @@ SteadyFlight::SteadyFlight(const Design& design, const FlightState& state)
   if (has_battery_) landing_ = landing_in_wind(design, wall_);
 }
 
-SteadyFlight::SteadyFlight(const Design& design, Condition condition)
-    : SteadyFlight(design, flight_state(design, condition)) {}
+SteadyFlight::SteadyFlight(const Design& design, Condition condition, ConductorsAsked asked)
+    : SteadyFlight(design, flight_state(design, condition), asked) {}
 
 SteadyFlight SteadyFlight::in(Condition condition) const {
   SteadyFlight other = *this;

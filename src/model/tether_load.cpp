@@ -101,8 +101,10 @@ std::optional<double> HangingSituation::cylinder_diameter(double radius) const {
   return std::max(insulated_width(radius, wall), thinnest);
 }
 
-HangingLoad::HangingLoad(const HangingSituation& situation)
-    : situation_(situation), similar_(SimilarCables::of(situation)) {}
+HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked asked)
+    : situation_(situation),
+      similar_(asked == ConductorsAsked::many ? SimilarCables::of(situation) : nullptr),
+      asked_(asked) {}
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   // Each from nothing, so that an answer does not depend on what was asked before.
@@ -174,6 +176,15 @@ std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
   return {{hangs, hi}};
 }
 
+std::optional<HangingLoad::Shares> HangingLoad::solved_alone(double radius) const {
+  const Node there = solved_node(std::log(std::clamp(radius, thinnest_solved, thickest_solved)));
+  if (there.outcome != CableOutcome::hangs) return std::nullopt;
+  Shares shares{there.value, {}};
+  const bool moves = radius > thinnest_solved && radius < thickest_solved;
+  for (std::size_t i = 0; moves && i < part_count; ++i) shares.slope[i] = there.slope[i] / radius;
+  return shares;
+}
+
 std::optional<HangingLoad::Shares> HangingLoad::of_similar_cables(double radius) const {
   const double within = std::clamp(radius, thinnest_solved, thickest_solved);
   const DragOverWeight ratio = drag_over_weight(situation_, within);
@@ -226,7 +237,9 @@ const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
 
 HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
   std::optional<Shares> shares;
-  if (similar_ && !std::isnan(radius)) shares = of_similar_cables(radius);
+  const bool is_radius = !std::isnan(radius);
+  if (is_radius && asked_ == ConductorsAsked::one) shares = solved_alone(radius);
+  if (is_radius && similar_) shares = of_similar_cables(radius);
   if (!shares) shares = between_nodes(radius);
   if (!shares) {
     constexpr double none = std::numeric_limits<double>::infinity();
@@ -252,7 +265,11 @@ HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
 namespace {
 
 /// The load in a situation, which the one asked for later shares with its solutions.
-std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situation) {
+std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situation,
+                                                ConductorsAsked asked) {
+  if (asked == ConductorsAsked::one) {
+    return std::make_shared<const HangingLoad>(situation, asked);
+  }
   // A flight log has thousands of states; a sweep over the wind solves up to fifty cables for each.
   constexpr std::size_t most_kept = 1 << 13;
   thread_local std::map<HangingSituation, std::shared_ptr<const HangingLoad>> known;
@@ -293,8 +310,8 @@ PaidOut paid_out_to(const Tether& tether, double height, double offset) {
 }
 
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,
-                               const Flight& flight)
-    : straight_(tether, wall, state, flight.air_density, flight.gravity) {
+                               const Flight& flight, ConductorsAsked asked)
+    : straight_(tether, wall, state, flight.air_density, flight.gravity), asked_(asked) {
   set_state(state, flight);
 }
 
@@ -317,7 +334,8 @@ void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
        .cable_there_is = cable_there_is(state),
        .axial_stiffness = tether.axial_stiffness,
        .offset = flight.horizontal_offset,
-       .height = state.deployed});
+       .height = state.deployed},
+      asked_);
 }
 
 TetherLoad TetherInFlight::load(double radius) const {

@@ -60,7 +60,8 @@ std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
   const double end = search_end(design, reach);
   const auto points = [&](double value) {
     const Design pushed = at_reach(design, reach, value);
-    return evaluate_areas(pushed, std::span(&*pushed.tether.cross_section, 1)).front();
+    return evaluate_areas(pushed, std::span(&*pushed.tether.cross_section, 1), ConductorsAsked::one)
+        .front();
   };
   const auto margin = [&](double value) { return points(value).worst; };
   // Each step of a solved tether solves cables anew.

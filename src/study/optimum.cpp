@@ -111,9 +111,10 @@ bool converter_caps(const Design& design, Condition condition, double area) {
 
 }  // namespace
 
-std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const double> areas) {
-  const SteadyFlight hover(design, Condition::hover);
-  const SteadyFlight forward(design, Condition::forward);
+std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const double> areas,
+                                       ConductorsAsked asked) {
+  const SteadyFlight hover(design, Condition::hover, asked);
+  const SteadyFlight forward(design, Condition::forward, asked);
   std::vector<AreaPoints> table;
   for (const double area : areas) {
     AreaPoints points{area, evaluate(hover, area), evaluate(forward, area), {}};

@@ -22,10 +22,12 @@ namespace tethercalc {
 class SteadyFlight {
  public:
   /// Prepares `design` for `state`. The design is taken as valid: no check is made here.
-  SteadyFlight(const Design& design, const FlightState& state);
+  SteadyFlight(const Design& design, const FlightState& state,
+               ConductorsAsked asked = ConductorsAsked::many);
 
   /// The same for `flight_state(design, condition)`.
-  SteadyFlight(const Design& design, Condition condition);
+  SteadyFlight(const Design& design, Condition condition,
+               ConductorsAsked asked = ConductorsAsked::many);
 
   /// The design was made for longer than this.
   SteadyFlight(Design&&, const FlightState&) = delete;

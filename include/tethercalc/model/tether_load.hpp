@@ -144,6 +144,11 @@ struct HangingSituation {
 
 class SimilarCables;
 
+/// What will be asked of a tether that hangs as weight and wind have it: a search asks for the
+/// loads with conductors of many sizes, for which neighbours are solved, too; where one size is
+/// held against many places of the drone that does not pay, and each load is solved by itself.
+enum class ConductorsAsked { many, one };
+
 /// The load of a tether that hangs as weight and wind have it (`CableSolver`), as a smooth function
 /// of its conductor's radius. Where length, place and profile of the wind are known, and the cable
 /// does not stretch nor its drag depend on the Reynolds number, drag over weight decides how it
@@ -162,7 +167,8 @@ class SimilarCables;
 class HangingLoad {
  public:
   /// Of the cable in this situation; nothing is solved yet.
-  explicit HangingLoad(const HangingSituation& situation);
+  explicit HangingLoad(const HangingSituation& situation,
+                       ConductorsAsked asked = ConductorsAsked::many);
 
   /// The parts of a load, N, and m of cable in the air.
   struct Parts {
@@ -200,6 +206,7 @@ class HangingLoad {
     Values value{};
     Values slope{};
   };
+  [[nodiscard]] std::optional<Shares> solved_alone(double radius) const;
   [[nodiscard]] std::optional<Shares> of_similar_cables(double radius) const;
   [[nodiscard]] std::optional<Shares> between_nodes(double radius) const;
   [[nodiscard]] Node solved_node(double log_radius) const;
@@ -212,6 +219,7 @@ class HangingLoad {
 
   HangingSituation situation_;
   std::shared_ptr<const SimilarCables> similar_;  ///< null where more decides how it hangs
+  ConductorsAsked asked_;
   mutable std::unordered_map<long, Node> nodes_;
   /// Of the last radii that were asked for, each at a place that its digits decide.
   struct Known {
@@ -228,7 +236,8 @@ class HangingLoad {
 class TetherInFlight {
  public:
   /// `wall` in m of the insulation.
-  TetherInFlight(const Tether& tether, double wall, const FlightState& state, const Flight& flight);
+  TetherInFlight(const Tether& tether, double wall, const FlightState& state, const Flight& flight,
+                 ConductorsAsked asked = ConductorsAsked::many);
 
   /// The same tether in another state.
   void set_state(const FlightState& state, const Flight& flight);
@@ -295,6 +304,7 @@ class TetherInFlight {
   [[nodiscard]] double circuit_share(double radius) const;
 
   StraightTether straight_;
+  ConductorsAsked asked_;
   std::shared_ptr<const HangingLoad> hanging_;
 };
 

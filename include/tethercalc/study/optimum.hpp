@@ -16,7 +16,8 @@ namespace tethercalc {
 
 /// Both conditions at each of `areas` (m², > 0).
 [[nodiscard]] std::vector<AreaPoints> evaluate_areas(const Design& design,
-                                                     std::span<const double> areas);
+                                                     std::span<const double> areas,
+                                                     ConductorsAsked asked = ConductorsAsked::many);
 
 /// A size in which conductors are sold.
 struct WireSize {
