@@ -74,9 +74,10 @@ const std::array all_spec_fields{
     SpecField{"/drone/drag/fore_aft_asymmetry", number, "", inside(-1, 1), "0",
               "Drag is 1 + this times as large flying forward, 1 - this flying backward.", 1,
               at<&Design::drone, &Drone::drag, &AirframeDrag::fore_aft_asymmetry>},
-    SpecField{"/drone/translational_lift/induced_share", number, "", between(0, 0.95), "0",
-              "Part of the hover power that is induced: it falls with airspeed, and grows with the lean.", 1,
-              at<&Design::drone, &Drone::translational_lift, &TranslationalLift::induced_share>},
+    SpecField{
+        "/drone/translational_lift/induced_share", number, "", between(0, 0.95), "0",
+        "Part of the hover power that is induced: it falls with airspeed, and grows with the lean.",
+        1, at<&Design::drone, &Drone::translational_lift, &TranslationalLift::induced_share>},
     SpecField{
         "/drone/translational_lift/hover_induced_speed_m_s", number, "m/s", above(0, 100), "6",
         "Speed of the air through the rotor discs in hover.", 1,

@@ -137,6 +137,7 @@ struct HoldoutComparison {
   double extended_rmse = 0;  ///< with the findings
   /// Mean held-out prediction over mean measurement, in a power log; NaN elsewhere.
   double base_mean_ratio = std::numeric_limits<double>::quiet_NaN();
+  /// The same with the findings.
   double extended_mean_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -164,8 +164,8 @@ struct TranslationalLift {
 /// Velocity of the air through a disc over that in hover, and its derivative by the tangent of the
 /// disc's tilt.
 struct Inflow {
-  double ratio = 1;
-  double slope = 0;
+  double ratio = 1;  ///< λ
+  double slope = 0;  ///< dλ/d tanα
 };
 
 /// Of a disc that leans against the air with a tangent of `tan_pitch` ≥ 0: the root λ > μ·sinα of
@@ -175,8 +175,8 @@ struct Inflow {
 
 /// A share of the static motor curve's power, and its derivative by the tangent of the tilt.
 struct PowerShare {
-  double value = 1;
-  double slope = 0;
+  double value = 1;  ///< of it
+  double slope = 0;  ///< by the tangent
 };
 
 /// Motor power at `airspeed` (m/s), leaning with `tan_pitch` ≥ 0, over the power the static motor

@@ -126,11 +126,12 @@ class SteadyFlight {
   [[nodiscard]] double necessary_thrust(double weight, double tan_pitch) const {
     return weight * std::sqrt(1 + tan_pitch * tan_pitch) * per_motor_;
   }
-  /// Tangents that the tilt is not below, and not above, at any radius between two, with a weight
-  /// that is less by `lighter` N, or more where that is the bound, and `of_drag` times the tether's
-  /// drag: of a solved tether, whose load may fall as the radius grows.
+  /// The least tangent that the tilt may have at radii between two, with a weight that is less by
+  /// `lighter` N and `of_drag` times the tether's drag: of a solved tether, whose load may fall as
+  /// the radius grows.
   [[nodiscard]] double least_tan_pitch(const Radii& between, double lighter = 0,
                                        double of_drag = 1) const;
+  /// The greatest that it may have there, likewise.
   [[nodiscard]] double most_tan_pitch(const Radii& between, double lighter = 0,
                                       double of_drag = 1) const;
 
