@@ -2,8 +2,8 @@
 
 #include "tethercalc/model/tether_load.hpp"
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <numbers>
 
@@ -230,7 +230,10 @@ std::optional<HangingLoad::Shares> HangingLoad::between_nodes(double radius) con
 const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
   // Searches ask for the ends of a stretch of radii by turns. By Fibonacci hashing.
   constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
-  Known& known = known_[(std::bit_cast<std::uint64_t>(radius) * golden) >> 61];
+  std::uint64_t bits = 0;
+  static_assert(sizeof bits == sizeof radius);
+  std::memcpy(&bits, &radius, sizeof bits);  // browsers' library has no std::bit_cast
+  Known& known = known_[(bits * golden) >> 61];
   if (radius != known.radius) known = {radius, computed_at(radius)};
   return known.at;
 }
