@@ -482,7 +482,8 @@ class BestHeadroomSearch {
       const double most = flight_.most_thrust(b.at.share);
       const double end = b.available < most ? nan : radius_of_available(most, a, b);
       if (inside(end)) return end;
-      // Where the share changes, a converter's kinks are left to the search for the hump.
+      const double bend = flight_.share_changes() ? converter_bend(a, b) : nan;
+      if (inside(bend)) return bend;
       const double share = flight_.share_changes() ? nan : a.at.share;
       const double kink =
           radius_of_available(thrust_kink(flight_, a.available, b.available, share), a, b);
@@ -496,6 +497,19 @@ class BestHeadroomSearch {
       if (inside(kink)) return kink;
     }
     return battery_kink(flight_, lo, hi);
+  }
+
+  /// The radius at which what arrives brings the converter from one piece of its efficiency curve
+  /// to another: with a cold cable that does not depend on what the motors make of it.
+  [[nodiscard]] double converter_bend(const Look& a, const Look& b) const {
+    if (heated_) return nan;
+    const Converter& converter = flight_.design().supply.converter;
+    const double auxiliary = flight_.design().drone.auxiliary_power;
+    const double output =
+        converter_kink(converter, converter_output_power(converter, a.arriving - auxiliary),
+                       converter_output_power(converter, b.arriving - auxiliary), true);
+    if (std::isnan(output)) return nan;
+    return flight_.radius_of_available_power(converter_input_power(converter, output) + auxiliary);
   }
 
   /// The radius between a and b at which a thrust is just available: a hair more, or rounding
