@@ -204,6 +204,42 @@ struct WeightedMinimum {
   VectorXd residual;
   MatrixXd jacobian;
   VectorXd weight;
+
+  /// Beyond which a residual here counts less.
+  [[nodiscard]] double bound() const {
+    return huber_bound * std::max(robust_sigma(residual), 1e-12);
+  }
+  /// Weights by that bound, and slopes, where the model stands.
+  void look_around(double beyond, FitUse use) {
+    weight = huber_weights(residual, beyond);
+    model.jacobian(residual, use, jacobian);
+  }
+  [[nodiscard]] VectorXd gradient() const {
+    return inner_products_with(jacobian, weight.cwiseProduct(residual));
+  }
+};
+
+/// The normal equations of the parameters that no bound holds.
+class NormalEquations {
+ public:
+  explicit NormalEquations(const WeightedMinimum& at) : step_(VectorXd::Zero(at.model.size())) {
+    const VectorXd gradient = at.gradient();
+    kept_ = columns_not_held(at.model, gradient);
+    normal_ = normal_matrix(at.jacobian(Eigen::all, kept_), at.weight);
+    gradient_ = gradient(kept_);
+  }
+  /// Of all parameters, those that are held staying where they are.
+  [[nodiscard]] VectorXd step(double damping) const {
+    VectorXd step = step_;
+    step(kept_) = solve_loaded(normal_, gradient_, damping);
+    return step;
+  }
+
+ private:
+  std::vector<Index> kept_;
+  MatrixXd normal_;
+  VectorXd gradient_;
+  VectorXd step_;  ///< none
 };
 
 /// Undamped steps from a converged fit for as long as each is shorter than the one before, which
@@ -214,9 +250,7 @@ void polish(WeightedMinimum& minimum) {
   constexpr int most_steps = 40;
   const auto look_around = [&minimum] {
     minimum.model.residuals(minimum.residual);
-    const double bound = huber_bound * std::max(robust_sigma(minimum.residual), 1e-12);
-    minimum.weight = huber_weights(minimum.residual, bound);
-    minimum.model.jacobian(minimum.residual, FitUse::report, minimum.jacobian);
+    minimum.look_around(minimum.bound(), FitUse::report);
   };
   FreedModel best = minimum.model;
   double shortest = 1;  // standard errors: what moves further had not converged
@@ -224,12 +258,7 @@ void polish(WeightedMinimum& minimum) {
   VectorXd move;
   for (int i = 0; i < most_steps; ++i) {
     look_around();
-    const VectorXd gradient =
-        minimum.jacobian.transpose() * minimum.weight.cwiseProduct(minimum.residual);
-    const std::vector<Index> kept = columns_not_held(minimum.model, gradient);
-    const MatrixXd inner = minimum.jacobian(Eigen::all, kept);
-    VectorXd step = VectorXd::Zero(minimum.model.size());
-    step(kept) = solve_loaded(normal_matrix(inner, minimum.weight), gradient(kept), loading);
+    const VectorXd step = NormalEquations(minimum).step(loading);
     const VectorXd change = minimum.jacobian * step;
     if (!(change.norm() < shortest)) break;
     shortest = change.norm();
@@ -246,52 +275,38 @@ void polish(WeightedMinimum& minimum) {
 }
 
 WeightedMinimum minimise(FreedModel model, const Record& record, FitUse use) {
-  VectorXd residual(record.rows());
-  model.residuals(residual);
-  MatrixXd jacobian;
-  VectorXd weight;
+  WeightedMinimum at{std::move(model), VectorXd(record.rows()), {}, {}};
+  at.model.residuals(at.residual);
   VectorXd trial_residual(record.rows());
   double damping = 1e-4;
   for (int iteration = 0;; ++iteration) {
-    const double bound = huber_bound * std::max(robust_sigma(residual), 1e-12);
-    weight = huber_weights(residual, bound);
-    model.jacobian(residual, FitUse::search, jacobian);
-    if (model.size() == 0 || iteration == most_iterations) break;
+    const double bound = at.bound();
+    at.look_around(bound, FitUse::search);
+    if (at.model.size() == 0 || iteration == most_iterations) break;
 
-    const VectorXd gradient = inner_products_with(jacobian, weight.cwiseProduct(residual));
-    const std::vector<Index> kept = columns_not_held(model, gradient);
-    const MatrixXd inner = jacobian(Eigen::all, kept);
-    const MatrixXd normal = normal_matrix(inner, weight);
-    const VectorXd inner_gradient = gradient(kept);
-    const double loss = huber_loss(residual, bound);
+    const NormalEquations equations(at);
+    const double loss = huber_loss(at.residual, bound);
     double decrease = 0;
     for (int attempt = 0; attempt < 12; ++attempt) {
-      VectorXd step = VectorXd::Zero(model.size());
-      step(kept) = solve_loaded(normal, inner_gradient, damping + loading);
-      FreedModel trial = model.moved(step);
+      FreedModel trial = at.model.moved(equations.step(damping + loading));
       trial.residuals(trial_residual);
       const double trial_loss = huber_loss(trial_residual, bound);
       if (trial_loss < loss) {
         decrease = (loss - trial_loss) / loss;
-        model = std::move(trial);
-        residual = trial_residual;
+        at.model = std::move(trial);
+        at.residual = trial_residual;
         damping = std::max(damping / 10, 1e-12);
         break;
       }
       damping = std::max(damping, 1e-8) * 10;
     }
     if (decrease < converged_decrease) {
-      if (decrease > 0) {
-        weight = huber_weights(residual, bound);
-        model.jacobian(residual, FitUse::search, jacobian);
-      }
+      if (decrease > 0) at.look_around(bound, FitUse::search);
       break;
     }
   }
-  WeightedMinimum minimum{std::move(model), std::move(residual), std::move(jacobian),
-                          std::move(weight)};
-  if (use == FitUse::report && minimum.model.size() > 0) polish(minimum);
-  return minimum;
+  if (use == FitUse::report && at.model.size() > 0) polish(at);
+  return at;
 }
 
 /// Gauss–Newton steps without one block each: (H − H_b)·δ = g − g_b.
@@ -415,9 +430,7 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
   fit.freed = freed;
   fit.values = model.values();
   fit.coefficients = model.coefficients();
-  const VectorXd gradient =
-      inner_products_with(minimum.jacobian, minimum.weight.cwiseProduct(minimum.residual));
-  const std::vector<Index> kept = columns_not_held(model, gradient);
+  const std::vector<Index> kept = columns_not_held(model, minimum.gradient());
   for (const Index k : kept) {
     if (k < static_cast<Index>(model.free().size())) {
       fit.active.push_back(model.free()[static_cast<std::size_t>(k)]);
