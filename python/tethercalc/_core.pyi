@@ -130,7 +130,8 @@ class _Flight:
         air_density_kg_m3: float | None,
         pressure_hPa: float | None,
         temperature_C: float | None,
-        published_kinematics: bool = ...,
+        published_kinematics: bool,
+        columns: Sequence[str],
     ) -> None: ...
 
 def fields() -> list[dict[str, Any]]: ...
@@ -175,8 +176,8 @@ def _drag(logs: Sequence[str], flown: _Flight) -> Answer: ...
 def _diagnose(
     spec: Any,
     flight: Sequence[str],
-    power: str,
-    log: str,
+    power: Sequence[str],
+    log: Sequence[str],
     base: Sequence[str],
     effects: Sequence[str],
     batteries: Sequence[str],
