@@ -1,8 +1,10 @@
 #include "tethercalc/model/reserve_battery.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "model/constants.hpp"
 #include "tethercalc/model/design.hpp"
@@ -65,85 +67,95 @@ double landing_thrust(const Drone& drone, double mass, const Landing& landing) {
 
 namespace {
 
-/// The mass where the motors draw that share of their data-sheet power, however they lean.
-double mass_at_share(const Drone& drone, double mass, const Landing& landing, double share) {
+/// What a drone of `takeoff` kg asks for, of which `mass` are not battery.
+struct Ask {
+  double takeoff = 0;  ///< kg
+  double tan_pitch = 0;
+  InclinedThrust thrust;  ///< of all motors
+  double share = 1;       ///< of the motors' data-sheet power
+  double missing = 0;     ///< kg of battery asked for beyond what there is
+};
+
+Ask ask_at(const Drone& drone, double takeoff, double mass, const Landing& landing) {
+  const ForceBalance balance = force_balance(drone, takeoff, landing);
+  const double tangent = equilibrium_tan_pitch(balance, infinity);
+  Ask ask{takeoff, tangent, inclined_thrust(balance, tangent, landing.gravity, 0)};
+  ask.share = translational_lift_share(drone.translational_lift, landing.airspeed, tangent).value;
+  const double per_motor = drone.motor.power(ask.thrust.value / drone.motor_count);
   const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
-  const auto vertices = drone.motor.vertices();
-  InclinedThrust all = all_thrust(drone, mass, landing);
-  if (!(all.value / drone.motor_count < drone.motor.max_thrust())) return infinity;
-  // From the drone without a battery upwards. Over the take-off mass the thrust bends up, so that
-  // on a piece of the motor curve Newton's method does not step over the least solution, and goes
-  // beyond the piece where that holds none. In still air its first step is exact.
-  double takeoff = mass;
-  for (std::size_t i = drone.motor.piece(all.value / drone.motor_count); i + 1 < vertices.size();
-       ++i) {
-    const double upper = held_mass(drone, vertices[i + 1].thrust, landing);
-    const double price = per_watt * power_per_newton(drone, i, share);
-    constexpr int most_steps = 100;
-    for (int step = 0; step < most_steps; ++step) {
-      const double thrust = all.value / drone.motor_count;
-      const double power = vertices[i].power + drone.motor.slope(i) * (thrust - vertices[i].thrust);
-      const double missing = per_watt * battery_power(drone, power, share) - (takeoff - mass);
-      const double rate = 1 - price * all.slope;
-      if (!(missing <= rate * (upper - takeoff))) break;
-      const double gain = missing / rate;
-      takeoff += gain;
-      // Newton squares the error in every step.
-      if (is_still(landing) || std::abs(gain) <= 1e-8 * takeoff) return takeoff - mass;
-      all = all_thrust(drone, takeoff, landing);
-    }
-    takeoff = upper;
-    all = all_thrust(drone, takeoff, landing);
-  }
-  return infinity;
+  ask.missing = per_watt * battery_power(drone, per_motor, ask.share) - (takeoff - mass);
+  return ask;
 }
 
-PowerShare share_of(const Drone& drone, double mass, const Landing& landing) {
-  const double tangent = equilibrium_tan_pitch(force_balance(drone, mass, landing), infinity);
-  return translational_lift_share(drone.translational_lift, landing.airspeed, tangent);
+/// Whether the thrust bends up over the mass from there on. With the drag A_f·cosθ + A_t·sinθ + F,
+/// dT/dW is (A_f + F·cosθ)/(A_f·cosθ·(1 + sin²θ) + F + A_t·sin³θ), which grows while the drone
+/// levels out where sin²θ ≤ 1/3. Nowhere does the thrust fall.
+bool thrust_bends_up(const Ask& at) { return at.tan_pitch * at.tan_pitch <= 0.5; }
+
+/// The take-off mass where nothing is missing at the earliest, were the motors to draw `share` of
+/// their data-sheet power on `piece` of their curve.
+double earliest_takeoff(const Drone& drone, const Ask& at, std::size_t piece, double share,
+                        double mass, const Landing& landing) {
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
+  const MotorPoint& start = drone.motor.vertices()[piece];
+  const double beyond = at.thrust.value / drone.motor_count - start.thrust;
+  const double power = start.power + drone.motor.slope(piece) * beyond;
+  const double missing = per_watt * battery_power(drone, power, share) - (at.takeoff - mass);
+  if (!(missing > 0)) return at.takeoff;
+  const double slope = thrust_bends_up(at) ? at.thrust.slope : 0;
+  const double rate = 1 - per_watt * power_per_newton(drone, piece, share) * slope;
+  return rate > 0 ? at.takeoff + missing / rate : infinity;
 }
 
 }  // namespace
 
 double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing) {
   if (drone.reserve_battery.specific_energy == 0) return 0;
-  if (drone.translational_lift.induced_share == 0 || landing.airspeed == 0) {
-    return mass_at_share(drone, mass, landing, 1);
-  }
-  // The heavier the drone the less it leans, the smaller the share of the power and with it the
-  // battery: what the share at a battery asks for falls as that grows, and meets it once.
-  const auto asked = [&](double battery) {
-    const double share = share_of(drone, mass + battery, landing).value;
-    return mass_at_share(drone, mass, landing, share);
-  };
-  double low = 0;
-  double high = held_mass(drone, drone.motor.max_thrust(), landing) - mass;
-  double above = asked(low) - low;
-  if (!(high > low) || !(asked(high) <= high)) return infinity;
-  high = std::min(high, above);
-  double below = asked(high) - high;
-  // Secants in a bracket; where one end stays, half of its distance counts, so that both move.
-  int stayed = 0;
-  double battery = high;
-  for (int step = 0; step < 200 && below < 0; ++step) {
-    const double secant = (low * below - high * above) / (below - above);
-    battery = secant > low && secant < high ? secant : 0.5 * (low + high);
-    if (!(low < battery && battery < high)) break;
-    const double here = asked(battery) - battery;
-    if (std::abs(here) <= 1e-15 * (mass + battery)) break;
-    if (here > 0) {
-      stayed = std::max(stayed, 0) + 1;
-      low = battery;
-      above = here;
-      if (stayed > 1) below *= 0.5;
-    } else {
-      stayed = std::min(stayed, 0) - 1;
-      high = battery;
-      below = here;
-      if (stayed < -1) above *= 0.5;
+  const bool share_changes = drone.translational_lift.induced_share > 0 && landing.airspeed != 0;
+  // From the drone without a battery upwards. The heavier the drone the less it leans and the
+  // smaller the share of the motors' power, so that up to some take-off mass the battery is at
+  // least what the share there asks for. What this rules out is passed over, the rest is looked at
+  // in strides, down to where two roots are taken for none.
+  constexpr double longest = 0.3;  // relative to the mass
+  constexpr double shortest = 1e-3;
+  double stride = longest;
+  const auto ask = [&](double takeoff) { return ask_at(drone, takeoff, mass, landing); };
+  const auto vertices = drone.motor.vertices();
+  Ask at = ask(mass);
+  for (std::size_t i = drone.motor.piece(at.thrust.value / drone.motor_count);
+       i + 1 < vertices.size(); ++i) {
+    const double upper = held_mass(drone, vertices[i + 1].thrust, landing);
+    while (at.takeoff < upper) {
+      if (!(at.missing > 0)) return at.takeoff - mass;
+      if (!share_changes && thrust_bends_up(at)) {
+        // Newton's method, which squares the error in every step, and is exact in still air.
+        const double next = earliest_takeoff(drone, at, i, 1, mass, landing);
+        const bool last = is_still(landing) || next - at.takeoff <= 1e-8 * next;
+        if (last && next <= upper) return next - mass;
+        at = ask(std::min(next, upper));
+        continue;
+      }
+      const Ask end = ask(std::min(at.takeoff * (1 + stride), upper));
+      const double from = earliest_takeoff(drone, at, i, end.share, mass, landing);
+      const bool is_short = end.takeoff <= at.takeoff * (1 + shortest);
+      if (!(from < end.takeoff) || (is_short && end.missing > 0)) {
+        at = end;
+        stride = std::min(longest, 4 * stride);
+      } else if (!is_short) {
+        stride = (end.takeoff / at.takeoff - 1) / 4;
+        at = ask(from);
+      } else {
+        const auto missing = [&](double takeoff) { return ask(takeoff).missing; };
+        const boost::math::tools::eps_tolerance<double> to_the_last_digit;
+        std::uintmax_t steps = 100;
+        return boost::math::tools::toms748_solve(missing, at.takeoff, end.takeoff, at.missing,
+                                                 end.missing, to_the_last_digit, steps)
+                   .second -
+               mass;
+      }
     }
   }
-  return battery;
+  return at.missing > 0 ? infinity : at.takeoff - mass;
 }
 
 BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,
