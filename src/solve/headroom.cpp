@@ -61,18 +61,13 @@ class FlightDemands {
   [[nodiscard]] Margin margin(const ThrustAt& need, const ThrustAt& supply) const {
     const double asked = power_for_headroom(need);
     const double cold = flight_.tether().resistance(supply.radius);
-    double power_margin = flight_.available_power(cold) / asked - 1;
-    const auto rated_output = flight_.design().supply.converter.rated_output_power;
-    if (rated_output && flight_.share_changes()) {
-      const double output =
-          flight_.output_power(flight_.motor().power(headroom_ * need.thrust.value), need.share);
-      power_margin = std::min(power_margin, *rated_output / output - 1);
-    }
-    if (!heated_ || power_margin < 0) return {power_margin};
+    const double rating = rating_margin(need);
+    const double over_cold = std::min(flight_.available_power(cold) / asked - 1, rating);
+    if (!heated_ || over_cold < 0) return {over_cold};
     const TetherHeatState state = tether_.state(flight_.drone_power(need.thrust.value, need.share),
                                                 supply.radius, need.radius);
     if (!state.steady) return {-1, infinity, infinity};
-    const double least = flight_.available_power(state.resistance) / asked - 1;
+    const double least = std::min(flight_.available_power(state.resistance) / asked - 1, rating);
     const auto rated = flight_.design().tether.insulation.rated_temperature_C;
     const double cooler = of_cable_ && rated ? (*rated - state.hottest()) / 100 : infinity;
     return {std::min(least, cooler), state.resistance / cold, state.hottest()};
@@ -108,6 +103,14 @@ class FlightDemands {
  private:
   [[nodiscard]] double power_for_headroom(const ThrustAt& need) const {
     return flight_.drone_power(headroom_ * need.thrust.value, need.share);
+  }
+
+  /// Where the share of the motors' power changes: else `most_thrust` keeps the rating.
+  [[nodiscard]] double rating_margin(const ThrustAt& need) const {
+    const auto rated_output = flight_.design().supply.converter.rated_output_power;
+    if (!rated_output || !flight_.share_changes()) return infinity;
+    const double power = flight_.motor().power(headroom_ * need.thrust.value);
+    return *rated_output / flight_.output_power(power, need.share) - 1;
   }
 
   /// W at the converter's input for one more N of one motor, between a and b.
@@ -499,17 +502,20 @@ class BestHeadroomSearch {
     return battery_kink(flight_, lo, hi);
   }
 
-  /// The radius at which what arrives brings the converter from one piece of its efficiency curve
-  /// to another: with a cold cable that does not depend on what the motors make of it.
-  [[nodiscard]] double converter_bend(const Look& a, const Look& b) const {
-    if (heated_) return nan;
+  /// The radius at which what arrives brings the converter to its rating or from one piece of its
+  /// efficiency curve to another, which does not depend on what the motors make of it.
+  [[nodiscard]] double converter_bend(const Look& a, const Look& b) {
     const Converter& converter = flight_.design().supply.converter;
     const double auxiliary = flight_.design().drone.auxiliary_power;
+    const double lo = converter_output_power(converter, a.arriving - auxiliary);
+    const double hi = converter_output_power(converter, b.arriving - auxiliary);
+    const double rated = converter.rated_output_power.value_or(nan);
     const double output =
-        converter_kink(converter, converter_output_power(converter, a.arriving - auxiliary),
-                       converter_output_power(converter, b.arriving - auxiliary), true);
+        lo < rated && rated < hi ? rated : converter_kink(converter, lo, hi, true);
     if (std::isnan(output)) return nan;
-    return flight_.radius_of_available_power(converter_input_power(converter, output) + auxiliary);
+    const double power = converter_input_power(converter, output) + auxiliary;
+    if (!heated_) return flight_.radius_of_available_power(power);
+    return radius_of_arriving([power](const Look&) { return power; }, a, b);
   }
 
   /// The radius between a and b at which a thrust is just available: a hair more, or rounding
@@ -520,6 +526,12 @@ class BestHeadroomSearch {
       return flight_.drone_power(thrust, look.at.share) * (1 + 1e-14);
     };
     if (!heated_ && !flight_.share_changes()) return flight_.radius_of_available_power(power(a));
+    return radius_of_arriving(power, a, b);
+  }
+
+  /// The radius between a and b at which `power` W of it arrive.
+  template <typename Power>
+  [[nodiscard]] double radius_of_arriving(const Power& power, const Look& a, const Look& b) {
     // One over the power is a line over one over the radius squared, but for the heat and for what
     // the tilt adds to the power.
     Look lo = a;

@@ -316,6 +316,27 @@ class LeastPowerSearch {
   static constexpr double narrow = 1.5;
   /// Of a cable that its winch hardly holds up, the length grows sharply before its end.
   static constexpr double narrow_by_winch = 1.02;
+  /// Where a heavier drone gains by leaning less about what it spends on thrust.
+  static constexpr double narrow_by_leaning = 1.02;
+
+  /// How far apart two radii may be between which the power has one valley without a proof.
+  [[nodiscard]] double narrow_between(const ThrustAt& a, const ThrustAt& b,
+                                      const MotorCurve& motor) const {
+    double ratio = narrow;
+    if (flight_.tether().is_solved() && flight_.design().tether.winch_pull > 0) {
+      ratio = narrow_by_winch;
+    }
+    if (!flight_.share_changes()) return ratio;
+    // The price of carrying, ln of which may fall by 3 over ln of the radius as the savings do, is
+    // that of the thrust less that of leaning. Half of it may grow with the radius to the third.
+    const auto minor = [&](const ThrustAt& at, std::size_t piece) {
+      const double of_thrust = motor.slope(piece) * at.share * at.thrust.slope;
+      return -at.share_slope * motor.power(at.thrust.value) <= 0.5 * of_thrust;
+    };
+    const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
+    const bool minor_all_along = minor(a, pieces.first) && minor(b, pieces.last);
+    return minor_all_along ? ratio : std::min(ratio, narrow_by_leaning);
+  }
 
   /// With the thrust at `at` over a cold cable of `radius`.
   [[nodiscard]] double power_over(const ThrustAt& at, double radius) const {
@@ -339,11 +360,12 @@ class LeastPowerSearch {
       const ThrustAt lo = heated_ && runs_away(a) ? brink(b, a) : a.at;
       const ThrustAt hi = heated_ && runs_away(b) ? brink(a, b) : b.at;
       const Pieces pieces = pieces_between(motor, lo.thrust.value, hi.thrust.value);
-      // At a kink of the battery's mass the slope is that of the lighter side.
+      // At a kink of the battery's mass the slope is that of the lighter side, and where the
+      // battery leaps there a drone that leans less may need less power.
       constexpr double beyond_kink = 1 + 4e-12;
-      const ThrustAt start = best_.radius == hi.radius
-                                 ? hi
-                                 : thrust_at(flight_, lo.radius * beyond_kink, lo.tan_pitch);
+      const ThrustAt beyond = thrust_at(flight_, lo.radius * beyond_kink, lo.tan_pitch);
+      const ThrustAt start = best_.radius == hi.radius ? hi : beyond;
+      if (flight_.share_changes()) (void)consider(beyond);
       (void)consider(lo);
       (void)consider(hi);
       (void)consider(valley_bottom(flight_, tether_, motor, pieces, {lo.radius, hi.radius}, start));
@@ -448,8 +470,7 @@ class LeastPowerSearch {
                               bool one_piece) const {
     const Converter& converter = flight_.design().supply.converter;
     const bool unproved = heated_ || flight_.tether().is_solved() || flight_.share_changes();
-    const bool by_winch = flight_.tether().is_solved() && flight_.design().tether.winch_pull > 0;
-    if (unproved && !(b.radius < (by_winch ? narrow_by_winch : narrow) * a.radius)) return false;
+    if (unproved && !(b.radius < narrow_between(a, b, motor) * a.radius)) return false;
     if (is_proportional(converter)) return true;
     const double lo = motor.power(a.thrust.value);
     const double hi = motor.power(b.thrust.value);
@@ -555,15 +576,14 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   bool is_bottom = false;
   double within = thrust;
   for (int attempt = 0; attempt < 3 && !is_bottom; ++attempt) {
+    const double chosen = flight.output_power(convex.power(within), best.share);
     best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, within}, radii,
                          best);
-    is_bottom = is_proportional(design.supply.converter);
-    if (is_bottom) break;
-    const auto [lo, hi] = std::minmax(within, best.thrust.value);
-    is_bottom = std::isnan(converter_kink(design.supply.converter,
-                                          flight.output_power(convex.power(lo), best.share),
-                                          flight.output_power(convex.power(hi), best.share)));
     within = best.thrust.value;
+    const double reached = flight.output_power(convex.power(within), best.share);
+    const auto [lo, hi] = std::minmax(chosen, reached);
+    is_bottom = is_proportional(design.supply.converter) ||
+                std::isnan(converter_kink(design.supply.converter, lo, hi));
   }
   LeastPowerSearch search(flight, tether, best, is_bottom);
   if (!(search.power() < infinity) || !one_valley ||
