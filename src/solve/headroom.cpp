@@ -481,12 +481,13 @@ class BestHeadroomSearch {
       constexpr double rounding = 1e-12;
       return lo * (1 + rounding) < radius && radius < hi * (1 - rounding);
     };
+    const bool bends = flight_.share_changes() && a.arriving > 0 && b.arriving > a.arriving;
+    const double bend = bends ? converter_bend(a, b) : nan;
+    if (inside(bend)) return bend;
     if (a.available > 0 && a.available < b.available) {
       const double most = flight_.most_thrust(b.at.share);
       const double end = b.available < most ? nan : radius_of_available(most, a, b);
       if (inside(end)) return end;
-      const double bend = flight_.share_changes() ? converter_bend(a, b) : nan;
-      if (inside(bend)) return bend;
       const double share = flight_.share_changes() ? nan : a.at.share;
       const double kink =
           radius_of_available(thrust_kink(flight_, a.available, b.available, share), a, b);
