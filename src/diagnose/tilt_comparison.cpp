@@ -81,7 +81,8 @@ std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const 
     notes.push_back(
         {WarningKind::tilt_tells_nothing,
          "the tilt tells no drag of this drone from none, so it does not say whether the drone is "
-         "heavier or its motors are hungrier: that takes passes at speed, there and back"});
+         "heavier or its motors are hungrier, and the design keeps its drag: that takes passes at "
+         "speed, there and back"});
     return std::nullopt;
   }
   return tilt;

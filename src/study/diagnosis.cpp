@@ -1,5 +1,6 @@
 #include "tethercalc/study/diagnosis.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "study/as_flown.hpp"
@@ -85,7 +86,7 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
                               progress);
     });
   }
-  bool one_drone = false;
+  bool keeps_drag = false;
   if (const auto& power = question.power) {
     const bool one_flight = question.one_flight && study.flight;
     Design flown = as_flown(design, *power);
@@ -99,10 +100,14 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     });
     study.power = std::move(found.diagnosis);
     study.extended = as_designed(std::move(found.extended), flown, design);
-    one_drone = study.power->drag_by_tilt.has_value();
+    // The power log's model holds the drag that the tilt of the same flight shows, or the tilt tells
+    // none from it.
+    keeps_drag = study.power->drag_by_tilt.has_value() ||
+                 std::ranges::count(study.power->notes, WarningKind::tilt_tells_nothing,
+                                    &Warning::kind) > 0;
     if (one_flight && !tilt) study.power->notes.push_back(no_tilt());
   }
-  if (study.flight && !study.flight->spec_changes.empty() && !one_drone) {
+  if (study.flight && !study.flight->spec_changes.empty() && !keeps_drag) {
     study.extended.drone.drag = with_changes(design.drone.drag, study.flight->spec_changes);
   }
   if (study.flight && study.power) {

@@ -122,6 +122,17 @@ TEST_CASE("the mean power of flights with a known payload is what one without ha
   }
 }
 
+TEST_CASE("a design keeps its drag where the tilt of its flight tells none from it") {
+  const auto bare = flight(273);
+  if (!bare) return;
+  const test::TemporaryFolder folder;
+  const std::string spec = (folder.path() / "flown.json").string();
+  diagnosed(matrice(folder), {"--log", *bare, "--into", spec});
+  const AirframeDrag drag = read_design(spec).design.drone.drag;
+  CHECK(drag.front_area == 0.04);
+  CHECK(drag.top_area == 0.04);
+}
+
 TEST_CASE("a velocity along the drone's own axes is that of its track") {
   const auto bare = flight(273);
   if (!bare) return;
