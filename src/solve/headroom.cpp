@@ -239,7 +239,14 @@ class RadiiSearch {
     if (a.margin.warming == 1 && b.margin.warming == 1) return trend != 0 && !demands_.heated();
     return trend == 1 && b.at.radius < not_much * a.at.radius && a.margin.warming < infinity &&
            b.margin.warming <= a.margin.warming && b.margin.hottest_C <= a.margin.hottest_C &&
-           (a.met() != b.met() || smooth(a, b)) && demands_.margin(b.at, a.at).warming < infinity;
+           (smooth(a, b) || (a.met() != b.met() && demands_.flight().motor().is_convex())) &&
+           (a.met() || b.met() || cools_up_to(b)) && demands_.margin(b.at, a.at).warming < infinity;
+  }
+
+  /// Whether a little more conductor still cools the cable there: the sun warms thick ones.
+  [[nodiscard]] bool cools_up_to(const End& b) const {
+    constexpr double little = 1 - 1e-3;
+    return between(b, little * b.at.radius).margin.hottest_C >= b.margin.hottest_C;
   }
 
   /// From a to b the margin only rises or only falls.

@@ -24,6 +24,11 @@ double near_log(double a, double b) { return 2 * (a - b) / (a + b); }
 /// exp(x) for |x| < 1, with an error of the third order.
 double near_exp(double x) { return (2 + x) / (2 - x); }
 
+struct ValleyBottom {
+  ThrustAt at;
+  bool is_reached = true;  ///< else it is a place where the power rises, and less runs away
+};
+
 class ValleySearch {
  public:
   ValleySearch(const SteadyFlight& flight, const WarmTether& tether, const MotorCurve& motor,
@@ -45,11 +50,12 @@ class ValleySearch {
         left_{radii.lo, false},
         right_{radii.hi, false} {}
 
-  ThrustAt bottom(ThrustAt start) {
+  ValleyBottom bottom(ThrustAt start) {
     const ThrustAt found = descend(start);
     // Where a cable begins to run away the power ends, and may be least just before.
     const bool ends = heated_ && right_.known && runs_away(found);
-    return ends ? thrust_at(flight_, right_.radius, found.tan_pitch) : found;
+    if (!ends) return {found};
+    return {thrust_at(flight_, right_.radius, found.tan_pitch), false};
   }
 
  private:
@@ -250,9 +256,9 @@ class ValleySearch {
 /// ratio would be 1 if it fell with a power of r lands close; what is known is kept as a bracket;
 /// and a vertex is visited where a step would leave its piece but a step with the next piece's
 /// slope would not reach it.
-ThrustAt valley_bottom(const SteadyFlight& flight, const WarmTether& tether,
-                       const MotorCurve& motor, Pieces pieces, Interval radii,
-                       const ThrustAt& start) {
+ValleyBottom valley_bottom(const SteadyFlight& flight, const WarmTether& tether,
+                           const MotorCurve& motor, Pieces pieces, Interval radii,
+                           const ThrustAt& start) {
   return ValleySearch(flight, tether, motor, pieces, radii, start.share).bottom(start);
 }
 
@@ -368,7 +374,8 @@ class LeastPowerSearch {
       if (flight_.share_changes()) (void)consider(beyond);
       (void)consider(lo);
       (void)consider(hi);
-      (void)consider(valley_bottom(flight_, tether_, motor, pieces, {lo.radius, hi.radius}, start));
+      (void)consider(
+          valley_bottom(flight_, tether_, motor, pieces, {lo.radius, hi.radius}, start).at);
       return;
     }
     // Where a cable runs away, others nearby do mostly, too.
@@ -577,13 +584,15 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   double within = thrust;
   for (int attempt = 0; attempt < 3 && !is_bottom; ++attempt) {
     const double chosen = flight.output_power(convex.power(within), best.share);
-    best = valley_bottom(flight, tether, convex, {0, convex.vertices().size() - 2, within}, radii,
-                         best);
+    const Pieces pieces{0, convex.vertices().size() - 2, within};
+    const ValleyBottom valley = valley_bottom(flight, tether, convex, pieces, radii, best);
+    best = valley.at;
     within = best.thrust.value;
     const double reached = flight.output_power(convex.power(within), best.share);
     const auto [lo, hi] = std::minmax(chosen, reached);
-    is_bottom = is_proportional(design.supply.converter) ||
-                std::isnan(converter_kink(design.supply.converter, lo, hi));
+    is_bottom = valley.is_reached && (is_proportional(design.supply.converter) ||
+                                      std::isnan(converter_kink(design.supply.converter, lo, hi)));
+    if (is_proportional(design.supply.converter)) break;
   }
   LeastPowerSearch search(flight, tether, best, is_bottom);
   if (!(search.power() < infinity) || !one_valley ||
