@@ -223,8 +223,7 @@ class ValleySearch {
     if (std::isnan(next)) return middle;  // where the tilt has no slope
     if (next <= left_.radius) return left_.known ? middle : left_.radius;
     if (next >= right_.radius) return right_.known ? middle : right_.radius;
-    return (step % 8 == 0 || (step > 30 && step % 2 == 0)) && left_.known && right_.known ? middle
-                                                                                          : next;
+    return step % 8 == 0 || (step > 30 && step % 2 == 0) ? middle : next;
   }
 
   const SteadyFlight& flight_;

@@ -104,6 +104,17 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "rotors that lean, converters at their rating and cables in the sun are searched to the end") {
+  for (const unsigned seed :
+       {2107U, 113457U, 121878U, 143770U, 146809U, 154385U, 159763U, 170173U, 204501U, 239489U,
+        245060U, 292962U, 444389U, 453646U, 658126U, 864107U}) {
+    INFO(seed);
+    test::Random random(seed);
+    check_against_areas(test::random_extreme_design(random), 3000);
+  }
+}
+
 TEST_CASE("where the least power lies on the brink of running away, the brink is the optimum") {
   // The searches for the least power and for the feasible areas find this brink 4e-10 apart.
   test::Random random(704741376U);
