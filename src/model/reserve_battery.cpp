@@ -107,6 +107,26 @@ double earliest_takeoff(const Drone& drone, const Ask& at, std::size_t piece, do
   return rate > 0 ? at.takeoff + missing / rate : infinity;
 }
 
+/// Whether from `at` to `end`, on `piece` of the motors' curve, a heavier drone is sure to ask for
+/// less battery more than it is heavier.
+bool lags_behind(const Drone& drone, const Ask& at, const Ask& end, std::size_t piece,
+                 const Landing& landing) {
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
+  return thrust_bends_up(at) &&
+         per_watt * power_per_newton(drone, piece, at.share) * end.thrust.slope < 1;
+}
+
+/// The take-off mass between two at which nothing is missing any more.
+template <typename AskAt>
+double takeoff_between(const Ask& at, const Ask& end, const AskAt& ask) {
+  const boost::math::tools::eps_tolerance<double> to_the_last_digit;
+  std::uintmax_t steps = 100;
+  return boost::math::tools::toms748_solve([&](double takeoff) { return ask(takeoff).missing; },
+                                           at.takeoff, end.takeoff, at.missing, end.missing,
+                                           to_the_last_digit, steps)
+      .second;
+}
+
 }  // namespace
 
 double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing) {
@@ -136,26 +156,28 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
         continue;
       }
       const Ask end = ask(std::min(at.takeoff * (1 + stride), upper));
+      const bool one_root =
+          lags_behind(drone, at, end, i, landing) || end.takeoff <= at.takeoff * (1 + shortest);
+      if (one_root && !(end.missing > 0)) return takeoff_between(at, end, ask) - mass;
       const double from = earliest_takeoff(drone, at, i, end.share, mass, landing);
-      const bool is_short = end.takeoff <= at.takeoff * (1 + shortest);
-      if (!(from < end.takeoff) || (is_short && end.missing > 0)) {
+      if (one_root || !(from < end.takeoff)) {
         at = end;
         stride = std::min(longest, 4 * stride);
-      } else if (!is_short) {
+      } else {
         stride = (end.takeoff / at.takeoff - 1) / 4;
         at = ask(from);
-      } else {
-        const auto missing = [&](double takeoff) { return ask(takeoff).missing; };
-        const boost::math::tools::eps_tolerance<double> to_the_last_digit;
-        std::uintmax_t steps = 100;
-        return boost::math::tools::toms748_solve(missing, at.takeoff, end.takeoff, at.missing,
-                                                 end.missing, to_the_last_digit, steps)
-                   .second -
-               mass;
       }
     }
   }
   return at.missing > 0 ? infinity : at.takeoff - mass;
+}
+
+double mass_beside_battery(const Drone& drone, double takeoff_mass, const Landing& landing) {
+  return -ask_at(drone, takeoff_mass, 0, landing).missing;
+}
+
+double heaviest_landing(const Drone& drone, const Landing& landing) {
+  return held_mass(drone, drone.motor.max_thrust(), landing);
 }
 
 BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,

@@ -118,6 +118,20 @@ double SteadyFlight::radius_of_weight(double weight) const {
 double SteadyFlight::searched_radius(double limit) const {
   constexpr double thinnest = 1e-6;
   constexpr double thickest = 1;
+  if (!tether_.is_solved()) {
+    // The thicker the heavier, and never lighter than without a battery.
+    if (!(weight(thinnest) <= limit)) return -1;
+    const StraightTether& tether = tether_.straight();
+    const double takeoff = (limit - tether.winch_pull()) / gravity_;
+    const double without_battery = tether.radius_of_mass(takeoff - fixed_mass_);
+    if (!has_battery_) return radius_between(limit, thinnest, without_battery);
+    const double guess = radius_of_takeoff(takeoff, without_battery);
+    constexpr double rounding = 1e-12;
+    if (weight(guess * (1 - rounding)) <= limit && !(weight(guess * (1 + rounding)) <= limit)) {
+      return radius_between(limit, guess * (1 - rounding), guess * (1 + rounding));
+    }
+    return radius_between(limit, thinnest, without_battery);
+  }
   double light = -1;
   double heavy = thinnest;
   // Beyond radii at which it cannot hang it may hang again.
@@ -129,7 +143,7 @@ double SteadyFlight::searched_radius(double limit) const {
   if (light < 0 || 2 * light > thickest) return light;
   if (heavy > thickest) heavy = 2 * light;
   if (!has_battery_ && weight(heavy) < std::numeric_limits<double>::infinity()) {
-    return radius_of_smooth_weight(limit, light, heavy);
+    return radius_between(limit, light, heavy);
   }
   // By ratios, then down to the last digit.
   while (heavy > light * (1 + 1e-3)) {
@@ -143,15 +157,31 @@ double SteadyFlight::searched_radius(double limit) const {
   return light;
 }
 
-double SteadyFlight::radius_of_smooth_weight(double limit, double light, double heavy) const {
-  // Newton's method in a bracket, which is halved where it leads out.
-  double radius = light;
-  for (int step = 1; step < 200; ++step) {
+double SteadyFlight::radius_of_takeoff(double takeoff, double start) const {
+  double radius = start;
+  constexpr int most_steps = 20;  // the drag changes little with the radius
+  for (int step = 0; step < most_steps; ++step) {
+    const Landing landing = this->landing(radius);
+    const double heaviest = std::min(takeoff, heaviest_landing(drone(), landing));
+    const double bare = mass_beside_battery(drone(), heaviest, landing);
+    const double before = radius;
+    radius = tether_.straight().radius_of_mass(bare - fixed_mass_);
+    if (!(std::abs(radius - before) > 1e-15 * radius)) break;
+  }
+  return radius;
+}
+
+double SteadyFlight::radius_between(double limit, double light, double heavy) const {
+  // Newton's method in a bracket, which is halved where it leads out, and every fourth step: a
+  // reserve battery may leap.
+  double radius = heavy;
+  for (int step = 1; step < 300; ++step) {
     const Weight here = weighed(radius);
     (here.value > limit ? heavy : light) = radius;
     const double newton = radius + (limit - here.value) / here.slope;
-    const bool inside = newton > light && newton < heavy && step % 8 != 0;
-    const double next = inside ? newton : 0.5 * (light + heavy);
+    const bool inside = newton > light && newton < heavy && step % 4 != 0;
+    const double middle = heavy > 4 * light ? std::sqrt(light * heavy) : 0.5 * (light + heavy);
+    const double next = inside ? newton : middle;
     if (!(light < next && next < heavy)) break;
     if (inside && std::abs(next - radius) <= 1e-8 * radius) {
       // Exact but for rounding.

@@ -49,6 +49,15 @@ struct Landing {
 /// 0 without a battery, +infinity where no battery can carry itself.
 [[nodiscard]] double reserve_battery_mass(const Drone& drone, double mass, const Landing& landing);
 
+/// Mass in kg, all but the battery, of a drone whose battery takes it to `takeoff_mass` kg. The
+/// inverse of `mass + reserve_battery_mass(mass)` where that reaches `takeoff_mass` without a leap.
+/// NaN beyond `heaviest_landing`.
+[[nodiscard]] double mass_beside_battery(const Drone& drone, double takeoff_mass,
+                                         const Landing& landing);
+
+/// Mass in kg of the heaviest drone that all its motors hold in the wind of `landing`.
+[[nodiscard]] double heaviest_landing(const Drone& drone, const Landing& landing);
+
 /// How much more battery more to hold takes.
 struct BatteryGrowth {
   double by_mass = 0;  ///< kg for a kilogram more without it

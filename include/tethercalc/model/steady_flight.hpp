@@ -211,8 +211,11 @@ class SteadyFlight {
   [[nodiscard]] ForceBalance force_balance(double radius, double weight) const;
   [[nodiscard]] double sized_battery(double radius) const;
   [[nodiscard]] double searched_radius(double weight) const;
-  /// The radius between two at which the motors lift `weight`, where that grows without leaps.
-  [[nodiscard]] double radius_of_smooth_weight(double weight, double light, double heavy) const;
+  /// The radius at which the battery takes the drone to `takeoff` kg, or to what its motors hold
+  /// where that is less, unless its mass leaps there.
+  [[nodiscard]] double radius_of_takeoff(double takeoff, double start) const;
+  /// The largest radius between two up to which the motors lift no more than `weight`.
+  [[nodiscard]] double radius_between(double weight, double light, double heavy) const;
   /// kg that the battery lands, but for its own.
   [[nodiscard]] double mass_without_battery_at(double radius) const;
 
