@@ -1,6 +1,6 @@
 // What the C++20 of this project needs and LLVM's library of Emscripten 3.1.6 (version 13) lacks:
-// the algorithms over ranges, with projections, and the order of a few members by <=>. Force-included
-// where the page's program is compiled; a library that has them makes it empty.
+// the algorithms over ranges, with projections, and the order of a few members by <=>.
+// Force-included where the page's program is compiled; a library that has them makes it empty.
 #pragma once
 
 #include <version>
@@ -31,7 +31,10 @@ auto find(Range&& range, const Value& value, Projection projection = {}) {
 }
 
 template <typename Iterator, typename Value>
-  requires requires(Iterator i) { *i; ++i; }
+requires requires(Iterator i) {
+  *i;
+  ++i;
+}
 Iterator find(Iterator begin, Iterator end, const Value& value) {
   return std::find(begin, end, value);
 }
@@ -171,7 +174,7 @@ Out copy_if(Range&& range, Out out, Test test) {
 }  // namespace ranges
 
 template <typename Value>
-  requires requires(const Value& a) { a <=> a; }
+requires requires(const Value& a) { a <=> a; }
 constexpr auto operator<=>(const optional<Value>& a, const optional<Value>& b)
     -> decltype(*a <=> *b) {
   if (a && b) return *a <=> *b;
@@ -179,7 +182,7 @@ constexpr auto operator<=>(const optional<Value>& a, const optional<Value>& b)
 }
 
 template <typename Value, size_t size>
-  requires requires(const Value& a) { a <=> a; }
+requires requires(const Value& a) { a <=> a; }
 constexpr auto operator<=>(const array<Value, size>& a, const array<Value, size>& b)
     -> decltype(a[0] <=> a[0]) {
   for (size_t i = 0; i < size; ++i) {

@@ -100,11 +100,11 @@ DiagnosisStudy study_diagnosis(const DiagnosisQuestion& question,
     });
     study.power = std::move(found.diagnosis);
     study.extended = as_designed(std::move(found.extended), flown, design);
-    // The power log's model holds the drag that the tilt of the same flight shows, or the tilt tells
-    // none from it.
-    keeps_drag = study.power->drag_by_tilt.has_value() ||
-                 std::ranges::count(study.power->notes, WarningKind::tilt_tells_nothing,
-                                    &Warning::kind) > 0;
+    // The power log's model holds the drag that the tilt of the same flight shows, or the tilt
+    // tells none from it.
+    keeps_drag =
+        study.power->drag_by_tilt.has_value() ||
+        std::ranges::count(study.power->notes, WarningKind::tilt_tells_nothing, &Warning::kind) > 0;
     if (one_flight && !tilt) study.power->notes.push_back(no_tilt());
   }
   if (study.flight && !study.flight->spec_changes.empty() && !keeps_drag) {
