@@ -119,8 +119,8 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
   emit(
       output, [&] { return optimize_text(file, answer, style_for(output)); },
       [&] { return optimize_json(file, answer); }, [&] { return optimize_csv(answer); });
-  point_to_explanations({std::string(limit_name(answer.result.limited_by))}, all_warnings(file),
-                        output);
+  point_to_explanations({std::string(limit_name(answer.result.limited_by))},
+                        all_warnings(file, {answer.result.area}), output);
   return answer.result.feasible ? done : answer_is_no;
 }
 
@@ -137,7 +137,7 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
   emit(
       output, [&] { return evaluate_text(file, table, style_for(output)); },
       [&] { return evaluate_json(file, table); }, [&] { return evaluate_csv(table); });
-  point_to_explanations({}, all_warnings(file), output);
+  point_to_explanations({}, all_warnings(file, table), output);
   return done;
 }
 

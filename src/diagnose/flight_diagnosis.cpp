@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -406,6 +407,12 @@ Diagnosis diagnose_flight(const Design& design, FlightLog log,
                           const SelectionProgress& progress) {
   const MeasuredFlight flight{std::move(log), std::nullopt};
   return diagnose_flights(design, {&flight, 1}, options, progress);
+}
+
+double judged_time(FlightLog log) {
+  Design design;
+  design.drone.mass = 1;  // forces over it are compared
+  return read_flights(design, std::array{MeasuredFlight{std::move(log), {}}}, 0).front().usable;
 }
 
 }  // namespace tethercalc

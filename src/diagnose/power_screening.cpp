@@ -152,9 +152,11 @@ double best_delay(const std::function<double(double)>& agreement, std::size_t sa
   const double none = agreement(0);
   double best = 0;
   double best_value = none;
+  double least_value = none;
   const double step = std::max(0.5 * interval, 0.25);
   for (double delay = -furthest; delay <= furthest + 1e-9; delay += step) {
     const double value = agreement(delay);
+    least_value = std::min(least_value, value);
     if (value > best_value) {
       best_value = value;
       best = delay;
@@ -169,7 +171,10 @@ double best_delay(const std::function<double(double)>& agreement, std::size_t sa
   // and the best of some fifty chosen.
   const double z =
       std::atanh(std::min(best_value, 0.999999)) - std::atanh(std::min(none, 0.999999));
-  const bool clear = z * std::sqrt(static_cast<double>(samples)) > 6 && best_value > 0.05;
+  // Where channels disagree more at some delay than they agree at any, the prediction has the wrong
+  // sign, as that of a drone which flies to and fro and brakes hard: it tells no moment.
+  const bool clear = z * std::sqrt(static_cast<double>(samples)) > 6 && best_value > 0.05 &&
+                     best_value > -least_value;
   return clear && std::abs(best) > negligible ? best : 0;
 }
 

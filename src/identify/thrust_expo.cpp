@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t fewest_rows = 5;
 constexpr double least_cover = 0.5;
 constexpr double largest_expo = 1;  // of the documented range, −1 to 1
+// Half of an interval: one over half of that range says less than ArduPilot's default.
+constexpr double widest = 0.5;
 
 /// Places within the range, and thrusts.
 struct PlacedRows {
@@ -88,6 +90,11 @@ ThrustExpo fit_thrust_expo(std::span<const ThrottledThrust> rows, const SpinRang
         fmt::format("MOT_THST_EXPO would be {:.3g}, outside its range of -1 to 1: thrust over "
                     "throttle has another shape than ArduPilot's curve",
                     expo.value));
+  }
+  if (!(half_width <= widest)) {
+    throw UnsuitableThrottle(fmt::format(
+        "the rows tell MOT_THST_EXPO only to within {:.2f} to {:.2f} (95 %): they scatter too much",
+        expo.lower, expo.upper));
   }
   expo.value = std::clamp(expo.value, -largest_expo, largest_expo);
   out.idle_thrust = b[0];

@@ -1,6 +1,5 @@
 // DataFlash logs as text (`.log`): a message a line, its name and values separated by commas, as
-// Mission Planner and mavlogdump write them and older firmware sent them. The definitions are
-// there:
+// Mission Planner writes them and older firmware sent them. The definitions are there:
 //
 //   FMT, 128, 89, FMT, BBnNZ, Type,Length,Name,Format,Columns
 //   FMT, 64, 37, XKF1, QBccCfff, TimeUS,C,Roll,Pitch,Yaw,VN,VE,VD

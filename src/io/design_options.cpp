@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 #include <utility>
 
@@ -154,15 +153,15 @@ std::vector<double> parsed_areas(const std::vector<std::string>& texts) {
       areas.push_back(*area);
       continue;
     }
-    char* end = nullptr;
-    const double area = std::strtod(text.c_str(), &end);
+    const std::optional<double> area = parsed_number(text);
     // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
-    if (end == text.c_str() || *end != '\0' || !(area >= 1e-6 && area <= 1e6)) {
+    if (!area || !(*area >= 1e-6 && *area <= 1e6)) {
       problems.add("--area-mm2",
                    "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm², nor a " +
                        "standard size such as AWG18");
+      continue;
     }
-    areas.push_back(area * unit::square_millimetre);
+    areas.push_back(*area * unit::square_millimetre);
   }
   problems.throw_if_any();
   return areas;

@@ -73,6 +73,10 @@ std::string foreign_kind(std::span<const std::byte> content) {
   if (head.size() > 12 && head.substr(4, 4) == "ftyp") {
     return "is a video or picture (MP4, MOV or HEIF), not a log";
   }
+  if (head.starts_with("RIFF") && head.size() > 12 && head.substr(8, 3) == "AVI") {
+    return "is a video (AVI), not a log";
+  }
+  if (head.starts_with("\x1A\x45\xDF\xA3")) return "is a video (MKV or WebM), not a log";
   if (head.starts_with("\xFF\xD8\xFF")) return "is a JPEG picture, not a log";
   if (head.starts_with("\x89PNG")) return "is a PNG picture, not a log";
   if (head.starts_with("%PDF")) return "is a PDF document, not a log";

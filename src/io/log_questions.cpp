@@ -17,6 +17,24 @@
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
+namespace {
+
+/// Adds a channel of a log to those of others; whether it is the same as one of them.
+bool repeats_another(std::vector<double> channel, std::vector<std::vector<double>>& others) {
+  const bool repeats = std::find(others.begin(), others.end(), channel) != others.end();
+  others.push_back(std::move(channel));
+  return repeats;
+}
+
+void refuse_repeated(const std::string& name, const FlightLog& log,
+                     std::vector<std::vector<double>>& pitches) {
+  if (!repeats_another(log.pitch, pitches)) return;
+  throw InputError(name,
+                   "is the same flight as another of these logs; counted twice it would seem to "
+                   "tell more than it does");
+}
+
+}  // namespace
 
 void check_range(const char* option, double value, double least, double most, const char* unit) {
   if (value >= least && value <= most) return;
@@ -77,10 +95,12 @@ LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
   flight.options.pitch_offset = pitch_offset(options.flight, read);
   const auto from = log_position("--from", options.flight.from);
   const auto to = log_position("--to", options.flight.to);
+  std::vector<std::vector<double>> pitches;
   for (const std::string& name : options.flight_logs) {
     FlightLogReading reading = read.flight(name, {.core = options.flight.core,
                                                   .level_where_missing = true,
                                                   .columns = options.flight.columns});
+    refuse_repeated(name, reading.log, pitches);
     const bool several = options.flight_logs.size() > 1;
     if (several) {
       notes.push_back({WarningKind::log_flight_of_several,
@@ -115,8 +135,14 @@ PowerLog read_power(const LogsAsked& options, const LogReaders& read, std::vecto
   const PowerLogOptions how{options.free_flight, battery_numbers(options.batteries),
                             options.flight.core, options.flight.columns};
   PowerLog all;
+  std::vector<std::vector<double>> airspeeds;
   for (const std::string& name : options.power_logs) {
     PowerLogReading reading = read.power(name, how);
+    if (repeats_another(reading.log.airspeed, airspeeds)) {
+      notes.push_back({WarningKind::log_flight_of_several,
+                       name + " is the same flight as another of these logs: together they tell no "
+                              "more than one, whatever intervals say"});
+    }
     try {
       append_flight(all, reading.log);
     } catch (const std::invalid_argument& error) {
@@ -269,8 +295,10 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
                                         const FlightOptions& flight, const LogReaders& read,
                                         const NoteTaker& note) {
   std::vector<FlightLog> logs;
+  std::vector<std::vector<double>> pitches;
   for (const std::string& name : names) {
     FlightLogReading reading = read.flight(name, {.core = flight.core, .columns = flight.columns});
+    refuse_repeated(name, reading.log, pitches);
     for (const auto& [kind, amiss] : reading.notes)
       note({kind, fmt::format("{}: {}", name, amiss)});
     if (!reading.log.north_wind.empty()) {

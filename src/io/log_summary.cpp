@@ -13,7 +13,9 @@
 #include "io/logged_power.hpp"
 #include "io/logged_vehicle.hpp"
 #include "io/logged_wind.hpp"
+#include "tethercalc/diagnose/flight_diagnosis.hpp"
 #include "tethercalc/diagnose/power_diagnosis.hpp"
+#include "tethercalc/identify/drag_identification.hpp"
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/model/units.hpp"
@@ -24,7 +26,8 @@ namespace {
 constexpr double believed_step = 60;  // s, see LogSummary
 constexpr double shortest_gap = 1;    // s
 constexpr std::size_t most_gaps_told = 100;
-constexpr double longest_pause = 10;  // s of a drone in the air that hardly moves
+constexpr double shortest_landing = 2;  // s; a drone that bounces lands later
+constexpr double longest_pause = 10;    // s of a drone in the air that hardly moves
 
 // LogEvent in ArduPilot's libraries/AP_Logger/AP_Logger.h.
 constexpr double event_disarmed = 11;
@@ -177,7 +180,11 @@ class FlyingByEvents {
 
  private:
   void land(double now) {
-    if (since_) flights_.push_back({*since_, std::max(now, *since_)});
+    if (since_ && !flights_.empty() && *since_ - flights_.back().end < shortest_landing) {
+      flights_.back().end = std::max(now, *since_);
+    } else if (since_) {
+      flights_.push_back({*since_, std::max(now, *since_)});
+    }
     since_.reset();
   }
 
@@ -310,6 +317,11 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
     const double flown = power.log.time.back() - power.log.time.front();
     use.possible = flown >= shortest_power_log;
     const char* const how = flight->height.empty() ? ", which tells no height (--free-flight)" : "";
+    const std::vector<double>& current = power.log.bus_current;
+    const bool varies =
+        std::any_of(current.begin(), current.end(), [&](double x) { return x != current.front(); });
+    if (use.possible && !varies)
+      return {use.command, false, "the current never changes: it is not measured"};
     use.because = use.possible ? power.source + how
                                : fmt::format("{:.0f} s flown, {:.0f} s are needed to judge it",
                                              flown, shortest_power_log);
@@ -317,6 +329,18 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
     use.because = error.problems().front().message;
   }
   return use;
+}
+
+/// Whether `command` can use a log that tells how it flew: `attempt` throws what is in the way.
+template <typename Attempt>
+LogSummary::Use flight_use(const char* command, const FlightLogReading& flight,
+                           const Attempt& attempt) {
+  try {
+    attempt();
+    return {command, true, flight.source};
+  } catch (const UnsuitableFlight& error) {
+    return {command, false, error.what()};
+  }
 }
 
 /// What the commands could do with the log; `flight` where it could be read, else `obstacle`.
@@ -328,8 +352,18 @@ std::vector<LogSummary::Use> uses_of(const AutopilotLog& log, const LogSummary& 
                               : !flight->log.other_vehicle.empty() ? "it is " + summary.vehicle
                               : is_flown                           ? flight->source
                                          : "too few samples of " + flight->source;
-  return {{"drag", is_flown, because},
-          {"diagnose --flight", is_flown, because},
+  if (!is_flown) {
+    return {{"drag", false, because},
+            {"diagnose --flight", false, because},
+            power_use(log, summary, flight, because)};
+  }
+  const auto identified = [&] {
+    DragIdentificationOptions options;
+    options.conditions.mass = 1;  // accelerations do not depend on it
+    (void)identify_drag({&flight->log, 1}, options);
+  };
+  return {flight_use("drag", *flight, identified),
+          flight_use("diagnose --flight", *flight, [&] { (void)judged_time(flight->log); }),
           power_use(log, summary, flight, because)};
 }
 

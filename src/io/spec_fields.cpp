@@ -152,7 +152,7 @@ const std::array all_spec_fields{
         "/tether/projection_factor", number, "", between(0, 1), "0.75",
         "Mean width that the turning pair shows the wind, over the width of both side by side.", 1,
         at<&Design::tether, &Tether::projection_factor>},
-    SpecField{"/tether/cross_section_mm2", optional_number, "mm²", above(0, 1000), "null",
+    SpecField{"/tether/cross_section_mm2", optional_number, "mm²", above(0, 1e6), "null",
               "Cross-section of one conductor, where the cable is already chosen.",
               unit::square_millimetre, at<&Design::tether, &Tether::cross_section>},
     SpecField{"/tether/ambient_temperature_C", optional_number, "°C", between(-60, 90), "null",

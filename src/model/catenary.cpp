@@ -86,6 +86,7 @@ struct Reach {
 
 /// Where the end is, with H and V at the start.
 Reach reach_of(const Catenary& c, double s, double weight, std::optional<double> stiffness) {
+  if (s == 0) return {};
   const double start = c.vertical_at_start;
   const double end = start + weight * s;
   Reach reach{

@@ -885,6 +885,19 @@ std::optional<std::pair<Start, double>> let_out(const Problem& problem, const Ve
   return led_on<n>(changed, *at);
 }
 
+/// Whether a winch, in still air, pulls with clearly less than the least tension that holds a cable
+/// up beside its station: certain in closed form.
+template <class Problem>
+bool is_far_too_weak(const Problem& problem) {
+  const EvenLoad even(problem, problem.steady);
+  // The lengths tried lie a factor of 1.5 in slack apart, between which tension hardly falls.
+  constexpr double clearly = 1.05;
+  const bool aside = std::hypot(problem.drone.x, problem.drone.y) > 0.01 * norm(problem.drone);
+  return aside && problem.compliance == 0 && even.weight > 0 &&
+         even.tension_at_station(even.length_with_tension(*problem.winch)) >
+             clearly * *problem.winch;
+}
+
 template <int n, class Start, class Problem>
 std::optional<Start> anew(const Problem& problem, CableOutcome& why_not) {
   // The load along the chord, where that is the same all along; else also nearer to the ends.
@@ -975,8 +988,13 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const 
     last_.reset();
     return loaded ? CableOutcome::too_short : CableOutcome::not_found;
   }
-  if (paid_out.length &&
-      p.drag * (dot(air.wind, air.wind) + dot(air.drone_velocity, air.drone_velocity)) == 0) {
+  const bool in_still_air =
+      p.drag * (dot(air.wind, air.wind) + dot(air.drone_velocity, air.drone_velocity)) == 0;
+  if (in_still_air && p.winch && is_far_too_weak(p)) {
+    last_.reset();
+    return CableOutcome::tension_too_low;
+  }
+  if (in_still_air && paid_out.length) {
     last_.reset();
     still_ = catenary(std::hypot(drone.x, drone.y), drone.z, *paid_out.length, cable.weight,
                       cable.axial_stiffness);

@@ -117,7 +117,6 @@ double SteadyFlight::radius_of_weight(double weight) const {
 
 double SteadyFlight::searched_radius(double limit) const {
   constexpr double thinnest = 1e-6;
-  constexpr double thickest = 1;
   if (!tether_.is_solved()) {
     // The thicker the heavier, and never lighter than without a battery.
     if (!(weight(thinnest) <= limit)) return -1;
@@ -132,6 +131,7 @@ double SteadyFlight::searched_radius(double limit) const {
     }
     return radius_between(limit, thinnest, without_battery);
   }
+  const double thickest = std::min(1.0, tether_.radius_of_tension(limit));
   double light = -1;
   double heavy = thinnest;
   // Beyond radii at which it cannot hang it may hang again.

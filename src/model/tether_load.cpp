@@ -357,6 +357,12 @@ double TetherInFlight::hanging_length(double radius) const {
   return fixed ? *fixed : hanging_->at(radius).value.length;
 }
 
+double TetherInFlight::radius_of_tension(double tension) const {
+  const std::optional<double> stiffness = straight_.tether_->axial_stiffness;
+  const double stretched = stiffness ? 1 + tension / (2 * *stiffness) : 1;
+  return straight_.radius_of_mass(tension * stretched / straight_.gravity_);
+}
+
 double TetherInFlight::on_drum(double in_air) const {
   return std::max(0.0, straight_.on_drum_ - (in_air - straight_.deployed_));
 }

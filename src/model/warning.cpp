@@ -18,6 +18,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "drag_estimated",
                                                                    "drum_cooling_unknown",
                                                                    "rated_temperature_unknown",
+                                                                   "tether_touches_ground",
                                                                    "drag_at_bound",
                                                                    "drag_may_be_none",
                                                                    "drag_not_converged",

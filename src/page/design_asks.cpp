@@ -37,10 +37,12 @@ ordered_json optimum_json(const Request& request, const Optimised& asked) {
   const auto& [file, study] = asked;
   Answer told = answer(file, study);
   const auto sentence = [](const Warning& warning) { return warning.sentence; };
-  ordered_json out{
-      {"headline", std::move(told.headline)}, {"sentences", std::move(told.sentences)},
-      {"remedies", std::move(told.remedies)}, {"warnings", json_list(all_warnings(file), sentence)},
-      {"result", optimize_json(file, study)}, {"command", "tethercalc optimize spec.json"}};
+  ordered_json out{{"headline", std::move(told.headline)},
+                   {"sentences", std::move(told.sentences)},
+                   {"remedies", std::move(told.remedies)},
+                   {"warnings", json_list(all_warnings(file, {study.result.area}), sentence)},
+                   {"result", optimize_json(file, study)},
+                   {"command", "tethercalc optimize spec.json"}};
   if (!request.flag("brief")) out["text"] = optimize_text(file, study, {});
   return out;
 }

@@ -12,6 +12,7 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/model/conductor_heat.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
 namespace {
@@ -113,8 +114,10 @@ double breakdown_voltage(const Design& design) {
 }
 
 std::string temperature_words(const char* condition, const OperatingPoint& point) {
-  if (point.thermal_runaway) return fmt::format("runs away in {}", condition);
-  if (std::isnan(point.conductor_temperature)) return fmt::format("has none in {}", condition);
+  if (point.thermal_runaway) return fmt::format("rising without end in {}", condition);
+  if (std::isnan(point.conductor_temperature)) {
+    return fmt::format("unknown in {}, which is not flown", condition);
+  }
   std::string words = fmt::format("{} °C in {}", fixed(point.conductor_temperature, 1), condition);
   if (!std::isnan(point.drum_temperature)) {
     words += fmt::format(" ({} °C on the drum)", fixed(point.drum_temperature, 1));
@@ -522,10 +525,43 @@ std::vector<Warning> spec_warnings(const DesignFile& file) {
   return warnings;
 }
 
-std::vector<Warning> all_warnings(const DesignFile& file) {
+std::optional<Warning> ground_warning(const Design& design, double area) {
+  if (!(area > 0)) return std::nullopt;
+  const FlownShape* lowest = nullptr;
+  const std::vector<FlownShape> shapes = shapes_in_flight(design, area);
+  const auto below_station = [](const FlownShape& shape) {
+    return -shape.study.shape.lowest.position.z;
+  };
+  for (const FlownShape& shape : shapes) {
+    if (shape.study.outcome != CableOutcome::hangs || shape.study.hangs_free) continue;
+    if (lowest == nullptr || below_station(shape) > below_station(*lowest)) lowest = &shape;
+  }
+  if (lowest == nullptr) return std::nullopt;
+  return Warning{
+      WarningKind::tether_touches_ground,
+      fmt::format("with {} mm² the tether lies on the ground in {}: without one it would hang "
+                  "{} m below the station; the loads are those without a ground (tethercalc "
+                  "shape shows them)",
+                  significant(area / unit::square_millimetre, 4),
+                  condition_words(lowest->condition), fixed(below_station(*lowest), 2))};
+}
+
+std::vector<Warning> all_warnings(const DesignFile& file, const std::vector<double>& areas) {
   std::vector<Warning> warnings = spec_warnings(file);
   for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+  for (const double area : areas) {
+    if (auto ground = ground_warning(file.design, area)) {
+      warnings.push_back(std::move(*ground));
+      break;
+    }
+  }
   return warnings;
+}
+
+std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPoints> table) {
+  std::vector<double> areas;
+  for (const AreaPoints& row : table) areas.push_back(row.area);
+  return all_warnings(file, areas);
 }
 
 }  // namespace tethercalc

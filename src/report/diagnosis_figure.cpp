@@ -9,6 +9,7 @@
 
 #include "report/figure_data.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
+#include "tethercalc/report/diagnosis_report.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 namespace tethercalc {
@@ -170,7 +171,7 @@ std::vector<Origin> origins(const Diagnosis& d) {
     }
   }
   out.push_back({"unexplained", d.budget.unexplained, Colour::ink});
-  out.push_back({"noise", d.budget.noise, Colour::grey});
+  out.push_back({rest_words(d.unexplained), d.budget.noise, Colour::grey});
   return out;
 }
 

@@ -206,7 +206,7 @@ class Story {
                  fmt::format("{:.1f} %", d_.budget.findings[k])});
     }
     table.add({"unexplained", "", fmt::format("{:.1f} %", d_.budget.unexplained)});
-    table.add({"noise", "", fmt::format("{:.1f} %", d_.budget.noise)});
+    table.add({rest_words(d_.unexplained), "", fmt::format("{:.1f} %", d_.budget.noise)});
     out_.emplace_back(TitledTable{"Where the squared error comes from", std::move(table)});
   }
 
@@ -252,14 +252,12 @@ class Story {
   void unexplained() {
     heading("What is left");
     if (!d_.unexplained.detected) {
-      constexpr double little = 10;  // %: hidden in it, an rms would be 5 % larger than the noise's
-      const double hidden = d_.unexplained.undetectable_percent;
-      paragraph(hidden <= little
+      paragraph(d_.unexplained.would_have_shown()
                     ? "No structure against any channel or time: what is left looks like noise."
                     : fmt::format("No structure against any channel or time was found. What makes "
                                   "up less than {:.0f} % of the squared error left would not have "
                                   "shown in a log this short, so it is not said to be noise.",
-                                  hidden));
+                                  d_.unexplained.undetectable_percent));
       return;
     }
     const Unexplained& u = d_.unexplained;
@@ -384,6 +382,10 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
                             {"total_power_W", before_after(d.design_impact->total_power_W)}};
   }
   return out;
+}
+
+std::string rest_words(const Unexplained& unexplained) {
+  return unexplained.detected || unexplained.would_have_shown() ? "noise" : "noise or not";
 }
 
 std::string impact_headline(const DesignImpact& impact) {

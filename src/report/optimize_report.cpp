@@ -220,7 +220,7 @@ std::string optimize_text(const DesignFile& file, const OptimumStudy& study,
   out += answer_text(file, study, style);
   if (!study.sizes.empty()) out += sizes_table(study).text(style);
   if (!study.table.empty()) out += power_table(study).text(style);
-  const std::string notes = notes_text(all_warnings(file), style);
+  const std::string notes = notes_text(all_warnings(file, {study.result.area}), style);
   return notes.empty() ? out : out + "\n" + notes;
 }
 
@@ -268,7 +268,7 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
     out["remedies"] = remedies_json(study);
   }
   add_estimates(out, design);
-  add_warnings(out, all_warnings(file));
+  add_warnings(out, all_warnings(file, {study.result.area}));
   return out;
 }
 
@@ -289,7 +289,6 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
         out += wrapped(sentence);
       }
     }
-    out += notes_text(cable_warnings(file.design), style);
   }
   for (const AreaPoints& row : table) {
     const std::string fault = shortcoming(file.design, row);
@@ -298,7 +297,7 @@ std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> ta
     }
   }
   if (out.back() != '\n') out += "\n";
-  return out + notes_text(spec_warnings(file), style);
+  return out + notes_text(all_warnings(file, table), style);
 }
 
 ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
@@ -310,7 +309,7 @@ ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> t
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file));
+  add_warnings(out, all_warnings(file, table));
   return out;
 }
 

@@ -171,7 +171,7 @@ Section answer_section(const PageContent& content) {
   body += html::paragraphs(told.sentences);
   if (!told.remedies.empty()) body += html::list(told.remedies);
   if (feasible) body += html::table(condition_table(content.optimum.result), "table-conditions");
-  for (const Warning& warning : all_warnings(content.file)) {
+  for (const Warning& warning : all_warnings(content.file, {content.optimum.result.area})) {
     body += html::element("p", "Note: " + warning.sentence, " class=\"note\"") + "\n";
   }
   return {"answer", "The answer", std::move(body)};
@@ -288,6 +288,7 @@ Section spec_section(const DesignFile& file) {
 }
 
 Section method_section(const PageContent& content) {
+  const bool is_straight = content.file.design.tether.model == TetherModel::straight;
   const std::vector<std::string> method{
       "Steady flight, in hover and in forward flight. At each cross-section the tilt of the drone "
       "follows from its weight, its drag and the tether's, and with it the thrust that it needs; "
@@ -296,8 +297,13 @@ Section method_section(const PageContent& content) {
       "The optimum is the cross-section that draws the least power among those that keep the "
       "demanded thrust headroom and every other requirement of the spec. Where the headroom is "
       "kept within a range only, the whole range was found.",
-      "All drag of the tether acts on the drone; the tether hangs straight and is as long as the "
-      "drone is high. Above the last point of its curve a motor has no more thrust.",
+      (is_straight
+           ? "All drag of the tether acts on the drone; the tether hangs straight and is as long "
+             "as "
+             "the drone is high."
+           : "The tether hangs as its weight and the wind have it, from its station to the drone, "
+             "with the length that is paid out; the ground carries its share of weight and drag.") +
+          std::string(" Above the last point of its curve a motor has no more thrust."),
       "After Beffert and Zell, Cable Optimization and Drag Estimation for Tether-Powered "
       "Multirotor "
       "UAVs (2025)."};
@@ -319,7 +325,7 @@ Section rules_section(const RuleStudy& rules) {
 /// What the codes behind this page's answers mean, and what to do.
 Section explained_section(const PageContent& content) {
   std::vector<std::string> codes{std::string(limit_name(content.optimum.result.limited_by))};
-  for (const Warning& warning : all_warnings(content.file)) {
+  for (const Warning& warning : all_warnings(content.file, {content.optimum.result.area})) {
     codes.emplace_back(warning_code(warning.kind));
   }
   for (const LogDiagnosis& log : content.diagnoses) {

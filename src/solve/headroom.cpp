@@ -570,18 +570,23 @@ class BestHeadroomSearch {
 }  // namespace
 
 BestHeadroom best_headroom(const SteadyFlight& flight) {
-  // Where contacts keep the motors from saturating, the search ends where the tether is so heavy
-  // that not even a millionth is left.
-  const Design& design = flight.design();
-  const double heaviest =
-      flight.radius_of_weight(1e6 * design.drone.motor_count * flight.motor().max_thrust());
   BestHeadroomSearch search(flight);
   const double least_weight = flight.lifted_without_tether();
   const double asked = flight.radius_of_available_power(flight.drone_power(
       1e-6 * flight.necessary_thrust(least_weight, 0), flight.power_share(0).value));
-  for (const Interval& range : radii_within_tilt(flight, heaviest, asked)) {
-    search.search(range.lo, range.hi);
-  }
+  // Where motors with a share of their thrust could not lift the drone no more headroom is left
+  // than that share. The search ends where it is less than a millionth.
+  const double most_thrust = flight.design().drone.motor_count * flight.motor().max_thrust();
+  const auto search_from = [&](double radius, double share) {
+    const double heaviest = flight.radius_of_weight(most_thrust / share);
+    const IntervalSet tilted_little = radii_within_tilt(flight, heaviest, asked);
+    for (const Interval& range : intersection({{radius, heaviest}}, tilted_little)) {
+      search.search(range.lo, range.hi);
+    }
+    return std::max(radius, heaviest);
+  };
+  const double lifted = search_from(0, 1);
+  if (search.best().value < 1) search_from(lifted, std::max(search.best().value, 1e-6));
   return search.best();
 }
 

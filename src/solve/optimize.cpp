@@ -137,10 +137,11 @@ void name_limit(Optimization& result, const Flights& flights) {
 
 /// The radii from the thinnest on at which the tilt exceeds its limit.
 SteadyFlight::Radii too_tilted_with_solved_tether(const SteadyFlight& flight) {
-  constexpr double thickest = 1;     // m
   constexpr double thinnest = 1e-7;  // m, 3e-8 mm²
-  const IntervalSet within = radii_within_tilt(flight, thickest);
-  if (within.empty()) return {0, thickest};
+  const double heaviest =
+      flight.radius_of_weight(flight.design().drone.motor_count * flight.motor().max_thrust());
+  const IntervalSet within = radii_within_tilt(flight, heaviest);
+  if (within.empty()) return {0, heaviest};
   return {0, within.front().lo > thinnest ? within.front().lo : 0};
 }
 

@@ -45,7 +45,9 @@ double rounded_feasible(const Design& design, Quantity quantity, double value, d
 std::optional<double> threshold(const Design& design, Quantity quantity, double present,
                                 double bound) {
   const double ratio = bound / present;
-  const double stride = std::log(1.02);
+  // Cables on a winch are solved anew for each step.
+  const bool by_winch = design.tether.model == TetherModel::solved && design.tether.winch_pull > 0;
+  const double stride = std::log(by_winch ? 1.1 : 1.02);
   const int steps = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / stride));
   double infeasible = present;
   for (int step = 1; step <= steps; ++step) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "identify/statistics.hpp"
 #include "tethercalc/model/airframe.hpp"
@@ -72,6 +74,22 @@ double seconds_of(const PowerLog& flight, std::size_t i) {
   return i + 1 < flight.time.size() ? flight.time[i + 1] - flight.time[i] : 0;
 }
 
+/// First row and the one behind the last of each stretch in hover that lasts: a drone that brakes
+/// and turns round passes through the same airspeeds with another power.
+std::vector<std::pair<std::size_t, std::size_t>> hover_stretches(const PowerLog& flight) {
+  constexpr double shortest = 5;  // s
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  const std::size_t count = flight.time.size();
+  for (std::size_t first = 0; first < count; ++first) {
+    std::size_t end = first;
+    while (end < count && std::abs(flight.airspeed[end]) < fastest_hover) ++end;
+    if (end == first) continue;
+    if (flight.time[end - 1] - flight.time[first] >= shortest) found.emplace_back(first, end);
+    first = end;
+  }
+  return found;
+}
+
 }  // namespace
 
 FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_density,
@@ -84,10 +102,11 @@ FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_de
   for (double& power : motor_power) power -= drone.auxiliary_power;
   FlownMotor out;
   std::vector<double> hover;
-  for (std::size_t i = 0; i < flight.time.size(); ++i) {
-    if (std::abs(flight.airspeed[i]) >= fastest_hover) continue;
-    hover.push_back(motor_power[i]);
-    out.hover_seconds += seconds_of(flight, i);
+  for (const auto& [first, end] : hover_stretches(flight)) {
+    for (std::size_t i = first; i < end; ++i) {
+      hover.push_back(motor_power[i]);
+      out.hover_seconds += seconds_of(flight, i);
+    }
   }
   if (hover.size() < fewest_rows || out.hover_seconds < shortest_hover) {
     throw UnsuitablePowerFlight(fmt::format(

@@ -285,6 +285,8 @@ TEST_CASE("what is no log is named by what it is") {
            {"H Product:Blackbox flight data recorder by Nicholas Sherlock\nH Data version:2\n",
             "is a Betaflight or INAV blackbox log"},
            {std::string("\0\0\0\x20", 4) + "ftypisom" + std::string(100, '\0'), "is a video"},
+           {"RIFF1234AVI LIST" + std::string(100, '\0'), "is a video (AVI)"},
+           {"\x1A\x45\xDF\xA3" + std::string(100, '\1'), "is a video (MKV or WebM)"},
            {"\xFF\xD8\xFF\xE0" + std::string(100, '\0'), "is a JPEG picture"},
            {"<?xml version=\"1.0\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">",
             "is a KML track"},

@@ -91,6 +91,27 @@ TEST_CASE("what cannot hang is an answer with exit code 1") {
             .exit_code == 0);
 }
 
+TEST_CASE("what lies on the ground is told where its power is, too") {
+  const std::vector<std::string> loose{"--set", "tether.model=solved",
+                                       "--set", "tether.slack_percent=100",
+                                       "--set", "flight.horizontal_offset_m=20"};
+  const auto with = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), loose.begin(), loose.end());
+    return run_tethercalc(arguments);
+  };
+  const Ran evaluated = with({"evaluate", published, "--area-mm2", "1.8", "--format", "json"});
+  const auto codes = nlohmann::json::parse(evaluated.out).at("warning_codes");
+  CHECK(std::count(codes.begin(), codes.end(), "tether_touches_ground") == 1);
+  CHECK_THAT(with({"evaluate", published, "--area-mm2", "1.8"}).out,
+             Contains("would hang 17.88 m\nbelow the station"));
+  // The same depth as the shape's own.
+  const Ran shape = run_tethercalc({"shape", published, "--area-mm2", "1.8", "--offset", "20",
+                                    "--wind", "0", "--slack", "100", "--format", "json"});
+  CHECK(shape.exit_code == 1);
+  CHECK(nlohmann::json::parse(shape.out).at("z_low_m").get<double>() ==
+        Approx(-17.88).margin(0.005));
+}
+
 TEST_CASE("bad numbers of a shape are told all at once") {
   const Ran run = shaped({"--height", "0", "--slack", "-1", "--profile", "log", "--offset", "-3"});
   CHECK(run.exit_code == 2);

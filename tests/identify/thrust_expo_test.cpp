@@ -79,4 +79,7 @@ TEST_CASE("rows that can show no bend are refused") {
   CHECK_THROWS_WITH(fit_thrust_expo(narrow, range), Contains("over 38 % of the way"));
   CHECK_THROWS_WITH(fit_thrust_expo(rows_of(0.5, 10, -5), range), Contains("does not rise"));
   CHECK_THROWS_WITH(fit_thrust_expo(rows_of(1.4, 0, 10), range), Contains("would be 1.4"));
+  std::vector<ThrottledThrust> scattered = rows_of(0.5, 0, 10);
+  for (std::size_t i = 0; i < scattered.size(); ++i) scattered[i].thrust += i % 2 == 0 ? 2 : -2;
+  CHECK_THROWS_WITH(fit_thrust_expo(scattered, range), Contains("they scatter too much"));
 }

@@ -161,17 +161,21 @@ TEST_CASE("a log without current, flight or the right vehicle is refused with th
 
 TEST_CASE("what the log's summary says of the power is what the reader does") {
   DataFlashWriter log = flight();
-  const auto use = [&log] {
+  const auto use_of = [](const DataFlashWriter& log) {
     const std::vector<std::byte> bytes(log.bytes().begin(), log.bytes().end());
     const LogSummary summary = summarize_log(AutopilotLog(bytes, "flight.bin"));
     return summary.uses.back();
   };
-  CHECK(use().command == "diagnose --power");
-  CHECK_FALSE(use().possible);
-  CHECK_THAT(use().because, Contains("no voltage and no current"));
-  add_battery(log, 0, 16, 10);
-  CHECK(use().possible);
-  CHECK(use().because == "BAT 0 and XKF1 of EKF core 0");
+  CHECK(use_of(log).command == "diagnose --power");
+  CHECK_FALSE(use_of(log).possible);
+  CHECK_THAT(use_of(log).because, Contains("no voltage and no current"));
+  DataFlashWriter constant = log;
+  add_battery(constant, 0, 16, 10);
+  CHECK_FALSE(use_of(constant).possible);
+  CHECK_THAT(use_of(constant).because, Contains("the current never changes"));
+  for (int i = 10; i < 300; ++i) log.add(bat, {us(i), std::uint64_t{0}, 16.0, 10 + 0.1 * (i % 3)});
+  CHECK(use_of(log).possible);
+  CHECK(use_of(log).because == "BAT 0 and XKF1 of EKF core 0");
 }
 
 TEST_CASE("what measures no battery is told in the words of the autopilot that flew") {

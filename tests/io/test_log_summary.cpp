@@ -118,6 +118,25 @@ TEST_CASE("flying time goes from take-off to landing events, and over several fl
   CHECK(summary.flying->flights[1].end == Approx(43.5));
 }
 
+TEST_CASE("a detector that bounces for less than two seconds does not land") {
+  DataFlashWriter log;
+  test::define_xkf1(log);
+  define_ev(log);
+  add_ev(log, 5, 28);
+  for (double bounce = 20; bounce < 20.5; bounce += 0.1) {
+    add_ev(log, bounce, 18);
+    add_ev(log, bounce + 0.05, 28);
+  }
+  add_ev(log, 25, 18);
+  add_ev(log, 27.5, 28);
+  add_ev(log, 30, 18);
+  const LogSummary summary = summarized(log);
+  REQUIRE(summary.flying.has_value());
+  REQUIRE(summary.flying->flights.size() == 2);
+  CHECK(summary.flying->flights[0].end == Approx(25));
+  CHECK(summary.flying->duration == Approx(22.5));
+}
+
 TEST_CASE("a log that begins or ends in the air counts from its beginning or to its end") {
   DataFlashWriter log;
   test::define_xkf1(log);

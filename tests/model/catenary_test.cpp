@@ -92,6 +92,14 @@ TEST_CASE("the stiffness of a catenary is how its forces change") {
   });
 }
 
+TEST_CASE("a plumb cable begins at its station") {
+  const auto plumb = catenary(0, 30, 30, 0.18);
+  REQUIRE(plumb);
+  const CatenaryPoint start = catenary_point(*plumb, 0, 0.18);
+  CHECK(start.x == 0);
+  CHECK(start.z == 0);
+}
+
 TEST_CASE("a cable that does not reach has no shape, one that stretches has") {
   CHECK_FALSE(catenary(3, 4, 5, 1));
   CHECK_FALSE(catenary(3, 4, 4.9, 1));

@@ -6,6 +6,7 @@
 
 #include "support/figures.hpp"
 #include "support/random.hpp"
+#include "tethercalc/report/diagnosis_report.hpp"
 
 using namespace tethercalc;
 using namespace tethercalc::test;
@@ -73,7 +74,9 @@ TEST_CASE("the means over a channel show the line that a finding explains") {
 }
 
 TEST_CASE("the error budget names stage and effect, and all shares stand in words") {
-  const Figure figure = diagnosis_figure("power.csv", power_diagnosis());
+  Diagnosis d = power_diagnosis();
+  d.unexplained.undetectable_percent = 5;
+  const Figure figure = diagnosis_figure("power.csv", d);
   const std::string svg = render(figure, FigureFormat::svg, {});
   for (const char* words :
        {"tether: contact resistance", "88.9 %", "unexplained", "1.1 %", "noise", "10.0 %",
@@ -83,6 +86,15 @@ TEST_CASE("the error budget names stage and effect, and all shares stand in word
     CHECK(shows(svg, words));
   }
   CHECK_THAT(figure.description, Contains("tether: contact resistance 88.9 %"));
+}
+
+TEST_CASE("what is left is called noise only where structure in it would have shown") {
+  Diagnosis d = power_diagnosis();
+  d.unexplained.undetectable_percent = 60;
+  CHECK(rest_words(d.unexplained) == "noise or not");
+  CHECK(shows(render(diagnosis_figure("power.csv", d), FigureFormat::svg, {}), "noise or not"));
+  d.unexplained.undetectable_percent = 10;
+  CHECK(rest_words(d.unexplained) == "noise");
 }
 
 TEST_CASE("every effect stands in the figure with its verdict") {

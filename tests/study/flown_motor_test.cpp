@@ -75,6 +75,21 @@ TEST_CASE("a hover gives its point of the curve, and momentum theory the rest") 
   CHECK(motor.band < 0.3);
 }
 
+TEST_CASE("a drone that turns round between passes does not hover there") {
+  std::mt19937_64 dice(1);
+  const Drone drone = quadrotor();
+  const PowerLog hover = flight_of(260, 200, 0.002, dice);
+  PowerLog turning = hover;
+  for (int i = 0; i < 400; ++i) {
+    turning.time.push_back(turning.time.back() + 0.2);
+    const bool turns = i % 50 < 10;  // two seconds
+    turning.airspeed.push_back(turns ? 0.5 : 8);
+    turning.bus_power.push_back(turns ? 500 : 200);
+  }
+  const double at_rest = flown_motor(hover, drone, air_density, max_thrust, {}).hover_power;
+  CHECK(flown_motor(turning, drone, air_density, max_thrust, {}).hover_power == Approx(at_rest));
+}
+
 TEST_CASE("forward flight is compared at the thrust that the drag asks for") {
   std::mt19937_64 dice(1);
   const Drone drone = quadrotor();

@@ -120,6 +120,10 @@ struct Unexplained {
   /// where it is neither, as a resistance.
   std::string formula;
   double coefficient = 0;  ///< c
+
+  /// Whether what is left may be called noise. A structure of a tenth of it makes its rms 5 %
+  /// larger than the noise's.
+  [[nodiscard]] bool would_have_shown() const { return undetectable_percent <= 10; }
 };
 
 /// A model fitted to the log, judged on data it was not fitted to.

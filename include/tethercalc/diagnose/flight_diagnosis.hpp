@@ -65,4 +65,8 @@ struct FlightDiagnosisOptions {
                                         const FlightDiagnosisOptions& options = {},
                                         const SelectionProgress& progress = {});
 
+/// s of a log that `diagnose_flight` would judge, of a drone in air of 1.225 kg/m³. Throws
+/// UnsuitableFlight where that does.
+[[nodiscard]] double judged_time(FlightLog log);
+
 }  // namespace tethercalc

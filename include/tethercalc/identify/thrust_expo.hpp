@@ -57,8 +57,9 @@ class UnsuitableThrottle : public std::invalid_argument {
 /// curve.
 ///
 /// Throws UnsuitableThrottle for fewer than 5 rows within the range or such as cover less than half
-/// of it, thrust that does not rise, and an e whose whole interval is outside ArduPilot's range of
-/// −1 to 1; one that reaches into it is taken at the end of the range.
+/// of it, thrust that does not rise, rows that tell e to no better than ±0.5, and an e whose whole
+/// interval is outside ArduPilot's range of −1 to 1; one that reaches into it is taken at the end
+/// of the range.
 [[nodiscard]] ThrustExpo fit_thrust_expo(std::span<const ThrottledThrust> rows,
                                          const SpinRange& range = {});
 

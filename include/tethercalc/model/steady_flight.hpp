@@ -76,8 +76,9 @@ class SteadyFlight {
                ? takeoff_mass * gravity_ + tether_.pull_beyond_weight(radius)
                : takeoff_mass;
   }
-  /// The largest radius, up to 1 m, at which the motors lift no more than `weight` N; negative
-  /// where even the thinnest tether is heavier. For a design in one of its conditions.
+  /// The largest radius, up to 1 m, at which motors that pull with `weight` N lift the drone in
+  /// still air; negative where even the thinnest tether is heavier. For a design in one of its
+  /// conditions.
   [[nodiscard]] double radius_of_weight(double weight) const;
 
   /// The piece of the motor curve that the landing from the reserve battery decides its mass on; 0

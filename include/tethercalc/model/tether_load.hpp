@@ -285,6 +285,10 @@ class TetherInFlight {
   [[nodiscard]] double resistance_slope(double radius) const;
   /// Radius at which the loop has `resistance`; +infinity where contacts alone have more.
   [[nodiscard]] double radius_of_resistance(double resistance) const;
+  /// Radius beyond which the tension at the drone exceeds `tension` N, however a solved tether
+  /// hangs; negative where that of every conductor does. The wind pushes across a cable only, so
+  /// that along it T + T²/(2·EA) grows by the weight a metre times the height gained.
+  [[nodiscard]] double radius_of_tension(double tension) const;
   /// Ω of plugs and slip rings.
   [[nodiscard]] double contact_resistance() const { return straight_.contact_resistance(); }
   /// Ω·m²: what the conductors' resistance is over r².

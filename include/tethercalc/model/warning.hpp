@@ -22,6 +22,7 @@ enum class WarningKind {
   drag_estimated,             ///< drag of a drone that never flew
   drum_cooling_unknown,       ///< cable on a drum that nothing is known of
   rated_temperature_unknown,  ///< insulation that no heat limits
+  tether_touches_ground,      ///< a solved tether that hangs below its station
   drag_at_bound,              ///< a fitted parameter at the end of its range
   drag_may_be_none,           ///< a flight that does not even tell that there is drag
   drag_not_converged,         ///< a fit that did not settle
@@ -58,7 +59,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 46;
+inline constexpr std::size_t warning_kind_count = 47;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.

@@ -81,8 +81,16 @@ namespace tethercalc {
 /// curve should have been scaled to the density of the air.
 [[nodiscard]] std::vector<Warning> spec_warnings(const DesignFile& file);
 
-/// `spec_warnings`, then `cable_warnings`.
-[[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file);
+/// That a solved tether with a conductor of `area` m² would hang below its station, in which
+/// condition and how far; nothing where it does not, where it cannot hang, and for a straight one.
+[[nodiscard]] std::optional<Warning> ground_warning(const Design& design, double area);
+
+/// `spec_warnings`, then `cable_warnings`, then the first `ground_warning` of `areas`, m².
+[[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file,
+                                                const std::vector<double>& areas = {});
+/// The same of the areas in a table.
+[[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file,
+                                                std::span<const AreaPoints> table);
 
 // --- `optimize`, `evaluate` and `compare` ---
 

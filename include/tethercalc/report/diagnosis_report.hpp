@@ -25,6 +25,9 @@ namespace tethercalc {
 struct StoryHeading {
   std::string text;  ///< one line
 };
+/// What the last part of an error budget is: noise, where structure in it would have shown.
+[[nodiscard]] std::string rest_words(const Unexplained& unexplained);
+
 /// What to fly by a design with the findings of its logs, in one sentence; empty where nothing
 /// moves in the digits that are printed.
 [[nodiscard]] std::string impact_headline(const DesignImpact& impact);
