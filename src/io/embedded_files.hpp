@@ -16,11 +16,17 @@ struct EmbeddedFile {
 /// Every file of `data/` in alphabetical order of its path.
 std::span<const EmbeddedFile> embedded_files();
 
+/// The one of that name; null where the program was built without it.
+inline const EmbeddedFile* find_embedded_file(std::string_view name) {
+  for (const EmbeddedFile& file : embedded_files()) {
+    if (file.name == name) return &file;
+  }
+  return nullptr;
+}
+
 /// The content of one of them, which must exist.
 inline std::string_view embedded_file(std::string_view name) {
-  for (const EmbeddedFile& file : embedded_files()) {
-    if (file.name == name) return file.content;
-  }
+  if (const EmbeddedFile* file = find_embedded_file(name)) return file->content;
   throw std::logic_error(std::string(name) + " is not part of the program");
 }
 

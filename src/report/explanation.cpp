@@ -125,6 +125,8 @@ std::vector<Explanation> all_pages() {
   std::vector<Explanation> pages;
   for (std::size_t g = 0; g < code_group_count; ++g) {
     const auto group = static_cast<CodeGroup>(g);
+    // The program of a browser's page is built without those that it never shows.
+    if (find_embedded_file(words_of(group).file) == nullptr) continue;
     std::vector<Explanation> own = pages_of(group);
     for (const std::string& code : codes_of(group)) {
       const auto page = std::ranges::find(own, code, &Explanation::code);

@@ -161,8 +161,8 @@ TEST_CASE("a log without current, flight or the right vehicle is refused with th
 
 TEST_CASE("what the log's summary says of the power is what the reader does") {
   DataFlashWriter log = flight();
-  const auto use_of = [](const DataFlashWriter& log) {
-    const std::vector<std::byte> bytes(log.bytes().begin(), log.bytes().end());
+  const auto use_of = [](const DataFlashWriter& asked) {
+    const std::vector<std::byte> bytes(asked.bytes().begin(), asked.bytes().end());
     const LogSummary summary = summarize_log(AutopilotLog(bytes, "flight.bin"));
     return summary.uses.back();
   };
