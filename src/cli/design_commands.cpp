@@ -120,7 +120,7 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
       output, [&] { return optimize_text(file, answer, style_for(output)); },
       [&] { return optimize_json(file, answer); }, [&] { return optimize_csv(answer); });
   point_to_explanations({std::string(limit_name(answer.result.limited_by))},
-                        all_warnings(file, {answer.result.area}), output);
+                        all_warnings(file, only(answer.result)), output);
   return answer.result.feasible ? done : answer_is_no;
 }
 

@@ -17,6 +17,8 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "motor_air_density",
                                                                    "drag_estimated",
                                                                    "drum_cooling_unknown",
+                                                                   "drum_package_unknown",
+                                                                   "tether_inclination_unknown",
                                                                    "rated_temperature_unknown",
                                                                    "tether_touches_ground",
                                                                    "drag_at_bound",

@@ -40,7 +40,7 @@ ordered_json optimum_json(const Request& request, const Optimised& asked) {
   ordered_json out{{"headline", std::move(told.headline)},
                    {"sentences", std::move(told.sentences)},
                    {"remedies", std::move(told.remedies)},
-                   {"warnings", json_list(all_warnings(file, {study.result.area}), sentence)},
+                   {"warnings", json_list(all_warnings(file, only(study.result)), sentence)},
                    {"result", optimize_json(file, study)},
                    {"command", "tethercalc optimize spec.json"}};
   if (!request.flag("brief")) out["text"] = optimize_text(file, study, {});

@@ -12,6 +12,7 @@
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/model/conductor_heat.hpp"
+#include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
@@ -509,6 +510,14 @@ std::vector<Warning> cable_warnings(const Design& design) {
                      "tether.drum.derating)",
                      significant(tether.spooled_length, 3))});
   }
+  const bool by_layers = tether.drum.layers > 0 && !tether.drum.derating;
+  if (tether.spooled_length > 0 && by_layers && !is_package_known(tether.drum)) {
+    warnings.push_back({WarningKind::drum_package_unknown,
+                        "the drum's temperature is by its layers alone, with factors of thick "
+                        "cables: of a thin one "
+                        "the wound part may get several times as much hotter than the air "
+                        "(tether.drum.core_diameter_mm and width_mm)"});
+  }
   if (!tether.insulation.rated_temperature_C) {
     warnings.push_back(
         {WarningKind::rated_temperature_unknown,
@@ -546,22 +555,37 @@ std::optional<Warning> ground_warning(const Design& design, double area) {
                   condition_words(lowest->condition), fixed(below_station(*lowest), 2))};
 }
 
-std::vector<Warning> all_warnings(const DesignFile& file, const std::vector<double>& areas) {
-  std::vector<Warning> warnings = spec_warnings(file);
-  for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
-  for (const double area : areas) {
-    if (auto ground = ground_warning(file.design, area)) {
-      warnings.push_back(std::move(*ground));
-      break;
-    }
-  }
-  return warnings;
+std::optional<Warning> inclination_warning(const Design& design, const OperatingPoint& hover) {
+  constexpr double greatest_ratio = 1.6;  // of the rises, vertical over across: docs/design.md
+  const Tether& tether = design.tether;
+  const double rated =
+      tether.insulation.rated_temperature_C.value_or(highest_conductor_temperature_C);
+  const double ambient = tether.ambient_temperature_C.value_or(rated);
+  const double rise = hover.conductor_temperature - ambient;
+  const bool matters = rise > 0 && hover.conductor_temperature <= rated &&
+                       ambient + greatest_ratio * rise > rated &&
+                       flight_state(design, Condition::hover).airspeed == 0;
+  if (tether.inclination || !matters) return std::nullopt;
+  return Warning{
+      WarningKind::tether_inclination_unknown,
+      fmt::format(
+          "in still air a tether that hangs steeply gets up to {} times as much hotter than "
+          "the air as one that lies across, which is what was computed: up to {} °C in hover, "
+          "rated for {} °C (tether.inclination_deg, 90 for straight down)",
+          greatest_ratio, fixed(ambient + greatest_ratio * rise, 0), significant(rated, 3))};
 }
 
 std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPoints> table) {
-  std::vector<double> areas;
-  for (const AreaPoints& row : table) areas.push_back(row.area);
-  return all_warnings(file, areas);
+  std::vector<Warning> warnings = spec_warnings(file);
+  const auto add_first = [&](const auto& warning_of) {
+    for (const AreaPoints& row : table) {
+      if (auto warning = warning_of(row)) return warnings.push_back(std::move(*warning));
+    }
+  };
+  for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+  add_first([&](const AreaPoints& row) { return inclination_warning(file.design, row.hover); });
+  add_first([&](const AreaPoints& row) { return ground_warning(file.design, row.area); });
+  return warnings;
 }
 
 }  // namespace tethercalc

@@ -220,7 +220,7 @@ std::string optimize_text(const DesignFile& file, const OptimumStudy& study,
   out += answer_text(file, study, style);
   if (!study.sizes.empty()) out += sizes_table(study).text(style);
   if (!study.table.empty()) out += power_table(study).text(style);
-  const std::string notes = notes_text(all_warnings(file, {study.result.area}), style);
+  const std::string notes = notes_text(all_warnings(file, only(study.result)), style);
   return notes.empty() ? out : out + "\n" + notes;
 }
 
@@ -268,7 +268,7 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
     out["remedies"] = remedies_json(study);
   }
   add_estimates(out, design);
-  add_warnings(out, all_warnings(file, {study.result.area}));
+  add_warnings(out, all_warnings(file, only(study.result)));
   return out;
 }
 

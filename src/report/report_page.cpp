@@ -171,7 +171,7 @@ Section answer_section(const PageContent& content) {
   body += html::paragraphs(told.sentences);
   if (!told.remedies.empty()) body += html::list(told.remedies);
   if (feasible) body += html::table(condition_table(content.optimum.result), "table-conditions");
-  for (const Warning& warning : all_warnings(content.file, {content.optimum.result.area})) {
+  for (const Warning& warning : all_warnings(content.file, only(content.optimum.result))) {
     body += html::element("p", "Note: " + warning.sentence, " class=\"note\"") + "\n";
   }
   return {"answer", "The answer", std::move(body)};
@@ -325,7 +325,7 @@ Section rules_section(const RuleStudy& rules) {
 /// What the codes behind this page's answers mean, and what to do.
 Section explained_section(const PageContent& content) {
   std::vector<std::string> codes{std::string(limit_name(content.optimum.result.limited_by))};
-  for (const Warning& warning : all_warnings(content.file, {content.optimum.result.area})) {
+  for (const Warning& warning : all_warnings(content.file, only(content.optimum.result))) {
     codes.emplace_back(warning_code(warning.kind));
   }
   for (const LogDiagnosis& log : content.diagnoses) {

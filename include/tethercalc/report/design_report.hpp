@@ -85,12 +85,19 @@ namespace tethercalc {
 /// condition and how far; nothing where it does not, where it cannot hang, and for a straight one.
 [[nodiscard]] std::optional<Warning> ground_warning(const Design& design, double area);
 
-/// `spec_warnings`, then `cable_warnings`, then the first `ground_warning` of `areas`, m².
+/// That a tether which hangs steeply gets hotter in still air than one that lies across, which is
+/// what was computed, where that might take it beyond its rating; nothing where
+/// `tether.inclination_deg` is stated.
+[[nodiscard]] std::optional<Warning> inclination_warning(const Design& design,
+                                                         const OperatingPoint& hover);
+
+/// `spec_warnings`, then `cable_warnings`, then the first `inclination_warning` and the first
+/// `ground_warning` of the cross-sections in a table.
 [[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file,
-                                                const std::vector<double>& areas = {});
-/// The same of the areas in a table.
-[[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file,
-                                                std::span<const AreaPoints> table);
+                                                std::span<const AreaPoints> table = {});
+
+/// A table of one cross-section.
+[[nodiscard]] inline std::span<const AreaPoints> only(const AreaPoints& row) { return {&row, 1}; }
 
 // --- `optimize`, `evaluate` and `compare` ---
 
