@@ -208,6 +208,23 @@ std::string what_is_missing(const Effect& effect, const Selection::Open& open, d
   return effect.to_separate.empty() ? sure : fmt::format("{}; {}", sure, effect.to_separate);
 }
 
+/// What found parameters would be with an effect freed, where that is beyond their intervals.
+std::vector<ParameterEstimate> moved_by(const LogModel& log, const Selection& selection,
+                                        const Selection::Open& open) {
+  std::vector<ParameterEstimate> moved;
+  // Structure without a name moves them by itself.
+  if (!selection.unnamed.regressors.empty()) return moved;
+  for (const SelectedGroup& found : selection.selected) {
+    const auto alone = estimates(log, selection, selection.complete, found.group);
+    const auto beside = estimates(log, selection, open.freed, found.group);
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      const double value = beside[k].value;
+      if (value < alone[k].ci95_lower || value > alone[k].ci95_upper) moved.push_back(beside[k]);
+    }
+  }
+  return moved;
+}
+
 /// One verdict on an effect that is neither found nor indistinguishable from what is.
 void tell_open(const LogModel& log, const Selection& selection, const Selection::Open& open,
                Diagnosis& diagnosis) {
@@ -236,7 +253,7 @@ void tell_open(const LogModel& log, const Selection& selection, const Selection:
         {effect.id, effect.title, open.gain_percent, open.gain_se_percent,
          estimates(log, selection, open.freed, open.group),
          what_is_missing(effect, open, selection.least_gain_percent * effect.least_gain_factor),
-         log.flight_of(open.group)});
+         log.flight_of(open.group), moved_by(log, selection, open)});
   } else if (bounds.empty()) {
     diagnosis.not_testable.push_back(
         {effect.id, "a log that shows it: " + effect.to_separate, log.flight_of(open.group)});

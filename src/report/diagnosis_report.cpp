@@ -232,9 +232,14 @@ class Story {
     for (const Suspected& s : d_.suspected) {
       std::vector<std::string> values;
       for (const ParameterEstimate& p : s.parameters) values.push_back(with_interval(p));
-      paragraph(fmt::format("{} ({}) would help by {:.1f} ± {:.1f} %, with {}. What is missing: {}",
-                            title_of(s), s.effect, s.gain_percent, s.gain_se_percent,
-                            fmt::join(values, ", "), with_stop(s.missing)));
+      std::string text =
+          fmt::format("{} ({}) would help by {:.1f} ± {:.1f} %, with {}. What is missing: {}",
+                      title_of(s), s.effect, s.gain_percent, s.gain_se_percent,
+                      fmt::join(values, ", "), with_stop(s.missing));
+      values.clear();
+      for (const ParameterEstimate& p : s.findings_with_it) values.push_back(with_interval(p));
+      if (!values.empty()) text += fmt::format(" Were it at work, {}.", fmt::join(values, ", "));
+      paragraph(text);
     }
   }
 
@@ -336,7 +341,8 @@ ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
                       {"gain_percent", number_or_null(x.gain_percent)},
                       {"gain_se_percent", number_or_null(x.gain_se_percent)},
                       {"parameters", parameters_json(x.parameters)},
-                      {"missing", x.missing}},
+                      {"missing", x.missing},
+                      {"findings_with_it", parameters_json(x.findings_with_it)}},
                      x.flight);
   });
   out["ruled_out"] = json_list(d.ruled_out, [](const RuledOut& r) {

@@ -35,7 +35,9 @@ Diagnosis example() {
                          34.1,
                          2.5,
                          {{"linear_m_s", 51, "m/s", 2, 1000}},
-                         "a longer log, until chance cannot explain it"});
+                         "a longer log, until chance cannot explain it",
+                         0,
+                         {{"wind_m_s", 1.25, "m/s", 1, 1.5}}});
   d.ruled_out.push_back({"wind_drift", "wind_drift_m_s", 0.42, "m/s"});
   d.not_testable.push_back({"vertical_coupling", "vd_m_s"});
   return d;
@@ -60,6 +62,7 @@ TEST_CASE("the JSON of a diagnosis has the documented keys") {
   CHECK(json["suspected"][0]["gain_se_percent"] == 2.5);
   CHECK(json["suspected"][0]["parameters"][0]["value"] == 51);
   CHECK(json["suspected"][0]["missing"] == "a longer log, until chance cannot explain it");
+  CHECK(json["suspected"][0]["findings_with_it"][0]["value"] == 1.25);
   CHECK(json["ruled_out"].dump() ==
         R"([{"effect":"wind_drift","parameter":"wind_drift_m_s","bound":0.42,"unit":"m/s"}])");
   CHECK(json["base"]["unit"] == "m/s²");

@@ -77,6 +77,8 @@ struct Suspected {
   std::vector<ParameterEstimate> parameters;  ///< its sizes, beside the findings
   std::string missing;                        ///< what it takes to be sure
   std::size_t flight = 0;                     ///< the only one that it acts in
+  /// Of findings what they would be with it at work too, where that is beyond their intervals.
+  std::vector<ParameterEstimate> findings_with_it{};
 };
 
 /// The largest size of an effect, alone beside the findings, that this log still allows: more would
