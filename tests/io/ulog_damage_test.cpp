@@ -131,7 +131,8 @@ void read_every_way(const Bytes& log) {
 
 TEST_CASE("a ULog cut anywhere gives the messages that are whole") {
   Generator random(2);
-  std::vector<Bytes> logs = real_logs({"annoybot_trig_stats.ulg", "lacondro_04_13_14.ulg"});
+  std::vector<Bytes> logs =
+      real_logs({"annoybot_trig_stats.ulg", "annoybot_short_list.ulg", "lacondro_04_13_14.ulg"});
   logs.push_back(random_log(random, 200));
   for (const Bytes& intact : logs) {
     const std::vector<Message> before = messages_of(intact);
