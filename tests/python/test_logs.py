@@ -144,12 +144,13 @@ class Diagnosis(unittest.TestCase):
         self.assertEqual(told.to_dict(), json.loads(command(*words, "--format", "json")))
 
     def test_several_flights_are_told_apart_as_the_command_does(self):
-        flights = [FLIGHT, FLIGHT]
+        other = EXAMPLES / "px4-flight.ulg"
+        flights = [FLIGHT, other]
         told = tethercalc.diagnose(PUBLISHED, flight=flights, start="5%", end="95%")
-        words = ["diagnose", PUBLISHED, "--flight", FLIGHT, "--flight", FLIGHT]
+        words = ["diagnose", PUBLISHED, "--flight", FLIGHT, "--flight", other]
         words += ["--from", "5%", "--to", "95%"]
         self.assertEqual(str(told), command(*words))
-        self.assertIn(f"flight 2 is {FLIGHT}", " ".join(str(told).split()))
+        self.assertIn(f"flight 2 is {other}", " ".join(str(told).split()))
         self.assertEqual(told.to_csv(), command(*words, "--format", "csv"))
 
     def test_an_effect_of_two_files_is_refused_as_by_the_command(self):
