@@ -38,16 +38,21 @@ const command = (...args) => {
 
 let numbers = 0;
 let greatest = 0;
-/** Every number equal to `digits`, everything else exactly. */
-function same(found, expected, where, digits = 12) {
+/**
+ * Every number equal to `digits`, everything else exactly. An estimate and its interval have them as one: of a value
+ * that may be zero, as a part of a wave's amplitude, the log knows no digit beyond its interval's own.
+ */
+function same(found, expected, where, digits = 12, size = 1e-9) {
   if (typeof expected === 'number' && typeof found === 'number') {
-    const off = Math.abs(found - expected) / Math.max(Math.abs(expected), 1e-9);
+    const off = Math.abs(found - expected) / Math.max(Math.abs(expected), size);
     numbers += 1;
     greatest = Math.max(greatest, off);
     assert.ok(off < 10 ** -digits, `${where}: ${found} instead of ${expected}`);
   } else if (expected !== null && typeof expected === 'object') {
     assert.deepEqual(Object.keys(found), Object.keys(expected), where);
-    for (const key of Object.keys(expected)) same(found[key], expected[key], `${where}/${key}`, digits);
+    const interval = (expected.ci95 ?? []).filter((end) => end !== null).map(Math.abs);
+    const own = Math.max(size, ...interval);
+    for (const key of Object.keys(expected)) same(found[key], expected[key], `${where}/${key}`, digits, own);
   } else {
     assert.equal(found, expected, where);
   }
