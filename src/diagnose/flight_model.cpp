@@ -71,6 +71,9 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
       usable_samples(samples.log, data.faults, data.observations, data.step);
   for (const bool use : usable) data.block.push_back(use ? 0 : -1);
   data.usable = static_cast<double>(std::count(usable.begin(), usable.end(), true)) * data.step;
+  if (!(data.usable > 0)) {
+    throw UnsuitableFlight("no sample of the flight can be judged: all are faulty or beside gaps");
+  }
   return data;
 }
 
