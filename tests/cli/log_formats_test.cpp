@@ -305,6 +305,16 @@ TEST_CASE("what is no log is named by what it is") {
   }
 }
 
+TEST_CASE("a log of which no sample can be judged is refused, and log says so before") {
+  const std::string log = project_file("fuzz/corpus/ulog/no-sample-can-be-judged");
+  const Ran diagnosed =
+      run_tethercalc({"diagnose", project_file("examples/holybro-x500.json"), "--flight", log});
+  CHECK(diagnosed.exit_code == 2);
+  CHECK_THAT(diagnosed.err, Contains("no sample of the flight can be judged"));
+  CHECK_THAT(run_tethercalc({"log", log}).out,
+             Contains("diagnose --flight: no, no sample of the flight can be judged"));
+}
+
 TEST_CASE("log tells vehicle, flights, battery, wind and what can be done with a PX4 log") {
   ULogWriter log = example_as_ulog(false);
   log.format(
