@@ -320,8 +320,9 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
     const std::vector<double>& current = power.log.bus_current;
     const bool varies =
         std::any_of(current.begin(), current.end(), [&](double x) { return x != current.front(); });
-    if (use.possible && !varies)
+    if (use.possible && !varies) {
       return {use.command, false, "the current never changes: it is not measured"};
+    }
     use.because = use.possible ? power.source + how
                                : fmt::format("{:.0f} s flown, {:.0f} s are needed to judge it",
                                              flown, shortest_power_log);
@@ -331,40 +332,32 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
   return use;
 }
 
-/// Whether `command` can use a log that tells how it flew: `attempt` throws what is in the way.
-template <typename Attempt>
-LogSummary::Use flight_use(const char* command, const FlightLogReading& flight,
-                           const Attempt& attempt) {
-  try {
-    attempt();
-    return {command, true, flight.source};
-  } catch (const UnsuitableFlight& error) {
-    return {command, false, error.what()};
-  }
-}
-
 /// What the commands could do with the log; `flight` where it could be read, else `obstacle`.
 std::vector<LogSummary::Use> uses_of(const AutopilotLog& log, const LogSummary& summary,
                                      const std::optional<FlightLogReading>& flight,
                                      const std::string& obstacle) {
-  const bool is_flown = flight && flight->log.other_vehicle.empty() && flight->log.time.size() > 2;
-  const std::string because = !flight                              ? obstacle
-                              : !flight->log.other_vehicle.empty() ? "it is " + summary.vehicle
-                              : is_flown                           ? flight->source
-                                         : "too few samples of " + flight->source;
-  if (!is_flown) {
-    return {{"drag", false, because},
-            {"diagnose --flight", false, because},
-            power_use(log, summary, flight, because)};
-  }
+  const std::string in_the_way = !flight                              ? obstacle
+                                 : !flight->log.other_vehicle.empty() ? "it is " + summary.vehicle
+                                 : flight->log.time.size() > 2
+                                     ? ""
+                                     : "too few samples of " + flight->source;
+  const auto flight_use = [&](const char* command, const auto& attempt) -> LogSummary::Use {
+    if (!in_the_way.empty()) return {command, false, in_the_way};
+    try {
+      attempt();
+      return {command, true, flight->source};
+    } catch (const UnsuitableFlight& error) {
+      return {command, false, error.what()};
+    }
+  };
   const auto identified = [&] {
     DragIdentificationOptions options;
     options.conditions.mass = 1;  // accelerations do not depend on it
     (void)identify_drag({&flight->log, 1}, options);
   };
-  return {flight_use("drag", *flight, identified),
-          flight_use("diagnose --flight", *flight, [&] { (void)judged_time(flight->log); }),
-          power_use(log, summary, flight, because)};
+  return {flight_use("drag", identified),
+          flight_use("diagnose --flight", [&] { (void)judged_time(flight->log); }),
+          power_use(log, summary, flight, in_the_way)};
 }
 
 /// What a walk through all messages tells.

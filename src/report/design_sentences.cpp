@@ -514,9 +514,8 @@ std::vector<Warning> cable_warnings(const Design& design) {
   if (tether.spooled_length > 0 && by_layers && !is_package_known(tether.drum)) {
     warnings.push_back({WarningKind::drum_package_unknown,
                         "the drum's temperature is by its layers alone, with factors of thick "
-                        "cables: of a thin one "
-                        "the wound part may get several times as much hotter than the air "
-                        "(tether.drum.core_diameter_mm and width_mm)"});
+                        "cables: of a thin one the wound part may get several times as much hotter "
+                        "than the air (tether.drum.core_diameter_mm and width_mm)"});
   }
   if (!tether.insulation.rated_temperature_C) {
     warnings.push_back(

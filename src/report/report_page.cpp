@@ -288,7 +288,12 @@ Section spec_section(const DesignFile& file) {
 }
 
 Section method_section(const PageContent& content) {
-  const bool is_straight = content.file.design.tether.model == TetherModel::straight;
+  const std::string tether =
+      content.file.design.tether.model == TetherModel::straight
+          ? "All drag of the tether acts on the drone; the tether hangs straight and is as long as "
+            "the drone is high."
+          : "The tether hangs as its weight and the wind have it, from its station to the drone, "
+            "with the length that is paid out; the ground carries its share of weight and drag.";
   const std::vector<std::string> method{
       "Steady flight, in hover and in forward flight. At each cross-section the tilt of the drone "
       "follows from its weight, its drag and the tether's, and with it the thrust that it needs; "
@@ -297,13 +302,7 @@ Section method_section(const PageContent& content) {
       "The optimum is the cross-section that draws the least power among those that keep the "
       "demanded thrust headroom and every other requirement of the spec. Where the headroom is "
       "kept within a range only, the whole range was found.",
-      (is_straight
-           ? "All drag of the tether acts on the drone; the tether hangs straight and is as long "
-             "as "
-             "the drone is high."
-           : "The tether hangs as its weight and the wind have it, from its station to the drone, "
-             "with the length that is paid out; the ground carries its share of weight and drag.") +
-          std::string(" Above the last point of its curve a motor has no more thrust."),
+      tether + " Above the last point of its curve a motor has no more thrust.",
       "After Beffert and Zell, Cable Optimization and Drag Estimation for Tether-Powered "
       "Multirotor "
       "UAVs (2025)."};

@@ -576,9 +576,8 @@ BestHeadroom best_headroom(const SteadyFlight& flight) {
       1e-6 * flight.necessary_thrust(least_weight, 0), flight.power_share(0).value));
   // Where motors with a share of their thrust could not lift the drone no more headroom is left
   // than that share. The search ends where it is less than a millionth.
-  const double most_thrust = flight.design().drone.motor_count * flight.motor().max_thrust();
   const auto search_from = [&](double radius, double share) {
-    const double heaviest = flight.radius_of_weight(most_thrust / share);
+    const double heaviest = flight.radius_of_weight(flight.full_thrust() / share);
     const IntervalSet tilted_little = radii_within_tilt(flight, heaviest, asked);
     for (const Interval& range : intersection({{radius, heaviest}}, tilted_little)) {
       search.search(range.lo, range.hi);

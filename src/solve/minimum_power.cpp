@@ -560,8 +560,7 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   // Thick enough to deliver what the lightest tether needs in still air, light enough for the
   // motors there.
   const double lightest = radii.lo;
-  radii.hi =
-      std::min(radii.hi, flight.radius_of_weight(design.drone.motor_count * motor.max_thrust()));
+  radii.hi = std::min(radii.hi, flight.radius_of_weight(flight.full_thrust()));
   if (!(lightest <= radii.hi)) return none;
   const double weight = least_weight(flight, lightest);
   if (!(least_hover_power(flight, weight) < infinity)) return none;
@@ -644,8 +643,7 @@ bool is_cheapest_beyond(const SteadyFlight& flight, double area) {
 }
 
 MinimumPower minimum_power(const SteadyFlight& flight, Interval within) {
-  const double heaviest =
-      flight.radius_of_weight(flight.design().drone.motor_count * flight.motor().max_thrust());
+  const double heaviest = flight.radius_of_weight(flight.full_thrust());
   const Interval radii{conductor_radius(within.lo), conductor_radius(within.hi)};
   MinimumPower best{nan, nan};
   const double asked =

@@ -138,8 +138,7 @@ void name_limit(Optimization& result, const Flights& flights) {
 /// The radii from the thinnest on at which the tilt exceeds its limit.
 SteadyFlight::Radii too_tilted_with_solved_tether(const SteadyFlight& flight) {
   constexpr double thinnest = 1e-7;  // m, 3e-8 mm²
-  const double heaviest =
-      flight.radius_of_weight(flight.design().drone.motor_count * flight.motor().max_thrust());
+  const double heaviest = flight.radius_of_weight(flight.full_thrust());
   const IntervalSet within = radii_within_tilt(flight, heaviest);
   if (within.empty()) return {0, heaviest};
   return {0, within.front().lo > thinnest ? within.front().lo : 0};

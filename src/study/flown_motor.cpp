@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "identify/statistics.hpp"
+#include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/airframe.hpp"
 #include "tethercalc/model/units.hpp"
 #include "tethercalc/study/motor.hpp"
@@ -74,18 +74,18 @@ double seconds_of(const PowerLog& flight, std::size_t i) {
   return i + 1 < flight.time.size() ? flight.time[i + 1] - flight.time[i] : 0;
 }
 
-/// First row and the one behind the last of each stretch in hover that lasts: a drone that brakes
-/// and turns round passes through the same airspeeds with another power.
-std::vector<std::pair<std::size_t, std::size_t>> hover_stretches(const PowerLog& flight) {
+/// The stretches in hover that last: a drone that brakes and turns round passes through the same
+/// airspeeds with another power.
+std::vector<SampleRange> hover_stretches(const PowerLog& flight) {
   constexpr double shortest = 5;  // s
-  std::vector<std::pair<std::size_t, std::size_t>> found;
+  std::vector<SampleRange> found;
   const std::size_t count = flight.time.size();
   for (std::size_t first = 0; first < count; ++first) {
-    std::size_t end = first;
-    while (end < count && std::abs(flight.airspeed[end]) < fastest_hover) ++end;
-    if (end == first) continue;
-    if (flight.time[end - 1] - flight.time[first] >= shortest) found.emplace_back(first, end);
-    first = end;
+    std::size_t last = first;
+    while (last < count && std::abs(flight.airspeed[last]) < fastest_hover) ++last;
+    if (last == first) continue;
+    if (flight.time[last - 1] - flight.time[first] >= shortest) found.push_back({first, last});
+    first = last;
   }
   return found;
 }
@@ -102,8 +102,8 @@ FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_de
   for (double& power : motor_power) power -= drone.auxiliary_power;
   FlownMotor out;
   std::vector<double> hover;
-  for (const auto& [first, end] : hover_stretches(flight)) {
-    for (std::size_t i = first; i < end; ++i) {
+  for (const auto& [first, last] : hover_stretches(flight)) {
+    for (std::size_t i = first; i < last; ++i) {
       hover.push_back(motor_power[i]);
       out.hover_seconds += seconds_of(flight, i);
     }

@@ -95,11 +95,11 @@ struct LogSummary : LogTotals {
 /// Flights are told by the controller's own events where the log has any: from "not landed" to
 /// "land complete" (EV 28 and 18, ArduPilot's AP_Logger.h, LogEvent), from the log's beginning if
 /// it starts in the air; in ULog while vehicle_land_detected says that it is not landed. What is
-/// landed for less than 2 s flies on: detectors bounce. A last
-/// flight without a landing ends as the motors are disarmed (EV 11), or with the last movement (see
-/// below) if that is 10 s or more before the end of the log, else with the log. Otherwise flights
-/// are estimated from the first estimator: the time that the drone moves at 0.5 m/s or more for at
-/// least 2 s, pauses up to 10 s included.
+/// landed for less than 2 s flies on: detectors bounce. A last flight without a landing ends as the
+/// motors are disarmed (EV 11), or with the last movement (see below) if that is 10 s or more
+/// before the end of the log, else with the log. Otherwise flights are estimated from the first
+/// estimator: the time that the drone moves at 0.5 m/s or more for at least 2 s, pauses up to 10 s
+/// included.
 [[nodiscard]] LogSummary summarize_log(const AutopilotLog& log);
 
 /// `LogSummary::flying` alone, sooner than all of it.

@@ -81,6 +81,9 @@ class SteadyFlight {
   /// conditions.
   [[nodiscard]] double radius_of_weight(double weight) const;
 
+  /// N of all motors together at the end of their curve.
+  [[nodiscard]] double full_thrust() const { return drone().motor_count * motor().max_thrust(); }
+
   /// The piece of the motor curve that the landing from the reserve battery decides its mass on; 0
   /// without a battery.
   [[nodiscard]] std::size_t battery_piece(double radius) const;
