@@ -254,7 +254,8 @@ struct CableSolver::Problem {
   Vector3 drone{};
   bool moves = false;
   int* steps_left = nullptr;      ///< of those that may be taken
-  std::optional<double> winch{};  ///< tension at the station, where the winch decides
+  double length = 1;              ///< of the cable, but where the winch decides:
+  std::optional<double> winch{};  ///< tension at the station
 
   [[nodiscard]] bool even() const { return air.profile == WindProfile::uniform && !moves; }
   [[nodiscard]] double chord_share(const Vector3& r) const {
@@ -454,7 +455,7 @@ Unknowns<n> equations(const Vector3& station, const Vector3& drone, double held)
 template <int n, class Problem>
 Unknowns<n> miss_of(const Problem& problem, const Point& station, const Point& drone) {
   const double held = problem.winch ? std::log(station.tension / *problem.winch)
-                                    : drone.length - station.length - 1;
+                                    : drone.length - station.length - problem.length;
   return equations<n>(station.position, drone.position - problem.drone, held);
 }
 
@@ -782,7 +783,7 @@ template <class Start, class Problem>
 std::optional<Start> under_even_load(const Problem& p, const Vector3& load) {
   const EvenLoad even(p, load);
   if (!(even.weight > 0)) return std::nullopt;
-  const double known = even.stiffness ? 1 : std::max(1.0, even.distance() * (1 + 1e-9));
+  const double known = even.stiffness ? p.length : std::max(p.length, even.distance() * (1 + 1e-9));
   const auto c = even.hung(p.winch ? even.length_with_tension(*p.winch) : known);
   if (!c || !(c->horizontal > 0)) return std::nullopt;
   // From the place with the least tension both ways: from elsewhere, what lies behind it is lost
@@ -885,6 +886,99 @@ std::optional<std::pair<Start, double>> let_out(const Problem& problem, const Ve
   return led_on<n>(changed, *at);
 }
 
+/// A cable as long as it is, and what the tension at its station does as it grows longer.
+template <class Start>
+struct LetOut {
+  double log_slack = 0;  ///< ln(length/chord − 1)
+  Start at;
+  double excess = 0;  ///< ln(tension/the winch's)
+  double slope = 0;   ///< of that, by `log_slack`
+};
+
+/// How the unknowns change with the length, where that is held.
+template <int n, class Start>
+Unknowns<n> change_by_length(const Start& at) {
+  constexpr int held = 3;
+  return Eigen::Map<const Square<n>>(at.inverse.data()).col(held);
+}
+
+/// With `log_slack`, from a cable that is nearly so.
+template <int n, class Problem, class Start>
+std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack, const Start& from,
+                                        std::optional<double> length_before) {
+  const double slack = norm(problem.drone) * std::exp(log_slack);
+  Problem of_length = problem;
+  of_length.winch.reset();
+  of_length.length = norm(problem.drone) + slack;
+  Start start = from;
+  if (length_before) {
+    const Unknowns<n> step = (of_length.length - *length_before) * change_by_length<n>(from);
+    start = moved<n>(from, std::min(1.0, 0.5 / size_of<n>(step)) * step);
+  }
+  const auto found = newton<n>(of_length, start, 30);
+  if (!found) return std::nullopt;
+  const double tension = norm(found->ends.at_station);
+  Vector3 by_length;
+  const Unknowns<n> unknowns = change_by_length<n>(*found);
+  for (int k = 0; k < n; ++k) {
+    by_length =
+        by_length + unknowns(k) * found->by_unknowns[static_cast<std::size_t>(k)].at_station;
+  }
+  const double slope = slack * dot(by_length, found->ends.at_station) / (tension * tension);
+  return LetOut<Start>{log_slack, *found, std::log(tension / *problem.winch), slope};
+}
+
+/// The cable of a winch by its length, from that under an even load, until the tension is the
+/// winch's. Where it falls no more before that, the winch is too weak: between a cable whose
+/// tension falls and one whose tension rises the logarithm lies above both of its tangents.
+template <int n, class Start, class Problem>
+std::optional<Start> by_length(const Problem& problem, const Vector3& load, CableOutcome& why_not) {
+  constexpr double longest_step = 1.5;
+  constexpr double close = 1e-3;
+  constexpr double most_log_slack = 2;
+  std::optional<LetOut<Start>> tauter;   // its tension falls to the winch's, or may
+  std::optional<LetOut<Start>> slacker;  // it has fallen too far, or rises
+  const auto start = under_even_load<Start>(problem, load);
+  if (!start) return std::nullopt;
+  const EvenLoad even(problem, load);
+  double log_slack = std::log(even.length_with_tension(*problem.winch) / even.distance() - 1);
+  Start from = *start;
+  std::optional<double> length;
+  for (int i = 0; i < 40 && log_slack < most_log_slack; ++i) {
+    const auto here = let_out_to<n>(problem, log_slack, from, length);
+    if (!here) return std::nullopt;
+    from = here->at;
+    length = norm(problem.drone) * (1 + std::exp(log_slack));
+    const bool falls = here->slope < 0;
+    if (falls && std::abs(here->excess / here->slope) < close) {
+      const auto found = newton<n>(problem, here->at, 8);
+      if (found && is_tauter<n>(problem, *found)) return found;
+    }
+    (falls && here->excess > 0 ? tauter : slacker) = here;
+    double next = falls ? log_slack - here->excess / here->slope : log_slack - longest_step;
+    if (tauter && slacker) {
+      const double apart = slacker->log_slack - tauter->log_slack;
+      const double bend = slacker->slope - tauter->slope;
+      const bool rises = slacker->slope >= 0;
+      const double crossing = (tauter->excess - slacker->excess + slacker->slope * apart) / bend;
+      constexpr double near = 0.2;
+      if (rises && slacker->excess > 0 && apart < near &&
+          tauter->excess + tauter->slope * crossing > 0) {
+        why_not = CableOutcome::tension_too_low;
+        return std::nullopt;
+      }
+      if (rises && slacker->excess > 0) next = tauter->log_slack - tauter->slope / bend * apart;
+      const double edge = 0.05 * apart;
+      if (!(next > tauter->log_slack + edge && next < slacker->log_slack - edge)) {
+        next = tauter->log_slack + 0.5 * apart;
+      }
+    }
+    if (!std::isfinite(next)) return std::nullopt;
+    log_slack += std::clamp(next - log_slack, -longest_step, longest_step);
+  }
+  return std::nullopt;
+}
+
 /// Whether a winch, in still air, pulls with clearly less than the least tension that holds a cable
 /// up beside its station: certain in closed form.
 template <class Problem>
@@ -898,6 +992,38 @@ bool is_far_too_weak(const Problem& problem) {
              clearly * *problem.winch;
 }
 
+/// From the cable under an even load.
+template <int n, class Start, class Problem>
+std::optional<Start> from_even_load(const Problem& problem, const Vector3& load) {
+  auto at = under_even_load<Start>(problem, load);
+  if (at) at = newton<n>(problem, *at, 30);
+  return at;
+}
+
+template <int n, class Start, class Problem>
+std::optional<Start> held_by_winch(const Problem& problem, const Vector3& load,
+                                   CableOutcome& why_not) {
+  // One that takes more is found sooner by its length.
+  constexpr int steps_of_usual_cable = 250;
+  int steps = std::min(steps_of_usual_cable, *problem.steps_left);
+  *problem.steps_left -= steps;
+  Problem soon = problem;
+  soon.steps_left = &steps;
+  const auto at = from_even_load<n, Start>(soon, load);
+  *problem.steps_left += std::max(0, steps);
+  if (at && is_tauter<n>(problem, *at)) return at;
+  // Where load and chord are about in line, a tension may be that of cables to either side.
+  const double across_load = norm(cross(unit(load), unit(problem.drone)));
+  if (problem.compliance == 0 && across_load > 0.3) {
+    if (const auto found = by_length<n, Start>(problem, load, why_not)) return found;
+    if (why_not == CableOutcome::tension_too_low) return std::nullopt;
+  }
+  const auto found = let_out<n, Start>(problem, load);
+  if (found && found->second == 0) return found->first;
+  if (found && found->second < 1) why_not = CableOutcome::tension_too_low;
+  return std::nullopt;
+}
+
 template <int n, class Start, class Problem>
 std::optional<Start> anew(const Problem& problem, CableOutcome& why_not) {
   // The load along the chord, where that is the same all along; else also nearer to the ends.
@@ -906,17 +1032,9 @@ std::optional<Start> anew(const Problem& problem, CableOutcome& why_not) {
     loads.push_back(problem.wind_at({unit(problem.drone), 1, share * problem.drone, 0}).load);
     if (problem.even()) break;
   }
+  if (problem.winch) return held_by_winch<n, Start>(problem, loads.front(), why_not);
   for (const Vector3& load : loads) {
-    auto at = under_even_load<Start>(problem, load);
-    if (at) at = newton<n>(problem, *at, 30);
-    if (at && is_tauter<n>(problem, *at)) return at;
-    if (problem.winch) break;
-  }
-  if (problem.winch) {
-    const auto found = let_out<n, Start>(problem, loads.front());
-    if (found && found->second == 0) return found->first;
-    if (found && found->second < 1) why_not = CableOutcome::tension_too_low;
-    return std::nullopt;
+    if (const auto at = from_even_load<n, Start>(problem, load)) return at;
   }
   for (const Vector3& load : loads) {
     for (const double aside : {0.1, -0.1}) {

@@ -293,6 +293,34 @@ TEST_CASE("a winch's tension and the length it pays out are one answer") {
   });
 }
 
+TEST_CASE("a winch is called too weak only where no length that it pays out has its tension") {
+  each_random(test::draws(60), [](Random& random) {
+    Drawn d = drawn(random);
+    d.cable.axial_stiffness.reset();
+    if (random.chance(0.3)) d.air.profile = WindProfile::logarithmic;
+    // From taut on, until the tension falls no more.
+    CableSolver by_length;
+    double least = std::numeric_limits<double>::infinity();
+    for (double slack = 1e-4; slack < 3; slack *= 1.1) {
+      REQUIRE(by_length.solve(d.cable, d.air, of_length(d.distance() * (1 + slack)), d.drone) ==
+              CableOutcome::hangs);
+      const double tension = by_length.result().tension_at_station;
+      if (tension > least) break;
+      least = tension;
+    }
+    const double share = random.magnitude(0.3, 3);
+    CableSolver by_tension;
+    const CableOutcome outcome =
+        by_tension.solve(d.cable, d.air, {.length = {}, .winch_tension = share * least}, d.drone);
+    if (share >= 1) REQUIRE(outcome == CableOutcome::hangs);
+    if (outcome == CableOutcome::hangs) {
+      CHECK(by_tension.result().tension_at_station == Approx(share * least).epsilon(1e-8));
+    } else {
+      CHECK(outcome == CableOutcome::tension_too_low);
+    }
+  });
+}
+
 TEST_CASE("the derivatives of the force are those of differences") {
   each_random(30, [](Random& random) {
     Drawn d = drawn(random);
