@@ -87,6 +87,7 @@ constexpr double thinnest_solved = 1e-5;  // m, 0.0003 mm²
 constexpr double thickest_solved = 1;     // m
 const double log_thinnest = std::log(thinnest_solved);
 constexpr double log_thickest = 0;
+const double first_stride = std::floor(log_thinnest / stride);
 
 double log_radius_at(long place) {
   return stride * static_cast<double>(place) / static_cast<double>(places_per_stride);
@@ -176,6 +177,18 @@ std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
   return {{hangs, hi}};
 }
 
+std::optional<HangingLoad::Stretch> HangingLoad::stretch_about(double x) const {
+  Stretch& known = whole_strides_[static_cast<std::size_t>(std::floor(x / stride) - first_stride)];
+  if (known.lo) return known;
+  const auto places = places_about(x);
+  if (!places) return std::nullopt;
+  const auto [lo, hi] = *places;
+  const double from = log_radius_at(lo);
+  const Stretch stretch{&node(lo), &node(hi), from, lo == hi ? 1 : log_radius_at(hi) - from};
+  if (hi - lo == places_per_stride) known = stretch;
+  return stretch;
+}
+
 std::optional<HangingLoad::Shares> HangingLoad::solved_alone(double radius) const {
   const Node there = solved_node(std::log(std::clamp(radius, thinnest_solved, thickest_solved)));
   if (there.outcome != CableOutcome::hangs) return std::nullopt;
@@ -201,14 +214,13 @@ std::optional<HangingLoad::Shares> HangingLoad::of_similar_cables(double radius)
 std::optional<HangingLoad::Shares> HangingLoad::between_nodes(double radius) const {
   const double x = std::clamp(std::log(radius), log_thinnest, log_thickest);
   // What asks for the point of no area at all gets a tether that does not hang.
-  const auto places = std::isnan(x) ? std::nullopt : places_about(x);
-  if (!places) return std::nullopt;
-  const auto [lo, hi] = *places;
-  const Node& a = node(lo);
-  const Node& b = node(hi);
+  const auto stretch = std::isnan(x) ? std::nullopt : stretch_about(x);
+  if (!stretch) return std::nullopt;
+  const auto& [lo, hi, from, width] = *stretch;
+  const Node& a = *lo;
+  const Node& b = *hi;
   const bool one_place = lo == hi;  // its forces over the cable's own load hold for thinner ones
-  const double width = one_place ? 1 : log_radius_at(hi) - log_radius_at(lo);
-  const double t = one_place ? 0 : (x - log_radius_at(lo)) / width;
+  const double t = one_place ? 0 : (x - from) / width;
   // Hermite's cubic, and its slope by ln r.
   const double b1 = t * t * (3 - 2 * t);
   const double sa = t * (1 - t) * (1 - t) * width;

@@ -324,13 +324,17 @@ class LeastPowerSearch {
   /// Where a heavier drone gains by leaning less about what it spends on thrust.
   static constexpr double narrow_by_leaning = 1.02;
 
+  /// Whether a thicker conductor, up to one of `radius`, takes little more cable off its winch: the
+  /// nearer it comes to what the winch cannot hold, the faster the length grows.
+  [[nodiscard]] bool pays_out_evenly_up_to(double radius) const {
+    constexpr double even = 0.1;  // relative, for as much of the radius
+    return flight_.tether().length_growth(radius) <= even;
+  }
+
   /// How far apart two radii may be between which the power has one valley without a proof.
   [[nodiscard]] double narrow_between(const ThrustAt& a, const ThrustAt& b,
                                       const MotorCurve& motor) const {
-    double ratio = narrow;
-    if (flight_.tether().is_solved() && flight_.design().tether.winch_pull > 0) {
-      ratio = narrow_by_winch;
-    }
+    double ratio = pays_out_evenly_up_to(b.radius) ? narrow : narrow_by_winch;
     if (!flight_.share_changes()) return ratio;
     // The price of carrying, ln of which may fall by 3 over ln of the radius as the savings do, is
     // that of the thrust less that of leaning. Half of it may grow with the radius to the third.

@@ -216,11 +216,20 @@ class HangingLoad {
   /// Two places about `log_radius` at which the cable hangs, and nothing is known against it
   /// between them; nothing where it does not.
   [[nodiscard]] std::optional<std::array<long, 2>> places_about(double log_radius) const;
+  /// Radii between two solved cables, or one cable that stands for thinner ones.
+  struct Stretch {
+    const Node* lo = nullptr;
+    const Node* hi = nullptr;
+    double from = 0;   ///< ln r
+    double width = 1;  ///< in ln r
+  };
+  [[nodiscard]] std::optional<Stretch> stretch_about(double log_radius) const;
 
   HangingSituation situation_;
   std::shared_ptr<const SimilarCables> similar_;  ///< null where more decides how it hangs
   ConductorsAsked asked_;
   mutable std::unordered_map<long, Node> nodes_;
+  mutable std::array<Stretch, 68> whole_strides_{};  ///< from the thinnest, once they are known
   /// Of the last radii that were asked for, each at a place that its digits decide.
   struct Known {
     double radius = std::numeric_limits<double>::quiet_NaN();
@@ -289,6 +298,13 @@ class TetherInFlight {
   /// hangs; negative where that of every conductor does. The wind pushes across a cable only, so
   /// that along it T + T²/(2·EA) grows by the weight a metre times the height gained.
   [[nodiscard]] double radius_of_tension(double tension) const;
+  /// How much more of a solved tether hangs in the air for a thicker conductor: d ln(length)/d
+  /// ln(r), 0 where its length is given.
+  [[nodiscard]] double length_growth(double radius) const {
+    if (!hanging_ || hanging_->fixed_length()) return 0;
+    const HangingLoad::AtRadius& at = hanging_->at(radius);
+    return at.slope.length * radius / at.value.length;
+  }
   /// Ω of plugs and slip rings.
   [[nodiscard]] double contact_resistance() const { return straight_.contact_resistance(); }
   /// Ω·m²: what the conductors' resistance is over r².
