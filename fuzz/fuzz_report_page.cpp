@@ -10,8 +10,6 @@
 #include "tethercalc/io/input_error.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/report/report_page.hpp"
-#include "tethercalc/study/cable_shape.hpp"
-#include "tethercalc/study/motor.hpp"
 
 namespace {
 
@@ -39,18 +37,15 @@ void require_quiet(const std::string& page) {
 }
 
 void make_page(const std::string& text) {
-  PageContent content;
-  content.file = parse_design(text, "spec.json");
-  const Design& design = content.file.design;
-  content.command = "tethercalc report spec.json";
+  const DesignFile file = parse_design(text, "spec.json");
   const std::vector<MotorEntry> all = library_motors();
-  content.motors = compare_motors(design, {all.begin(), all.begin() + 2});
-  content.optimum = study_optimum(design, wire_sizes());
-  content.curve = area_curve(content.optimum);
-  if (content.optimum.result.feasible) {
-    content.cable = shapes_in_flight(design, content.optimum.result.area);
-  }
-  require_quiet(report_page(content));
+  require_quiet(
+      report_page({study_overview(file.design, wire_sizes(), {all.begin(), all.begin() + 2}),
+                   file,
+                   {},
+                   {},
+                   {},
+                   "tethercalc report spec.json"}));
 }
 
 }  // namespace

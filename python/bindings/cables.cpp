@@ -24,10 +24,10 @@ using Texts = std::vector<std::string>;
 Answer evaluation(const py::object& spec, const Texts& areas_mm2) {
   const auto file = design_of(spec)->file();
   const auto areas = chosen_areas(parsed_areas(areas_mm2), file->design);
-  const std::vector<AreaPoints> table =
-      interruptible([=](const StopFlag&) { return evaluate_areas(file->design, areas); });
-  return {[=] { return evaluate_text(*file, table, {}); },
-          [=] { return evaluate_json(*file, table); }, [=] { return evaluate_csv(table); }};
+  const EvaluationStudy study =
+      interruptible([=](const StopFlag&) { return study_evaluation(file->design, areas); });
+  return {[=] { return evaluate_text(*file, study, {}); },
+          [=] { return evaluate_json(*file, study); }, [=] { return evaluate_csv(study.table); }};
 }
 
 Answer comparison(const py::object& spec, const Texts& motors) {

@@ -16,6 +16,7 @@
 #include "report/characters.hpp"
 #include "report/result_values.hpp"
 #include "tethercalc/files/read_files.hpp"
+#include "tethercalc/io/cable_cases.hpp"
 #include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/reference_check.hpp"
@@ -120,7 +121,7 @@ int run_optimize(const SpecOptions& spec, const Output& output) {
       output, [&] { return optimize_text(file, answer, style_for(output)); },
       [&] { return optimize_json(file, answer); }, [&] { return optimize_csv(answer); });
   point_to_explanations({std::string(limit_name(answer.result.limited_by))},
-                        all_warnings(file, only(answer.result)), output);
+                        optimum_warnings(file, answer), output);
   return answer.result.feasible ? done : answer_is_no;
 }
 
@@ -132,12 +133,11 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
   problems.succeeds([&] { areas = parsed_areas(areas_mm2); });
   problems.succeeds([&] { file = read_spec(spec); });
   problems.throw_if_any();
-  const std::vector<AreaPoints> table =
-      evaluate_areas(file.design, chosen_areas(areas, file.design));
+  const EvaluationStudy answer = study_evaluation(file.design, chosen_areas(areas, file.design));
   emit(
-      output, [&] { return evaluate_text(file, table, style_for(output)); },
-      [&] { return evaluate_json(file, table); }, [&] { return evaluate_csv(table); });
-  point_to_explanations({}, all_warnings(file, table), output);
+      output, [&] { return evaluate_text(file, answer, style_for(output)); },
+      [&] { return evaluate_json(file, answer); }, [&] { return evaluate_csv(answer.table); });
+  point_to_explanations({}, all_warnings(file, answer.table, answer.ground), output);
   return done;
 }
 
@@ -183,8 +183,11 @@ namespace {
 
 int run_cable_cases(const ShapeOptions& options, const Output& output) {
   const LoadedText file = read_text_file(options.cases_file);
-  const auto cases = parse_cable_cases(file.text, file.name);
-  emit(output, json_text(cable_cases_json(cases)));
+  std::vector<SolvedCase> solved;
+  for (CableCase& one : parse_cable_cases(file.text, file.name)) {
+    solved.push_back(solve_cable_case(std::move(one)));
+  }
+  emit(output, json_text(cable_cases_json(solved)));
   return done;
 }
 

@@ -243,8 +243,13 @@ int run_report(const DiagnoseOptions& options, const std::string& rules, const s
   problems.succeeds([&] { file = read_spec(options.spec); });
   if (!rules.empty()) problems.succeeds([&] { book = rule_book(rules); });
   problems.throw_if_any();
-  PageContent content = content_of_design(file, chosen_motors({"alike"}, file, files_in("")));
-  content.command = command;
+  PageContent content{
+      study_overview(file.design, wire_sizes(), chosen_motors({"alike"}, file, files_in(""))),
+      file,
+      {},
+      {},
+      {},
+      command};
   if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
   if (!options.flight_logs.empty() || !options.power_logs.empty()) {
     const AnsweredDiagnosis told = diagnose_logs(options, file);

@@ -192,11 +192,20 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
                                                       shown(value), describe_range(field)));
   }
   if (!field.range.contains(number)) {
-    return problems.refuse(place.where(),
-                           fmt::format("{} is out of range; allowed is {}{}", shown(value),
-                                       describe_range(field), meant_in_thousands(field, number)));
+    return problems.refuse(place.where(), out_of_range(field, number, shown(value)));
   }
   return number;
+}
+
+std::string out_of_range(const SpecField& field, double value, std::string_view written) {
+  return fmt::format("{} is out of range; allowed is {}{}", written, describe_range(field),
+                     meant_in_thousands(field, value));
+}
+
+void check_range(const char* option, double value, double least, double most, const char* unit) {
+  if (value >= least && value <= most) return;
+  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
+                                       most, unit));
 }
 
 std::string meant_in_thousands(const SpecField& field, double value) {

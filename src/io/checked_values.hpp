@@ -82,6 +82,15 @@ std::vector<JsonPlace> field_places(const JsonPlace& object, std::span<const Spe
 std::optional<double> checked_number(const JsonPlace& place, const SpecField& field,
                                      Problems& problems);
 
+/// "1.71 is out of range; allowed is …" of a number, as written, that is not in the field's range,
+/// with what was probably meant.
+[[nodiscard]] std::string out_of_range(const SpecField& field, double value,
+                                       std::string_view written);
+
+/// Throws InputError, about `option`, where `value` is not from `least` to `most`; of what is no
+/// field of a spec.
+void check_range(const char* option, double value, double least, double most, const char* unit);
+
 /// "; did you mean 1710? The unit is the gram" for 1.71, which is out of the field's range, where
 /// that many kilograms are not; else empty.
 [[nodiscard]] std::string meant_in_thousands(const SpecField& field, double value);

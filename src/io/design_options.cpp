@@ -1,6 +1,7 @@
 #include "io/design_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,6 +11,8 @@
 
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
+#include "tethercalc/io/spec_fields.hpp"
+#include "tethercalc/study/design.hpp"
 #include "tethercalc/study/motor.hpp"
 
 namespace tethercalc {
@@ -31,38 +34,60 @@ std::optional<double> standard_area(std::string_view text) {
   return std::nullopt;
 }
 
-WindProfile parsed_profile(const std::string& text) {
-  const std::vector<std::string> names{"uniform", "power-law", "logarithmic"};  // as in WindProfile
-  const auto found = std::ranges::find(names, text);
-  if (found != names.end()) return static_cast<WindProfile>(found - names.begin());
-  throw InputError("--profile", "\"" + text +
-                                    "\" is not a profile; allowed are uniform, power-law " +
-                                    "and logarithmic" + did_you_mean(text, names));
-}
+/// Options that say for one question what fields of the spec say of the design: numbers in the
+/// field's unit and range.
+class FieldOptions {
+ public:
+  FieldOptions(const Design& design, Problems& problems) : design_(design), problems_(problems) {}
 
-/// The number in its range; `least`, with the reason among the problems, outside.
-double checked(Problems& problems, const char* option, double value, double least, double most,
-               const char* unit) {
-  if (value >= least && value <= most) return value;
-  problems.add(option, fmt::format("{:g} is out of range; allowed is {:g} to {:g} {}", value, least,
-                                   most, unit));
-  return least;
-}
-
-/// The numbers of a list, each in its range.
-std::vector<double> checked(Problems& problems, const char* option,
-                            const std::vector<std::string>& texts, double least, double most,
-                            const char* unit) {
-  std::vector<double> numbers;
-  for (const std::string& text : texts) {
-    if (const auto number = parsed_number(text)) {
-      numbers.push_back(checked(problems, option, *number, least, most, unit));
-    } else {
-      problems.add(option, "\"" + text + "\" is not a number");
-    }
+  /// What `option` says in place of the field at `path`, in SI; where it is not given or not
+  /// allowed, what the design says, if that says anything.
+  std::optional<double> number(const char* option, std::optional<double> given, const char* path) {
+    const SpecField& field = *find_field(path);
+    return given && allowed(option, field, *given) ? *given * field.si_factor
+                                                   : field_value_si(design_, field);
   }
-  return numbers;
-}
+
+  /// Likewise of a list.
+  std::vector<double> numbers(const char* option, const std::vector<std::string>& texts,
+                              const char* path) {
+    const SpecField& field = *find_field(path);
+    std::vector<double> numbers;
+    for (const std::string& text : texts) {
+      const auto number = parsed_number(text);
+      if (!number) {
+        problems_.add(option, "\"" + text + "\" is not a number");
+      } else if (allowed(option, field, *number)) {
+        numbers.push_back(*number * field.si_factor);
+      }
+    }
+    if (texts.empty()) numbers.push_back(field_value_si(design_, field).value_or(0));
+    return numbers;
+  }
+
+  /// Likewise of a word, in which a hyphen may stand for the underscore.
+  std::size_t word(const char* option, std::optional<std::string> given, const char* path) {
+    const SpecField& field = *find_field(path);
+    if (!given) return field_word(design_, field);
+    std::ranges::replace(*given, '-', '_');
+    const std::span<const std::string> words = field_words(field.kind);
+    const auto found = std::ranges::find(words, *given);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    problems_.add(option, fmt::format("{} is none of {}{}", shown(*given), fmt::join(words, ", "),
+                                      did_you_mean(*given, words)));
+    return 0;
+  }
+
+ private:
+  bool allowed(const char* option, const SpecField& field, double value) {
+    if (field.range.contains(value)) return true;
+    problems_.add(option, out_of_range(field, value, fmt::format("{:g}", value)));
+    return false;
+  }
+
+  const Design& design_;
+  Problems& problems_;
+};
 
 /// What decides how much cable is out; several where several slacks are asked for.
 std::vector<PaidOut> parsed_paid_out(const CableOptions& options, const Design& design,
@@ -75,21 +100,18 @@ std::vector<PaidOut> parsed_paid_out(const CableOptions& options, const Design& 
     return {};
   }
   if (options.length) {
-    return {{.length = checked(problems, "--length", *options.length, 1e-3, 1e6, "m"),
-             .winch_tension = {}}};
+    problems.succeeds([&] { check_range("--length", *options.length, 1e-3, 1e6, "m"); });
+    return {{.length = options.length, .winch_tension = {}}};
   }
-  if (options.winch_tension) {
-    return {{.length = {},
-             .winch_tension =
-                 checked(problems, "--winch-tension", *options.winch_tension, 1e-6, 1e6, "N")}};
-  }
-  if (given == 0) return {paid_out_to(design.tether, request.height, request.offset)};
+  FieldOptions fields(design, problems);
+  Tether tether = design.tether;
+  tether.winch_pull =
+      fields.number("--winch-tension", options.winch_tension, "tether.winch_pull_N").value();
+  if (!options.slacks_percent.empty()) tether.winch_pull = 0;
   std::vector<PaidOut> out;
-  for (const double percent :
-       checked(problems, "--slack", options.slacks_percent, 1e-6, 1000, "percent")) {
-    Tether tether = design.tether;
-    tether.winch_pull = 0;
-    tether.slack = percent / 100;
+  for (const double slack :
+       fields.numbers("--slack", options.slacks_percent, "tether.slack_percent")) {
+    tether.slack = slack;
     out.push_back(paid_out_to(tether, request.height, request.offset));
   }
   return out;
@@ -97,39 +119,29 @@ std::vector<PaidOut> parsed_paid_out(const CableOptions& options, const Design& 
 
 std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Design& design) {
   Problems problems;
+  FieldOptions fields(design, problems);
   ShapeRequest request;
-  request.height =
-      checked(problems, "--height", options.height.value_or(design.tether.length), 0.01, 1e5, "m");
-  const Flight& flight = design.flight;
-  request.offset =
-      checked(problems, "--offset", options.offset.value_or(flight.horizontal_offset), 0, 1e5, "m");
-  request.wind_from =
-      checked(problems, "--wind-from", options.wind_from, -360, 360, "degrees") * unit::degree;
+  request.height = fields.number("--height", options.height, "tether.length_m").value();
+  request.offset = fields.number("--offset", options.offset, "flight.horizontal_offset_m").value();
+  problems.succeeds([&] { check_range("--wind-from", options.wind_from, -360, 360, "degrees"); });
+  request.wind_from = options.wind_from * unit::degree;
   request.station_height =
-      checked(problems, "--station-height", options.station_height.value_or(flight.station_height),
-              0, 1e5, "m");
-  request.profile = flight.wind_profile;
-  if (options.profile) {
-    problems.succeeds([&] { request.profile = parsed_profile(*options.profile); });
-  }
-  request.reference_height = checked(
-      problems, "--reference-height",
-      options.reference_height.value_or(flight.wind_reference_height.value_or(10)), 0.1, 1e4, "m");
-  request.exponent =
-      checked(problems, "--exponent", options.exponent.value_or(flight.wind_exponent), 0, 1, "");
+      fields.number("--station-height", options.station_height, "flight.station_height_m").value();
+  request.profile =
+      static_cast<WindProfile>(fields.word("--profile", options.profile, "flight.wind_profile"));
+  request.reference_height =
+      fields
+          .number("--reference-height", options.reference_height, "flight.wind_reference_height_m")
+          .value_or(request.reference_height);
+  request.exponent = fields.number("--exponent", options.exponent, "flight.wind_exponent").value();
   request.roughness_length =
-      checked(problems, "--roughness", options.roughness_length.value_or(flight.roughness_length),
-              1e-6, 10, "m");
+      fields.number("--roughness", options.roughness_length, "flight.roughness_length_m").value();
   if (request.roughness_length >= request.reference_height) {
     problems.add("--roughness", "has to be less than --reference-height");
   }
-  request.axial_stiffness = design.tether.axial_stiffness;
-  if (options.axial_stiffness) {
-    request.axial_stiffness =
-        checked(problems, "--stiffness", *options.axial_stiffness, 1, 1e12, "N");
-  }
-  std::vector<double> winds = checked(problems, "--wind", options.winds, 0, 200, "m/s");
-  if (options.winds.empty()) winds = {std::abs(design.flight.airspeed)};
+  request.axial_stiffness =
+      fields.number("--stiffness", options.axial_stiffness, "tether.axial_stiffness_N");
+  const std::vector<double> winds = fields.numbers("--wind", options.winds, "flight.airspeed_m_s");
   const std::vector<PaidOut> lengths = parsed_paid_out(options, design, request, problems);
   problems.throw_if_any();
   std::vector<ShapeRequest> requests;
@@ -146,6 +158,7 @@ std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Des
 }  // namespace
 
 std::vector<double> parsed_areas(const std::vector<std::string>& texts) {
+  const SpecField& field = *find_field(cross_section_path);
   std::vector<double> areas;
   Problems problems;
   for (const std::string& text : texts) {
@@ -153,15 +166,14 @@ std::vector<double> parsed_areas(const std::vector<std::string>& texts) {
       areas.push_back(*area);
       continue;
     }
-    const std::optional<double> area = parsed_number(text);
-    // Beyond these, square millimetres were surely not meant, and the physics loses its digits.
-    if (!area || !(*area >= 1e-6 && *area <= 1e6)) {
-      problems.add("--area-mm2",
-                   "\"" + text + "\" is not a cross-section from 0.000001 to 1000000 mm², nor a " +
-                       "standard size such as AWG18");
+    const auto mm2 = parsed_number(text);
+    if (mm2 && field.range.contains(*mm2)) {
+      areas.push_back(*mm2 * field.si_factor);
       continue;
     }
-    areas.push_back(*area * unit::square_millimetre);
+    problems.add("--area-mm2",
+                 fmt::format("{} is no cross-section: {}, or a standard size such as AWG18",
+                             shown(text), describe_range(field)));
   }
   problems.throw_if_any();
   return areas;

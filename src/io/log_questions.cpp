@@ -34,16 +34,6 @@ void refuse_repeated(const std::string& name, const FlightLog& log,
                    "tell more than it does");
 }
 
-}  // namespace
-
-void check_range(const char* option, double value, double least, double most, const char* unit) {
-  if (value >= least && value <= most) return;
-  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
-                                       most, unit));
-}
-
-namespace {
-
 bool is_given(const LogsAsked& options, LogKind kind) {
   return kind == LogKind::flight ? !options.flight_logs.empty() : !options.power_logs.empty();
 }
@@ -240,9 +230,8 @@ std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
   const SpecField& field = *find_field("drone.mass_g");
   if (!field.range.contains(*options.mass_g)) {
-    throw InputError(
-        "--mass-g", fmt::format("{:g} is out of range; allowed is {}{}", *options.mass_g,
-                                describe_range(field), meant_in_thousands(field, *options.mass_g)));
+    throw InputError("--mass-g",
+                     out_of_range(field, *options.mass_g, fmt::format("{:g}", *options.mass_g)));
   }
   return *options.mass_g * unit::gram;
 }

@@ -40,9 +40,6 @@ struct FlightOptions {
   std::vector<std::string> columns{};  ///< of logs in CSV, as in FlightLogOptions
 };
 
-/// Throws InputError, about `option`, where `value` is not from `least` to `most`.
-void check_range(const char* option, double value, double least, double most, const char* unit);
-
 /// Where the part of the log begins or ends that `text`, as given to `option`, names: percent of
 /// the samples with a "%", else seconds; nothing for an empty text. Throws InputError for anything
 /// else.

@@ -1,6 +1,7 @@
 #include "tethercalc/model/design.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tethercalc {
 namespace {
@@ -28,6 +29,17 @@ Drone drone_in_flight(const Design& design) {
   drone.motor = motor_in_flight(design);
   if (bench_air_density(drone)) drone.motor_air_density = design.flight.air_density;
   return drone;
+}
+
+std::optional<UnscaledMotors> unscaled_motors(const Design& design) {
+  constexpr double noticeable = 0.03;
+  const double density = design.flight.air_density;
+  const double ratio = density / standard_air_density;
+  if (bench_air_density(design.drone) || density == Flight{}.air_density ||
+      std::abs(ratio - 1) <= noticeable) {
+    return std::nullopt;
+  }
+  return UnscaledMotors{ideal_power_in_air(ratio), ratio};
 }
 
 double wind_at_drone(const Design& design) {

@@ -113,6 +113,10 @@ MotorCurve MotorCurve::in_air(double density_ratio) const {
   return curve;
 }
 
+double ideal_power_in_air(double density_ratio) {
+  return density_ratio * std::pow(1 / density_ratio, 1.5);  // ratio·P(T/ratio) over P(T)
+}
+
 const MotorCurve& MotorCurve::convex_hull() const { return line_->hull ? *line_->hull : *this; }
 
 bool MotorCurve::is_convex() const { return !line_->hull; }

@@ -40,7 +40,7 @@ ordered_json optimum_json(const Request& request, const Optimised& asked) {
   ordered_json out{{"headline", std::move(told.headline)},
                    {"sentences", std::move(told.sentences)},
                    {"remedies", std::move(told.remedies)},
-                   {"warnings", json_list(all_warnings(file, only(study.result)), sentence)},
+                   {"warnings", json_list(optimum_warnings(file, study), sentence)},
                    {"result", optimize_json(file, study)},
                    {"command", "tethercalc optimize spec.json"}};
   if (!request.flag("brief")) out["text"] = optimize_text(file, study, {});
@@ -225,8 +225,13 @@ ordered_json design(const Request& request) {
 
 ordered_json report(const Request& request) {
   const DesignFile file = request.design();
-  PageContent content = content_of_design(file, chosen_motors({"alike"}, file, request.loader()));
-  content.command = "tethercalc report spec.json";
+  std::vector<MotorEntry> motors = chosen_motors({"alike"}, file, request.loader());
+  const PageContent content{study_overview(file.design, wire_sizes(), std::move(motors)),
+                            file,
+                            {},
+                            {},
+                            {},
+                            "tethercalc report spec.json"};
   return {{"html", report_page(content)}};
 }
 

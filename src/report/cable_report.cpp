@@ -221,17 +221,16 @@ std::string cable_shape_csv(const ShapeStudy& study) {
 
 namespace {
 
-ordered_json plane_case_json(const CableCase& c) {
-  const auto shape =
-      catenary(c.drone.x, c.drone.z, c.length, c.cable.weight, c.cable.axial_stiffness);
-  if (!shape) return {{"outcome", outcome_name(CableOutcome::too_short)}};
-  const double h = shape->horizontal;
-  const double start = shape->vertical_at_start;
-  const double end = shape->vertical_at_end;
+ordered_json plane_case_json(const SolvedCase& solved) {
+  const CableCase& c = solved.asked;
+  const Catenary& shape = solved.catenary;
+  const double h = shape.horizontal;
+  const double start = shape.vertical_at_start;
+  const double end = shape.vertical_at_end;
   const double at_anchor = std::hypot(h, start);
   const double at_drone = std::hypot(h, end);
   const auto at = [&](double s) {
-    return catenary_point(*shape, s, c.cable.weight, c.cable.axial_stiffness);
+    return catenary_point(shape, s, c.cable.weight, c.cable.axial_stiffness);
   };
   const bool inside = start < 0 && end > 0;
   const double lowest = -start / c.cable.weight;
@@ -241,7 +240,7 @@ ordered_json plane_case_json(const CableCase& c) {
     const CatenaryPoint p = at(s);
     stations.push_back({s, p.x, p.z, p.tension});
   }
-  return {{"outcome", outcome_name(CableOutcome::hangs)},
+  return {{"outcome", outcome_name(solved.outcome)},
           {"H_N", h},
           {"V_anchor_N", start},
           {"V_drone_N", end},
@@ -255,31 +254,28 @@ ordered_json plane_case_json(const CableCase& c) {
           {"stations", stations}};
 }
 
-ordered_json space_case_json(const CableCase& c) {
-  CableSolver solver;
-  PaidOut paid_out;
-  paid_out.length = c.length;
-  const CableOutcome outcome = solver.solve(c.cable, c.air, paid_out, c.drone);
-  ordered_json out{{"outcome", outcome_name(outcome)}};
-  if (outcome != CableOutcome::hangs) return out;
-  const CableShape shape = solver.shape(4000);
-  const HangingCable loads = solver.result();
-  out.update(loads_json(loads, shape));
-  const Vector3& a = loads.on_drone;
-  const Vector3& b = loads.on_station;
-  out["total_drag_N"] = {a.x + b.x, a.y + b.y, a.z + b.z + c.cable.weight * c.length};
-  out["stations"] = json_list(stations_of(shape), station_json);
+ordered_json space_case_json(const SolvedCase& solved) {
+  ordered_json out{{"outcome", outcome_name(solved.outcome)}};
+  out.update(loads_json(solved.loads, solved.shape));
+  const Vector3& a = solved.loads.on_drone;
+  const Vector3& b = solved.loads.on_station;
+  const double weight = solved.asked.cable.weight * solved.asked.length;
+  out["total_drag_N"] = {a.x + b.x, a.y + b.y, a.z + b.z + weight};
+  out["stations"] = json_list(stations_of(solved.shape), station_json);
   return out;
+}
+
+ordered_json case_json(const SolvedCase& solved) {
+  if (solved.outcome != CableOutcome::hangs) return {{"outcome", outcome_name(solved.outcome)}};
+  return solved.asked.in_plane ? plane_case_json(solved) : space_case_json(solved);
 }
 
 }  // namespace
 
-ordered_json cable_cases_json(const std::vector<CableCase>& cases) {
-  ordered_json out = ordered_json::array();
-  for (const CableCase& c : cases) {
-    out.push_back({{"id", c.id}, {"result", c.in_plane ? plane_case_json(c) : space_case_json(c)}});
-  }
-  return {{"cases", out}};
+ordered_json cable_cases_json(std::span<const SolvedCase> cases) {
+  return {{"cases", json_list(cases, [](const SolvedCase& solved) {
+             return ordered_json{{"id", solved.asked.id}, {"result", case_json(solved)}};
+           })}};
 }
 
 }  // namespace tethercalc

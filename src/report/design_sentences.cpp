@@ -13,7 +13,6 @@
 #include "report/result_values.hpp"
 #include "tethercalc/model/conductor_heat.hpp"
 #include "tethercalc/model/drum_package.hpp"
-#include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
 namespace {
@@ -456,24 +455,19 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
 }
 
 std::optional<Warning> density_warning(const Design& design) {
-  constexpr double standard_density = 1.225;  // kg/m³, ISO 2533
-  constexpr double noticeable = 0.03;
-  const double density = design.flight.air_density;
-  const double ratio = density / standard_density;
-  if (bench_air_density(design.drone) || density == Flight{}.air_density ||
-      std::abs(ratio - 1) <= noticeable) {
-    return std::nullopt;
-  }
-  const double power = 1 / std::sqrt(ratio) - 1;
+  const std::optional<UnscaledMotors> unscaled = unscaled_motors(design);
+  if (!unscaled) return std::nullopt;
+  const double power = unscaled->power_ratio - 1;
+  const double thrust = unscaled->thrust_ratio - 1;
   return Warning{
       WarningKind::motor_air_density,
       fmt::format(
           "the motors' curve counts as it was measured, not in air of {} kg/m³: of a bench at {} "
           "kg/m³ an ideal rotor needs {} % {} power there for the same thrust and makes {} % {} at "
           "most; state the bench's density (drone.motor_air_density_kg_m3) to have it scaled",
-          significant(density, 4), significant(standard_density, 4),
+          significant(design.flight.air_density, 4), significant(standard_air_density, 4),
           significant(100 * std::abs(power), 2), power > 0 ? "more" : "less",
-          significant(100 * std::abs(ratio - 1), 2), ratio < 1 ? "less" : "more")};
+          significant(100 * std::abs(thrust), 2), thrust < 0 ? "less" : "more")};
 }
 
 std::optional<Warning> drag_estimate_warning(const Design& design) {
@@ -533,25 +527,13 @@ std::vector<Warning> spec_warnings(const DesignFile& file) {
   return warnings;
 }
 
-std::optional<Warning> ground_warning(const Design& design, double area) {
-  if (!(area > 0)) return std::nullopt;
-  const FlownShape* lowest = nullptr;
-  const std::vector<FlownShape> shapes = shapes_in_flight(design, area);
-  const auto below_station = [](const FlownShape& shape) {
-    return -shape.study.shape.lowest.position.z;
-  };
-  for (const FlownShape& shape : shapes) {
-    if (shape.study.outcome != CableOutcome::hangs || shape.study.hangs_free) continue;
-    if (lowest == nullptr || below_station(shape) > below_station(*lowest)) lowest = &shape;
-  }
-  if (lowest == nullptr) return std::nullopt;
-  return Warning{
-      WarningKind::tether_touches_ground,
-      fmt::format("with {} mm² the tether lies on the ground in {}: without one it would hang "
-                  "{} m below the station; the loads are those without a ground (tethercalc "
-                  "shape shows them)",
-                  significant(area / unit::square_millimetre, 4),
-                  condition_words(lowest->condition), fixed(below_station(*lowest), 2))};
+Warning ground_warning(const GroundContact& ground) {
+  return {WarningKind::tether_touches_ground,
+          fmt::format("with {} mm² the tether lies on the ground in {}: without one it would hang "
+                      "{} m below the station; the loads are those without a ground (tethercalc "
+                      "shape shows them)",
+                      significant(ground.area / unit::square_millimetre, 4),
+                      condition_words(ground.condition), fixed(ground.below_station, 2))};
 }
 
 std::optional<Warning> inclination_warning(const Design& design, const OperatingPoint& hover) {
@@ -574,17 +556,22 @@ std::optional<Warning> inclination_warning(const Design& design, const Operating
           greatest_ratio, fixed(ambient + greatest_ratio * rise, 0), significant(rated, 3))};
 }
 
-std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPoints> table) {
+std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPoints> table,
+                                  const std::optional<GroundContact>& ground) {
   std::vector<Warning> warnings = spec_warnings(file);
-  const auto add_first = [&](const auto& warning_of) {
-    for (const AreaPoints& row : table) {
-      if (auto warning = warning_of(row)) return warnings.push_back(std::move(*warning));
-    }
-  };
   for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
-  add_first([&](const AreaPoints& row) { return inclination_warning(file.design, row.hover); });
-  add_first([&](const AreaPoints& row) { return ground_warning(file.design, row.area); });
+  for (const AreaPoints& row : table) {
+    if (auto steep = inclination_warning(file.design, row.hover)) {
+      warnings.push_back(std::move(*steep));
+      break;
+    }
+  }
+  if (ground) warnings.push_back(ground_warning(*ground));
   return warnings;
+}
+
+std::vector<Warning> optimum_warnings(const DesignFile& file, const OptimumStudy& study) {
+  return all_warnings(file, only(study.result), ground_contact(study.result.area, study.cable));
 }
 
 }  // namespace tethercalc

@@ -220,7 +220,7 @@ std::string optimize_text(const DesignFile& file, const OptimumStudy& study,
   out += answer_text(file, study, style);
   if (!study.sizes.empty()) out += sizes_table(study).text(style);
   if (!study.table.empty()) out += power_table(study).text(style);
-  const std::string notes = notes_text(all_warnings(file, only(study.result)), style);
+  const std::string notes = notes_text(optimum_warnings(file, study), style);
   return notes.empty() ? out : out + "\n" + notes;
 }
 
@@ -268,7 +268,7 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
     out["remedies"] = remedies_json(study);
   }
   add_estimates(out, design);
-  add_warnings(out, all_warnings(file, only(study.result)));
+  add_warnings(out, optimum_warnings(file, study));
   return out;
 }
 
@@ -276,40 +276,40 @@ std::string optimize_csv(const OptimumStudy& study) {
   return header_csv() + results_csv(study.design, study.result);
 }
 
-std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
+std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
                           const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n";
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    out += operating_table(file.design, condition, table).text(style);
+    out += operating_table(file.design, condition, study.table).text(style);
   }
   if (file.design.tether.ambient_temperature_C) {
-    for (const AreaPoints& row : table) {
+    for (const AreaPoints& row : study.table) {
       out += "\n" + style.bold(area_words(row.area)) + "\n";
       for (const std::string& sentence : cable_sentences(file.design, row)) {
         out += wrapped(sentence);
       }
     }
   }
-  for (const AreaPoints& row : table) {
+  for (const AreaPoints& row : study.table) {
     const std::string fault = shortcoming(file.design, row);
     if (!fault.empty()) {
       out += fmt::format("\n{} does not meet the requirements: {}", area_words(row.area), fault);
     }
   }
   if (out.back() != '\n') out += "\n";
-  return out + notes_text(all_warnings(file, table), style);
+  return out + notes_text(all_warnings(file, study.table, study.ground), style);
 }
 
-ordered_json evaluate_json(const DesignFile& file, std::span<const AreaPoints> table) {
+ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study) {
   const ordered_json thermal =
-      json_list(table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
+      json_list(study.table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
   ordered_json out{
       {"name", file.name},
-      {"table", table_json(table)},
+      {"table", table_json(study.table)},
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file, table));
+  add_warnings(out, all_warnings(file, study.table, study.ground));
   return out;
 }
 

@@ -171,7 +171,7 @@ Section answer_section(const PageContent& content) {
   body += html::paragraphs(told.sentences);
   if (!told.remedies.empty()) body += html::list(told.remedies);
   if (feasible) body += html::table(condition_table(content.optimum.result), "table-conditions");
-  for (const Warning& warning : all_warnings(content.file, only(content.optimum.result))) {
+  for (const Warning& warning : optimum_warnings(content.file, content.optimum)) {
     body += html::element("p", "Note: " + warning.sentence, " class=\"note\"") + "\n";
   }
   return {"answer", "The answer", std::move(body)};
@@ -188,7 +188,7 @@ Section cross_sections(const PageContent& content) {
 Section cable_section(const PageContent& content) {
   std::vector<ShapeRequest> requests;
   std::vector<ShapeStudy> studies;
-  for (const FlownShape& flown : content.cable) {
+  for (const FlownShape& flown : content.optimum.cable) {
     requests.push_back(flown.request);
     studies.push_back(flown.study);
   }
@@ -197,9 +197,9 @@ Section cable_section(const PageContent& content) {
   std::string body;
   if (any_hangs) {
     body = html::picture(shape_figure(content.file.name, requests, studies));
-    body += html::table(flown_cable_table(content.cable), "table-cable");
+    body += html::table(flown_cable_table(content.optimum.cable), "table-cable");
   }
-  body += html::paragraphs(flown_cable_sentences(content.cable));
+  body += html::paragraphs(flown_cable_sentences(content.optimum.cable));
   return {"cable", "How the cable hangs", std::move(body)};
 }
 
@@ -324,7 +324,7 @@ Section rules_section(const RuleStudy& rules) {
 /// What the codes behind this page's answers mean, and what to do.
 Section explained_section(const PageContent& content) {
   std::vector<std::string> codes{std::string(limit_name(content.optimum.result.limited_by))};
-  for (const Warning& warning : all_warnings(content.file, only(content.optimum.result))) {
+  for (const Warning& warning : optimum_warnings(content.file, content.optimum)) {
     codes.emplace_back(warning_code(warning.kind));
   }
   for (const LogDiagnosis& log : content.diagnoses) {
@@ -364,21 +364,9 @@ std::string head(const std::string& title) {
 
 }  // namespace
 
-PageContent content_of_design(DesignFile file, std::vector<MotorEntry> motors) {
-  PageContent content;
-  content.motors = compare_motors(file.design, std::move(motors));
-  content.optimum = study_optimum(file.design, wire_sizes());
-  content.curve = area_curve(content.optimum);
-  if (content.optimum.result.feasible) {
-    content.cable = shapes_in_flight(file.design, content.optimum.result.area);
-  }
-  content.file = std::move(file);
-  return content;
-}
-
 std::string report_page(const PageContent& content) {
   std::vector<Section> sections{answer_section(content), cross_sections(content)};
-  if (!content.cable.empty()) sections.push_back(cable_section(content));
+  if (!content.optimum.cable.empty()) sections.push_back(cable_section(content));
   if (!content.motors.empty()) sections.push_back(other_motors(content));
   if (content.drag) sections.push_back(drag_section(*content.drag));
   for (const LogDiagnosis& log : content.diagnoses) sections.push_back(diagnosis_section(log));

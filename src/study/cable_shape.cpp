@@ -1,6 +1,7 @@
 #include "tethercalc/study/cable_shape.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "model/constants.hpp"
 #include "tethercalc/model/airframe.hpp"
@@ -109,7 +110,7 @@ ShapeStudy study_cable_shape(const Design& original, double area, const ShapeReq
 
 std::vector<FlownShape> shapes_in_flight(const Design& design, double area) {
   std::vector<FlownShape> shapes;
-  if (design.tether.model == TetherModel::straight) return shapes;
+  if (design.tether.model == TetherModel::straight || !(area > 0)) return shapes;
   const Flight& flight = design.flight;
   for (const Condition condition : {Condition::hover, Condition::forward}) {
     const FlightState state = flight_state(design, condition);
@@ -127,6 +128,36 @@ std::vector<FlownShape> shapes_in_flight(const Design& design, double area) {
     shapes.push_back({condition, request, study_cable_shape(design, area, request)});
   }
   return shapes;
+}
+
+std::optional<GroundContact> ground_contact(double area, std::span<const FlownShape> shapes) {
+  std::optional<GroundContact> lowest;
+  for (const FlownShape& flown : shapes) {
+    if (flown.study.outcome != CableOutcome::hangs || flown.study.hangs_free) continue;
+    const double below_station = -flown.study.shape.lowest.position.z;
+    if (!lowest || below_station > lowest->below_station) {
+      lowest = GroundContact{area, flown.condition, below_station};
+    }
+  }
+  return lowest;
+}
+
+SolvedCase solve_cable_case(CableCase asked) {
+  SolvedCase out;
+  out.asked = std::move(asked);
+  const auto& [id, cable, air, length, drone, in_plane] = out.asked;
+  if (in_plane) {
+    const auto found = catenary(drone.x, drone.z, length, cable.weight, cable.axial_stiffness);
+    out.outcome = found ? CableOutcome::hangs : CableOutcome::too_short;
+    out.catenary = found.value_or(Catenary{});
+    return out;
+  }
+  CableSolver solver;
+  out.outcome = solver.solve(cable, air, PaidOut{.length = length}, drone);
+  if (out.outcome != CableOutcome::hangs) return out;
+  out.loads = solver.result();
+  out.shape = solver.shape(4000);
+  return out;
 }
 
 }  // namespace tethercalc

@@ -235,6 +235,8 @@ DesignStudy study_design(const DesignQuestion& question) {
     study.prices = Prices(study.problem, study.answer, question.search).all();
   }
   if (question.front) study.front = pareto_front(study.problem, *question.front, question.search);
+  const Candidate& best = study.answer.best;
+  study.ground = ground_contact(best.area, shapes_in_flight(best.design, best.area));
   return study;
 }
 

@@ -124,6 +124,15 @@ std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const dou
   return table;
 }
 
+EvaluationStudy study_evaluation(const Design& design, std::span<const double> areas) {
+  EvaluationStudy study{evaluate_areas(design, areas), {}};
+  for (const double area : areas) {
+    study.ground = ground_contact(area, shapes_in_flight(design, area));
+    if (study.ground) break;
+  }
+  return study;
+}
+
 std::vector<WireNeighbours> wire_sizes_near(std::span<const WireSize> sizes, double area) {
   std::vector<WireNeighbours> all;
   for (const WireSize& size : sizes) {
@@ -160,10 +169,11 @@ DesignOptimum optimum_of(const Design& design) {
 }
 
 OptimumStudy study_optimum(const Design& design, std::span<const WireSize> sizes) {
-  OptimumStudy study{optimum_of(design), {}, {}, {}};
+  OptimumStudy study{optimum_of(design), {}, {}, {}, {}};
   study.table = evaluate_areas(design, table_areas(study));
   study.sizes = sizes_near(design, central_area(study), sizes);
   if (study.refusal) study.remedies = remedies(design);
+  study.cable = shapes_in_flight(design, study.result.area);
   return study;
 }
 
@@ -195,6 +205,14 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
                : std::pair(true, -entry.best_headroom.value);
   });
   return ranking;
+}
+
+DesignOverview study_overview(const Design& design, std::span<const WireSize> sizes,
+                              std::vector<MotorEntry> motors) {
+  DesignOverview overview{study_optimum(design, sizes), {}, {}};
+  overview.curve = area_curve(overview.optimum);
+  overview.motors = compare_motors(design, std::move(motors));
+  return overview;
 }
 
 }  // namespace tethercalc

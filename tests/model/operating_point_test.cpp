@@ -206,6 +206,26 @@ TEST_CASE("where the bench's air is known, thinner air asks for more power and m
   });
 }
 
+TEST_CASE("what air changes of motors that count in any is what it changes of an ideal rotor") {
+  test::each_random(100, [](test::Random& random) {
+    std::vector<MotorPoint> ideal;
+    const double factor = random.magnitude(1, 100);
+    for (int i = 1; i <= 20; ++i) ideal.push_back({0.5 * i, factor * std::pow(0.5 * i, 1.5)});
+    Design design = test::published_design();
+    design.drone.motor = MotorCurve(ideal);
+    design.flight.air_density = random.uniform(0.5, 1.15);
+    const auto told = unscaled_motors(design);
+    REQUIRE(told);
+    design.drone.motor_air_density = 1.225;
+    CHECK(!unscaled_motors(design));
+    const MotorCurve scaled = motor_in_flight(design);
+    CHECK(told->thrust_ratio == Approx(scaled.max_thrust() / 10).epsilon(1e-12));
+    const MotorPoint point = scaled.vertices()[static_cast<std::size_t>(random.integer(1, 20))];
+    CHECK(told->power_ratio ==
+          Approx(point.power / (factor * std::pow(point.thrust, 1.5))).epsilon(1e-12));
+  });
+}
+
 TEST_CASE(
     "the published drone hovers at the power that its curve has at thrust over density ratio") {
   Design design = test::published_design();

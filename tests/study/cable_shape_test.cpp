@@ -1,5 +1,6 @@
 #include "tethercalc/study/cable_shape.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether.hpp"
 #include "tethercalc/model/units.hpp"
+#include "tethercalc/study/optimum.hpp"
 
 using namespace tethercalc;
 
@@ -96,4 +98,30 @@ TEST_CASE("a design's own cable hangs with the load that the design is judged by
     CHECK(flown.study.loads.tension_at_station == Approx(load.tension_at_ground).epsilon(2e-5));
     CHECK(flown.study.loads.length == Approx(load.length));
   }
+}
+
+TEST_CASE("answers about a cable say where it would hang lowest below its station, if it does") {
+  test::each_random(10, [](test::Random& random) {
+    Design design = test::published_design();
+    design.tether.model = TetherModel::solved;
+    design.tether.length = random.uniform(5, 20);
+    design.flight.horizontal_offset = random.uniform(0, 4) * design.tether.length;
+    design.tether.slack = random.uniform(0.01, 0.4);
+    design.flight.headwind = random.uniform(0, 4);
+    const double areas[] = {random.magnitude(0.2e-6, 2e-6), random.magnitude(0.2e-6, 2e-6)};
+    const EvaluationStudy study = study_evaluation(design, areas);
+    double deepest = 0;
+    double first = 0;
+    for (const double area : areas) {
+      for (const FlownShape& flown : shapes_in_flight(design, area)) {
+        if (flown.study.outcome != CableOutcome::hangs || flown.study.hangs_free) continue;
+        if (first == 0) first = area;
+        if (area == first) deepest = std::max(deepest, -flown.study.shape.lowest.position.z);
+      }
+    }
+    REQUIRE(study.ground.has_value() == (first > 0));
+    if (!study.ground) return;
+    CHECK(study.ground->area == first);
+    CHECK(study.ground->below_station == deepest);
+  });
 }

@@ -1,24 +1,13 @@
 // Bare cables in a file, to hold solvers against each other.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "tethercalc/model/hanging_cable.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
-
-/// A cable between (0, 0, 0) and its drone.
-struct CableCase {
-  std::string id;         ///< of the case
-  Cable cable;            ///< weight, width, stiffness
-  MovingAir air;          ///< uniform
-  double length = 0;      ///< m
-  Vector3 drone;          ///< m
-  bool in_plane = false;  ///< given by `x_m` and `z_m`, without wind
-};
 
 /// Cases of JSON text, {"cases": [{"id", "input"}]}. An input has `L_m`, `w_N_per_m`, `EA_N` (a
 /// number or null), and either `x_m` (≥ 0) and `z_m`, or `drone_m` and `wind_m_s` (three numbers

@@ -93,6 +93,17 @@ struct Design {
 /// The drone with that curve.
 [[nodiscard]] Drone drone_in_flight(const Design& design);
 
+/// What the density of the air would change of motors whose curve counts in any.
+struct UnscaledMotors {
+  double power_ratio = 1;   ///< of an ideal rotor's power for a thrust, over that of the curve
+  double thrust_ratio = 1;  ///< of the greatest thrust
+};
+
+/// That, of a curve measured in `standard_air_density`, as `MotorCurve::in_air` has it. Nothing
+/// where the air of the bench is stated, so that the curve is scaled, and where that of the flight
+/// is within 3 % of the standard one or is the published method's, 1.293 kg/m³.
+[[nodiscard]] std::optional<UnscaledMotors> unscaled_motors(const Design& design);
+
 /// Wind at the drone in m/s, `tether.length` over its station: `headwind`, or what the profile
 /// makes of it from the reference height to there.
 [[nodiscard]] double wind_at_drone(const Design& design);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tethercalc/model/catenary.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 
@@ -57,7 +58,7 @@ enum class WindProfile {
 /// The air that a cable hangs in. Below the ground and, with a logarithmic profile, below the
 /// roughness length, a wind that grows with height is still.
 struct MovingAir {
-  double density = 1.225;                      ///< kg/m³
+  double density = standard_air_density;       ///< kg/m³
   double viscosity = 1.81e-5;                  ///< Pa·s; of air at 20 °C, 6 % less at −5 °C
   Vector3 wind{};                              ///< m/s, velocity of the air at the reference height
   WindProfile profile = WindProfile::uniform;  ///< how it grows with height

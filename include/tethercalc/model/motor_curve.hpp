@@ -134,6 +134,10 @@ class MotorCurve {
   std::optional<double> uncertainty_{};
 };
 
+/// What `MotorCurve::in_air` makes of an ideal rotor's power for a thrust, P going with T^1.5, over
+/// that before: 1/√`density_ratio` (> 0).
+[[nodiscard]] double ideal_power_in_air(double density_ratio);
+
 /// A motor with its propeller. Texts are empty and numbers absent where the file gives none.
 struct MotorEntry {
   std::string id;                      ///< what specs and options call it

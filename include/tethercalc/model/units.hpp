@@ -12,6 +12,10 @@ inline constexpr double standard_gravity = 9.80665;
 /// Zero degrees Celsius in kelvin (exact by definition of the Celsius scale).
 inline constexpr double zero_celsius_K = 273.15;
 
+/// Density of the standard atmosphere at sea level, kg/m³ (ISO 2533): the air where nobody says
+/// which it is, but for a design's, see `Flight::air_density`.
+inline constexpr double standard_air_density = 1.225;
+
 /// Multiply by one of these to go from the practical unit to SI, divide to come back.
 namespace unit {
 inline constexpr double gram = 1e-3;                             ///< kg

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "tethercalc/io/cable_cases.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/report/text_table.hpp"
 #include "tethercalc/study/cable_shape.hpp"
@@ -36,9 +35,8 @@ namespace tethercalc {
 /// A row a point: s_m, x_m, y_m, z_m, tension_N.
 [[nodiscard]] std::string cable_shape_csv(const ShapeStudy& study);
 
-/// {"cases": [{"id", "result"}]}: each cable solved, with the keys that collections of exact
-/// solutions use; `outcome` alone where there is no shape. Extremes along a cable in wind are those
-/// of 4001 points.
-[[nodiscard]] nlohmann::ordered_json cable_cases_json(const std::vector<CableCase>& cases);
+/// {"cases": [{"id", "result"}]}, with the keys that collections of exact solutions use; `outcome`
+/// alone where there is no shape. Extremes along a cable in wind are those of 4001 points.
+[[nodiscard]] nlohmann::ordered_json cable_cases_json(std::span<const SolvedCase> cases);
 
 }  // namespace tethercalc

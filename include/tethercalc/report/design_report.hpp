@@ -67,8 +67,7 @@ namespace tethercalc {
 [[nodiscard]] std::vector<Warning> cable_warnings(const Design& design);
 
 /// That the density of the air does not reach the motor's curve, and what that comes to; nothing
-/// where the bench's density is stated, and where the air's is within 3 % of the standard
-/// atmosphere's 1.225 kg/m³ or that of the published method.
+/// where `unscaled_motors` finds nothing to tell.
 [[nodiscard]] std::optional<Warning> density_warning(const Design& design);
 
 /// That the drag is an estimate, which one, and by how much it may be off; nothing where it is not.
@@ -81,9 +80,8 @@ namespace tethercalc {
 /// curve should have been scaled to the density of the air.
 [[nodiscard]] std::vector<Warning> spec_warnings(const DesignFile& file);
 
-/// That a solved tether with a conductor of `area` m² would hang below its station, in which
-/// condition and how far; nothing where it does not, where it cannot hang, and for a straight one.
-[[nodiscard]] std::optional<Warning> ground_warning(const Design& design, double area);
+/// That a solved tether would hang below its station, in which condition and how far.
+[[nodiscard]] Warning ground_warning(const GroundContact& ground);
 
 /// That a tether which hangs steeply gets hotter in still air than one that lies across, which is
 /// what was computed, where that might take it beyond its rating; nothing where
@@ -91,10 +89,15 @@ namespace tethercalc {
 [[nodiscard]] std::optional<Warning> inclination_warning(const Design& design,
                                                          const OperatingPoint& hover);
 
-/// `spec_warnings`, then `cable_warnings`, then the first `inclination_warning` and the first
-/// `ground_warning` of the cross-sections in a table.
+/// `spec_warnings`, then `cable_warnings`, then the first `inclination_warning` of the
+/// cross-sections in a table and the `ground_warning` of one.
 [[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file,
-                                                std::span<const AreaPoints> table = {});
+                                                std::span<const AreaPoints> table = {},
+                                                const std::optional<GroundContact>& ground = {});
+
+/// All of an optimum.
+[[nodiscard]] std::vector<Warning> optimum_warnings(const DesignFile& file,
+                                                    const OptimumStudy& study);
 
 /// A table of one cross-section.
 [[nodiscard]] inline std::span<const AreaPoints> only(const AreaPoints& row) { return {&row, 1}; }
@@ -133,11 +136,11 @@ struct Answer {
 [[nodiscard]] std::string optimize_csv(const OptimumStudy& study);
 
 /// A table a condition, and what keeps an area from being usable.
-[[nodiscard]] std::string evaluate_text(const DesignFile& file, std::span<const AreaPoints> table,
+[[nodiscard]] std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
                                         const TextStyle& style);
 /// The key `table` of `evaluate`.
 [[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
-                                                   std::span<const AreaPoints> table);
+                                                   const EvaluationStudy& study);
 /// A header and two rows an area, hover first.
 [[nodiscard]] std::string evaluate_csv(std::span<const AreaPoints> table);
 

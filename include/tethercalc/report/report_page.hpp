@@ -17,21 +17,13 @@ struct LogDiagnosis {
 };
 
 /// Everything on the page.
-struct PageContent {
+struct PageContent : DesignOverview {
   DesignFile file;                      ///< the spec
-  OptimumStudy optimum;                 ///< the answer
-  AreaCurve curve;                      ///< that `area_curve` makes of it
-  std::vector<FlownShape> cable;        ///< of that answer; empty: no such section
-  std::vector<MotorOptimum> motors;     ///< a ranking of `compare_motors`; empty: no such section
   std::optional<DragStudy> drag;        ///< that a flight of this drone shows
   std::vector<LogDiagnosis> diagnoses;  ///< in the order they are told
   std::optional<RuleStudy> rules;       ///< of the answer's cable; nothing: no such section
   std::string command;                  ///< by which the page can be made again, for a shell
 };
-
-/// The content of a page on the design alone: its optimum, the ranking of `motors` in it, and its
-/// cable where that hangs; what logs say is for the caller to add.
-[[nodiscard]] PageContent content_of_design(DesignFile file, std::vector<MotorEntry> motors);
 
 /// The page: the answer, what to mind, figures and tables, what the logs say, the spec as used, and
 /// how it was computed. Sentences, tables and numbers are those of the commands `optimize`,

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "tethercalc/model/catenary.hpp"
 #include "tethercalc/model/design.hpp"
 #include "tethercalc/model/hanging_cable.hpp"
 
@@ -69,7 +72,41 @@ struct FlownShape {
 };
 
 /// How the cable of a design with a solved tether hangs in hover and in forward flight, with a
-/// conductor of `area` m². Nothing where the tether is straight.
+/// conductor of `area` m². Nothing where the tether is straight or there is no such conductor, NaN.
 [[nodiscard]] std::vector<FlownShape> shapes_in_flight(const Design& design, double area);
+
+/// That a cable as it hangs lies on the ground.
+struct GroundContact {
+  double area = 0;                         ///< m² of its conductor
+  Condition condition = Condition::hover;  ///< the one in which it would hang lowest
+  double below_station = 0;                ///< m, how low that is where there is no ground
+};
+
+/// Whether a cable with a conductor of `area` m², of which `shapes_in_flight` are `shapes`, lies on
+/// the ground in any of them.
+[[nodiscard]] std::optional<GroundContact> ground_contact(double area,
+                                                          std::span<const FlownShape> shapes);
+
+/// A cable between (0, 0, 0) and its drone, by itself: solvers are held against each other by it.
+struct CableCase {
+  std::string id;         ///< of the case
+  Cable cable;            ///< weight, width, stiffness
+  MovingAir air;          ///< uniform
+  double length = 0;      ///< m
+  Vector3 drone;          ///< m
+  bool in_plane = false;  ///< in still air, so that its shape is a catenary
+};
+
+/// How such a cable hangs. Of the others only after `CableOutcome::hangs`.
+struct SolvedCase {
+  CableCase asked;                                 ///< the cable
+  CableOutcome outcome = CableOutcome::not_found;  ///< whether there is a shape
+  Catenary catenary;                               ///< of one in still air
+  HangingCable loads;                              ///< of one in wind: forces and tensions
+  CableShape shape;                                ///< of one in wind, in 4000 pieces
+};
+
+/// Solves it.
+[[nodiscard]] SolvedCase solve_cable_case(CableCase asked);
 
 }  // namespace tethercalc

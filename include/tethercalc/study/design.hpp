@@ -135,6 +135,7 @@ struct DesignStudy {
   DesignAnswer answer;              ///< the best design
   std::vector<ShadowPrice> prices;  ///< what binds first; empty where infeasible
   std::vector<FrontPoint> front;    ///< by falling second quantity; empty where none was asked for
+  std::optional<GroundContact> ground;  ///< of the best design's cable
 };
 
 /// Searches the design and prices what holds it. A cross-section that is neither given nor free is

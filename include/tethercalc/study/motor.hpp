@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tethercalc/model/motor_curve.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 
@@ -13,9 +14,6 @@ namespace tethercalc {
 /// in air of `air_density` (kg/m³, > 0): T^1.5/√(2ρA), A its disc (momentum theory: Leishman,
 /// Principles of Helicopter Aerodynamics, 2nd ed., section 2.2).
 [[nodiscard]] double ideal_hover_power(double thrust, double diameter, double air_density);
-
-/// Air where neither the motor nor its user says which: ISO 2533 at sea level, kg/m³.
-inline constexpr double standard_air_density = 1.225;
 
 /// Ideal hover power over electrical power at each point of a motor's curve, (0, 0) left out: the
 /// figure of merit (Leishman, section 2.8) of the propeller times the efficiency of motor and speed

@@ -11,6 +11,7 @@
 #include "tethercalc/solve/headroom.hpp"
 #include "tethercalc/solve/optimize.hpp"
 #include "tethercalc/solve/remedies.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
 
@@ -18,6 +19,15 @@ namespace tethercalc {
 [[nodiscard]] std::vector<AreaPoints> evaluate_areas(const Design& design,
                                                      std::span<const double> areas,
                                                      ConductorsAsked asked = ConductorsAsked::many);
+
+/// What cables of given cross-sections do.
+struct EvaluationStudy {
+  std::vector<AreaPoints> table;        ///< in the order in which they were asked for
+  std::optional<GroundContact> ground;  ///< of the first that lies on the ground
+};
+
+/// Evaluates the design at each of `areas` (m², > 0).
+[[nodiscard]] EvaluationStudy study_evaluation(const Design& design, std::span<const double> areas);
 
 /// A size in which conductors are sold.
 struct WireSize {
@@ -71,6 +81,7 @@ struct OptimumStudy : DesignOptimum {
   std::vector<SizePoints> sizes;  ///< neighbours of the optimum in each standard, by rising area
   std::vector<AreaPoints> table;  ///< by rising area; holds optimum, minimum and feasible edges
   std::vector<Remedy> remedies;   ///< for an infeasible design
+  std::vector<FlownShape> cable;  ///< how the optimum hangs, see `shapes_in_flight`
 };
 
 /// Optimises the design; `sizes` (rising) are those that can be bought.
@@ -96,5 +107,16 @@ struct MotorOptimum : DesignOptimum {
 /// last by falling best headroom.
 [[nodiscard]] std::vector<MotorOptimum> compare_motors(const Design& design,
                                                        std::vector<MotorEntry> motors);
+
+/// A design as a page shows it.
+struct DesignOverview {
+  OptimumStudy optimum;              ///< the answer
+  AreaCurve curve;                   ///< that `area_curve` makes of it
+  std::vector<MotorOptimum> motors;  ///< a ranking of `compare_motors`
+};
+
+/// All of that; `sizes` as in `study_optimum`.
+[[nodiscard]] DesignOverview study_overview(const Design& design, std::span<const WireSize> sizes,
+                                            std::vector<MotorEntry> motors);
 
 }  // namespace tethercalc
