@@ -21,14 +21,19 @@ constexpr double least_worth_telling = 0.05;
 /// enough to be judged does not gain a tenth of the error.
 constexpr double much = 5;
 
-bool is_suspicious(double p_value, const Gain& gain, double least_of_a_name,
-                   const ParameterGroup& group) {
+bool is_hardly_chance(double p_value, const Gain& gain, double least_of_a_name,
+                      const ParameterGroup& group) {
   // Of what is always there a little, or looked for at many moments, chance shows some.
   const double least = group.least_gain_factor > 1 ? least_of_a_name : 0;
-  const bool hardly_chance = p_value <= suspicious && gain.percent >= least &&
-                             gain.percent > gain.se && gain.percent >= least_worth_telling;
-  const bool helps_much = gain.percent >= much * least_of_a_name && gain.percent > 2 * gain.se;
-  return hardly_chance || helps_much;
+  return p_value <= suspicious && gain.percent >= least && gain.percent > gain.se &&
+         gain.percent >= least_worth_telling;
+}
+
+bool helps_much(const BlockFit& before, const BlockFit& after, double least_of_a_name) {
+  const Gain gain = gain_between(before, after);
+  const Gain typical = typical_gain_between(before, after);
+  return gain.percent >= much * least_of_a_name && gain.percent > 2 * gain.se &&
+         typical.percent > 2 * typical.se;
 }
 
 std::size_t owner_of(const Record& record, std::size_t parameter) {
@@ -258,6 +263,20 @@ Gain gain_between(const BlockFit& before, const BlockFit& after) {
   return {gain_percent(all_before, all_after), std::sqrt((blocks - 1) / blocks * spread)};
 }
 
+Gain typical_gain_between(const BlockFit& before, const BlockFit& after) {
+  const VectorXd ratio =
+      (after.block_error.array().max(1e-300) / before.block_error.array().max(1e-300)).log() / 2;
+  const auto blocks = static_cast<double>(ratio.size());
+  const double mean = ratio.mean();
+  const double se = std::sqrt((ratio.array() - mean).square().sum() / (blocks * (blocks - 1)));
+  return {-100 * std::expm1(mean), 100 * std::exp(mean) * se};
+}
+
+bool earns_a_name(const Record& record, std::size_t group, const Gain& gain, double least_percent) {
+  return gain.percent >= least_percent * record.problem().groups[group].least_gain_factor &&
+         gain.percent > student_quantile(degrees_of_freedom(record, group), 0.975) * gain.se;
+}
+
 SelectedGroup freed_between(const BlockFit& before, const BlockFit& after, std::size_t group) {
   const Gain gained = gain_between(before, after);
   return {group, before.rmse(), after.rmse(), gained.percent, gained.se};
@@ -407,8 +426,33 @@ void add_place_error(const Record& record, const BlockFit& without, const BlockF
       (reach(-1, place - held->lower) + reach(1, held->upper - place)) / 2;
 }
 
+namespace {
+
+/// Of what is suspected for its gain alone, all that gains nothing beside the surest suspect: a
+/// model that may move far mimics much.
+void clear_mimics(const Record& record, const Selection& found, const FitWithGroups& with,
+                  std::vector<Selection::Open>& open) {
+  const auto surer = [](const Selection::Open& a, const Selection::Open& b) {
+    const auto sureness = [](const Selection::Open& o) {
+      return o.suspected ? o.gain_percent / std::max(o.gain_se_percent, 1e-300) : -infinity;
+    };
+    return sureness(a) < sureness(b);
+  };
+  const auto surest = std::max_element(open.begin(), open.end(), surer);
+  if (surest == open.end() || !surest->suspected) return;
+  const BlockFit beside = with({surest->group}, FitUse::search);
+  for (Selection::Open& other : open) {
+    if (&other == &*surest || !other.suspected || other.p_value <= suspicious) continue;
+    const BlockFit both = with({surest->group, other.group}, FitUse::search);
+    other.suspected =
+        earns_a_name(record, other.group, gain_between(beside, both), found.least_gain_percent);
+  }
+}
+
+}  // namespace
+
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
-                                        const Selection& found, const FitWithGroup& with) {
+                                        const Selection& found, const FitWithGroups& with) {
   Groups candidates;
   for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
     const auto is_told = [g](const SelectedGroup& s) {
@@ -434,12 +478,14 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
           chances(record.problem().groups[g]);
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
     }
-    BlockFit freed = with(g, FitUse::search);
+    BlockFit freed = with({g}, FitUse::search);
     Gain gained = gain_between(fit, freed);
-    candidate.suspected = is_suspicious(candidate.p_value, gained, found.least_gain_percent,
-                                        record.problem().groups[g]);
+    candidate.suspected = (contains(found.doubted, g) && gained.percent >= least_worth_telling) ||
+                          is_hardly_chance(candidate.p_value, gained, found.least_gain_percent,
+                                           record.problem().groups[g]) ||
+                          helps_much(fit, freed, found.least_gain_percent);
     if (candidate.suspected) {
-      freed = with(g, FitUse::report);
+      freed = with({g}, FitUse::report);
       gained = gain_between(fit, freed);
     }
     candidate.gain_percent = gained.percent;
@@ -451,6 +497,7 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
       add_place_error(record, fit, freed, g, candidate.freed);
     }
   }
+  clear_mimics(record, found, with, open);
   return open;
 }
 

@@ -13,7 +13,8 @@ namespace tethercalc {
 /// Student's degrees of freedom of what is said of the group: one less than it has blocks.
 [[nodiscard]] double degrees_of_freedom(const Record& record, std::size_t group);
 
-/// A rival must remove at least this part of what the selected effect does.
+/// A rival must remove at least this part of what the selected effect does, and leave less to it
+/// than this part of what it leaves.
 inline constexpr double rival_gain = 0.5;
 
 /// 100·(1 − √(after/before)) for squared errors; 0 where there was none.
@@ -25,6 +26,17 @@ struct Gain {
   double se = 0;       ///< its standard error, by leaving out one block after the other
 };
 [[nodiscard]] Gain gain_between(const BlockFit& before, const BlockFit& after);
+
+/// Whether the gain is enough to name the group: at least `least_percent`, times the group's
+/// factor, and positive beyond chance, two standard errors where there are many blocks. The one
+/// rule for flights and power logs, for a step of the search and for what is told.
+[[nodiscard]] bool earns_a_name(const Record& record, std::size_t group, const Gain& gain,
+                                double least_percent);
+
+/// By how much a fit predicts the typical block better than another: the mean over blocks of
+/// 100·(1 − √(after/before)) as logarithms, each block held against itself. Unlike the gain, it
+/// does not hang on the few blocks that have most of the error.
+[[nodiscard]] Gain typical_gain_between(const BlockFit& before, const BlockFit& after);
 
 /// The group that was freed between the two fits, with its gain.
 [[nodiscard]] SelectedGroup freed_between(const BlockFit& before, const BlockFit& after,
@@ -73,14 +85,14 @@ inline constexpr double most_of_one_block = 0.9;
 void add_place_error(const Record& record, const BlockFit& without, const BlockFit& fit,
                      std::size_t group, ModelFit& all);
 
-/// The fit with one more group freed.
-using FitWithGroup = std::function<BlockFit(std::size_t group, FitUse use)>;
+/// The fit with more groups freed.
+using FitWithGroups = std::function<BlockFit(const Groups& more, FitUse use)>;
 
 /// What `fit` says of each candidate that is neither selected in `found`, nor aliased, nor a rival
 /// of one that is selected.
 [[nodiscard]] std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
                                                       const Selection& found,
-                                                      const FitWithGroup& with);
+                                                      const FitWithGroups& with);
 
 /// The groups by rising distance.
 [[nodiscard]] Groups in_order_of_nearness(std::vector<std::pair<double, std::size_t>> found);

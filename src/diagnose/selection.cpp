@@ -68,14 +68,18 @@ class Search {
       }
     }
 
-    // Every round either ends or puts an effect on the list of those never tried again.
+    // Every round either ends or leaves a set that no step goes to again.
     do {
-      step_forward();
-      exchange();
-    } while (drop_outdone());
-    find_unnamed();
-    if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
-    put_in_order(base);
+      unnamed_.clear();
+      current_ = fit(selected_, nullptr);
+      do {
+        step_forward();
+        exchange();
+      } while (drop_outdone());
+      find_unnamed();
+      if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+      put_in_order(base);
+    } while (drop_unearned(base));
     place_candidates();
     sum_up(result);
     return result;
@@ -192,12 +196,10 @@ class Search {
     trial.group = g;
     trial.p_value = p_value(g, without, with);
     const Gain gained = gain_between(without, with);
-    const double least_gain = options_.least_gain_percent *
-                              (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed) *
-                              group(g).least_gain_factor;
     trial.worth_a_name =
-        gained.percent >= least_gain &&
-        gained.percent > student_quantile(degrees_of_freedom(record_, g), 0.975) * gained.se &&
+        earns_a_name(record_, g, gained,
+                     options_.least_gain_percent *
+                         (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed)) &&
         trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
             options_.false_alarm_probability &&
         largest_block_share(record_, with, g) <= most_of_one_block;
@@ -213,7 +215,9 @@ class Search {
   [[nodiscard]] Groups candidates() const {
     Groups result;
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      if (is_open(g) && !is_replaced(g, selected_) && !rejected_.contains(g)) result.push_back(g);
+      if (is_open(g) && !is_replaced(g, selected_) && !left_.contains(selected_with(g))) {
+        result.push_back(g);
+      }
     }
     return result;
   }
@@ -245,6 +249,10 @@ class Search {
     return *chosen;
   }
 
+  [[nodiscard]] static Groups sorted(Groups groups) {
+    std::sort(groups.begin(), groups.end());
+    return groups;
+  }
   [[nodiscard]] Groups selected_with(std::size_t g) const { return with_group(selected_, g); }
   [[nodiscard]] Groups selected_without(std::size_t g) const { return without_group(selected_, g); }
 
@@ -255,15 +263,25 @@ class Search {
     }
   }
 
+  /// A step that makes others superfluous, so that less is explained in the end, is taken back.
   void step_forward() {
     while (selected_.size() < options_.most_findings) {
       place_candidates();
       std::optional<Trial> step = best_step();
       if (!step) return;
+      const Groups before = selected_;
+      const BlockFit fit_before = current_;
       selected_.push_back(step->group);
       current_ = std::move(step->fit);
       tell("found " + group(step->group).id);
-      if (unnamed_.empty()) drop_superfluous();
+      if (!unnamed_.empty()) continue;
+      const Groups with = selected_;
+      drop_superfluous();
+      if (current_.squared_error() < fit_before.squared_error()) continue;
+      tell("going back from " + group(step->group).id);
+      left_.insert(sorted(with));
+      selected_ = before;
+      current_ = fit_before;
     }
   }
 
@@ -330,8 +348,7 @@ class Search {
       }
       if (!weakest) return;
       tell("taking back " + group(*weakest).id);
-      selected_ = selected_without(*weakest);
-      rejected_.insert(*weakest);
+      leave(*weakest);
       current_ = std::move(rest_fit);
     }
   }
@@ -361,12 +378,17 @@ class Search {
       if (judge(g, instead, std::move(beside)).worth_a_name) continue;
       tell("taking back " + group(g).id + ": " + record_.problem().unnamed[best->regressor].shape +
            " explains more");
-      selected_ = selected_without(g);
-      rejected_.insert(g);
+      leave(g);
       current_ = fit(selected_, &current_);
       return true;
     }
     return false;
+  }
+
+  /// Takes the group back; no step returns to the set that is left.
+  void leave(std::size_t g) {
+    left_.insert(sorted(selected_));
+    selected_ = selected_without(g);
   }
 
   /// The names by what each adds to those before it. None stays that adds nothing there.
@@ -386,8 +408,7 @@ class Search {
         best = std::move(after);
       }
       if (best.squared_error() >= before.squared_error()) {
-        selected_ = selected_without(*next);
-        rejected_.insert(*next);
+        leave(*next);
         current_ = fit(selected_, &current_);
         drop_superfluous();
         return put_in_order(base);
@@ -396,6 +417,32 @@ class Search {
       before = std::move(best);
     }
     selected_ = std::move(order);
+  }
+
+  /// Takes back the weakest name whose gain, as it will be told or beside all the other names, does
+  /// not earn one. True where there was one.
+  bool drop_unearned(const BlockFit& base) {
+    std::optional<std::size_t> weakest;
+    double weakest_gain = infinity;
+    const BlockFit all = fit(selected_, {}, &current_);
+    BlockFit before = base;
+    Groups so_far;
+    for (const std::size_t g : selected_) {
+      so_far.push_back(g);
+      BlockFit after = fit(so_far, {}, &current_);
+      const BlockFit without = fit(selected_without(g), {}, &current_);
+      for (const Gain& gain : {gain_between(before, after), gain_between(without, all)}) {
+        if (earns_a_name(record_, g, gain, options_.least_gain_percent)) continue;
+        if (gain.percent >= weakest_gain) continue;
+        weakest = g;
+        weakest_gain = gain.percent;
+      }
+      before = std::move(after);
+    }
+    if (!weakest) return false;
+    tell("taking back " + group(*weakest).id);
+    leave(*weakest);
+    return true;
   }
 
   /// Looks beside all effects that are certain, those too small for a name included: what a known
@@ -455,8 +502,10 @@ class Search {
       const BlockFit without = fit(selected_without(g), complete.freed.unnamed, &complete);
       add_place_error(record_, without, complete, g, result.complete);
     }
-    result.open = judge_open(record_, complete, result, [&](std::size_t g, FitUse use) {
-      return fit(selected_with(g), complete.freed.unnamed, &complete, use);
+    result.open = judge_open(record_, complete, result, [&](const Groups& more, FitUse use) {
+      Groups groups = selected_;
+      groups.insert(groups.end(), more.begin(), more.end());
+      return fit(groups, complete.freed.unnamed, &complete, use);
     });
     result.unnamed = unnamed_in(record_, current_, before);
   }
@@ -472,8 +521,12 @@ class Search {
       // it does clearly better.
       const double allowed =
           is_placed(group(c)) && !is_placed(group(g)) ? -student_factor_ : student_factor_;
+      // Where few blocks have most of the error, its sum is uncertain though all blocks agree.
+      const Gain of_found = typical_gain_between(rival, current_);
       if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
-          excess.sum <= allowed * excess.se) {
+          rival.squared_error() * (1 - rival_gain) < current_.squared_error() &&
+          excess.sum <= allowed * excess.se &&
+          !earns_a_name(record_, g, of_found, options_.least_gain_percent)) {
         found.emplace_back(rival.squared_error(), c);
       }
     }
@@ -500,7 +553,7 @@ class Search {
   Groups selected_;
   Groups unnamed_;
   std::set<std::size_t> aliased_;
-  std::set<std::size_t> rejected_;  ///< taken back once; never tried again, so the search ends
+  std::set<Groups> left_;  ///< sets of which a name was taken back, so that the search ends
   BlockFit current_;
 };
 

@@ -173,6 +173,9 @@ struct Selection {
   };
   std::vector<Open> open{};       ///< in their order
   double least_gain_percent = 0;  ///< that was asked of a name
+  /// Groups that chance cannot explain by the record's noise, and that gain too unevenly over its
+  /// blocks to be named: they are suspected.
+  std::vector<std::size_t> doubted{};
   /// Candidates whose change of the prediction is a combination of what is already free.
   struct Aliased {
     std::size_t group = 0;            ///< the candidate

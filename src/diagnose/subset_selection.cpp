@@ -139,7 +139,7 @@ class SubsetSearch {
     search_shapes();
     if (!best_.shapes.empty()) add_names();
     if (!best_.named.empty()) find_aliased(best_, true);
-    drop_small_gains();
+    drop_unearned();
     return sum_up();
   }
 
@@ -330,20 +330,25 @@ class SubsetSearch {
     return order;
   }
 
-  /// Leaves out the names that gain too little to be worth one, where they stand in the order or
-  /// beside all others.
-  void drop_small_gains() {
+  /// Leaves out the names whose gain, where they stand in the order or beside all others, does not
+  /// earn one, the weakest first.
+  void drop_unearned() {
     while (true) {
       std::optional<std::size_t> weakest;
-      double weakest_gain = options_.least_gain_percent;
+      Gain weakest_gain{infinity, 0};
       for (const SelectedGroup& s : selected(FitUse::search)) {
-        const Gain beside = gain_between(best_without(s.group).fit, best_.fit);
-        const double gain = std::min(s.gain_percent, beside.percent);
-        if (gain >= weakest_gain) continue;
-        weakest = s.group;
-        weakest_gain = gain;
+        const Gain in_order{s.gain_percent, s.gain_se_percent};
+        for (const Gain& gain : {in_order, gain_between(best_without(s.group).fit, best_.fit)}) {
+          if (gain.percent >= weakest_gain.percent ||
+              earns_a_name(record_, s.group, gain, options_.least_gain_percent)) {
+            continue;
+          }
+          weakest = s.group;
+          weakest_gain = gain;
+        }
       }
       if (!weakest) return;
+      if (weakest_gain.percent >= options_.least_gain_percent) doubted_.push_back(*weakest);
       best_ = best_without(*weakest);
     }
   }
@@ -360,8 +365,11 @@ class SubsetSearch {
           best_without(entry.group).fit.squared_error() - best_.fit.squared_error(),
           static_cast<double>(problem_.groups[entry.group].parameters.size()));
     }
-    result.open = judge_open(record_, best_.fit, result, [this](std::size_t g, FitUse use) {
-      return model(with_group(best_.named, g), best_.shapes, &best_.fit, use).fit;
+    result.doubted = doubted_;
+    result.open = judge_open(record_, best_.fit, result, [this](const Groups& more, FitUse use) {
+      Groups named = best_.named;
+      for (const std::size_t g : more) named = with_group(named, g);
+      return model(named, best_.shapes, &best_.fit, use).fit;
     });
     const BlockFit named =
         best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit, FitUse::report).fit;
@@ -388,6 +396,7 @@ class SubsetSearch {
   Model base_;
   Model best_;
   std::vector<Selection::Aliased> aliased_;
+  Groups doubted_;  ///< names that were left out although they gain what is asked
 };
 
 }  // namespace
