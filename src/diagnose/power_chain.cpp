@@ -86,7 +86,7 @@ const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
   const double radius = conductor_radius(*design.tether.cross_section);
   // What a search moves most often and no heat depends on, at the measured current, is left out.
   Tether tether = design.tether;
-  tether.contact_resistance = tether.drag_coefficient = tether.winch_pull = 0;
+  tether.contact_resistance = tether.drag_coefficient = tether.winch_pull = tether.slack = 0;
   PowerInstruments instruments = model.instruments;
   instruments.supply_voltage_gain = instruments.bus_current_gain = 1;
   instruments.drone_voltage_offset = 0;
@@ -103,23 +103,73 @@ const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
   if (known_.size() == kept) known_.pop_back();
   Known& latest = known_.emplace_front(
       Known{std::move(tether), design.flight, design.supply.voltage, instruments, model.slack, {}});
+  Design straight = design;
+  straight.tether.model = TetherModel::straight;
   for (std::size_t i = 0; i < log.time.size(); ++i) {
-    const SteadyFlight flight(design, state_at(model, log, i));
+    const SteadyFlight flight(straight, state_at(model, log, i));
     latest.temperatures.push_back(
         TetherHeat(flight, radius).temperatures(std::abs(log.supply_current[i])));
   }
   return latest.temperatures;
 }
 
-std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log, CableHeat& heat) {
+FlownDesign::FlownDesign(const Design& design, HangingLoads& loads)
+    : design_(design), loads_(loads), radius_(conductor_radius(*design.tether.cross_section)) {
+  if (design.tether.model == TetherModel::straight) return;
+  hanging_ = design.tether;
+  design_.tether.model = TetherModel::straight;
+}
+
+const SteadyFlight* FlownDesign::in(const FlightState& state) {
+  // On the ground nothing hangs.
+  if (!hanging_ || !(state.deployed > 0)) {
+    if (hanging_) design_.tether.winch_pull = hanging_->winch_pull;
+    steady_.emplace(design_, state);
+    drag_ = steady_->tether().drag(radius_);
+    return &*steady_;
+  }
+  const double wall = insulation_wall(hanging_->insulation, design_.supply.voltage);
+  const HangingLoad::Parts load =
+      loads_.at(hanging_situation(*hanging_, wall, state, design_.flight), radius_);
+  if (!std::isfinite(load.length)) return nullptr;
+  const FlightState as_long =
+      flight_state_at(design_, load.length, state.airspeed, state.ambient_temperature_C);
+  design_.tether.winch_pull = 0;
+  const StraightTether cable(design_.tether, wall, as_long, design_.flight.air_density,
+                             design_.flight.gravity);
+  design_.tether.winch_pull = load.down - cable.mass(radius_) * design_.flight.gravity;
+  drag_ = load.along;
+  steady_.emplace(design_, as_long);
+  return &*steady_;
+}
+
+double FlownDesign::tan_pitch(double limit, double guess) const {
+  const double weight = this->weight();
+  if (!std::isfinite(weight)) return infinity;
+  const AirframeDrag& drag = design_.drone.drag;
+  const double factor =
+      area_force_factor(drag, design_.flight.air_density, steady_->state().airspeed);
+  return equilibrium_tan_pitch({weight, factor, drag_, drag.front_area, drag.top_area}, limit,
+                               guess);
+}
+
+std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
+                                    ChainMemory& memory) {
   const Tether& tether = model.design.tether;
-  const double radius = conductor_radius(*tether.cross_section);
   const bool measured = tether.heating.rise_per_loss > 0;
-  const auto* warm = is_heated(tether) && !measured ? &heat.temperatures(model, log) : nullptr;
+  const auto* warm =
+      is_heated(tether) && !measured ? &memory.heat.temperatures(model, log) : nullptr;
   double rise = 0;  // K over the air, of a cable whose heating was measured
   std::vector<double> resistance(log.time.size());
+  FlownDesign flown(model.design, memory.loads);
+  const double radius = flown.radius();
   for (std::size_t i = 0; i < resistance.size(); ++i) {
-    const SteadyFlight flight(model.design, state_at(model, log, i));
+    const SteadyFlight* hangs = flown.in(state_at(model, log, i));
+    if (hangs == nullptr) {
+      resistance[i] = nan;
+      continue;
+    }
+    const SteadyFlight& flight = *hangs;
     if (!is_heated(tether)) {
       resistance[i] = flight.tether().resistance(radius);
     } else if (measured) {
@@ -140,37 +190,35 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
   return resistance;
 }
 
-std::vector<double> motor_power(const PowerModel& model, const PowerLog& log) {
+std::vector<double> motor_power(const PowerModel& model, const PowerLog& log, HangingLoads& loads) {
   std::optional<Design> freed;
   if (log.free_flight) freed = without_tether(model.design);
   const Design& design = freed ? *freed : model.design;
-  const Drone& drone = design.drone;
-  const double beside_motors = freed ? drone.auxiliary_power : 0;
-  const double radius = conductor_radius(*design.tether.cross_section);
+  const double mass = design.drone.mass;
+  const double beside_motors = freed ? design.drone.auxiliary_power : 0;
   // What was flown was flown: the design's limit of the tilt is no physics. At 80° the thrust is
   // six times the weight, which no drone has that also lifts a tether.
   constexpr double tan_limit = 6;
 
-  std::optional<Design> lighter;
-  if (model.dropped_mass != 0) {
-    constexpr double least_part = 0.1;  // of the drone that stays: less would fly no better
-    lighter = design;
-    lighter->drone.mass = std::max(least_part * drone.mass, drone.mass - model.dropped_mass);
-  }
+  constexpr double least_part = 0.1;  // of the drone that stays: less would fly no better
+  const double lighter = std::max(least_part * mass, mass - model.dropped_mass);
+  FlownDesign flown(design, loads);
 
   std::vector<double> power(log.time.size());
   const double duration = log.time.back() - log.time.front();
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
-    const bool dropped = lighter && log.time[i] >= model.drop_time;
-    const SteadyFlight steady(dropped ? *lighter : design, state_at(model, log, i));
-    const double weight = steady.weight(radius);
-    tan_pitch = steady.tan_pitch(radius, weight, tan_limit, tan_pitch);
+    const bool dropped = model.dropped_mass != 0 && log.time[i] >= model.drop_time;
+    flown.set_mass(dropped ? lighter : mass);
+    const SteadyFlight* hangs = flown.in(state_at(model, log, i));
+    tan_pitch = hangs != nullptr ? flown.tan_pitch(tan_limit, tan_pitch) : infinity;
     if (!std::isfinite(tan_pitch)) {
       power[i] = nan;
       tan_pitch = 0;
       continue;
     }
+    const SteadyFlight& steady = *hangs;
+    const double weight = flown.weight();
     const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
     const double thrust = steady.necessary_thrust(weight, tan_pitch);
     power[i] = grown * steady.output_power(motor_curve_power(steady.motor(), thrust),

@@ -8,9 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "diagnose/hanging_loads.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/model/design.hpp"
+#include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
@@ -67,19 +69,57 @@ class CableHeat {
   std::deque<Known> known_;  ///< the latest first
 };
 
+/// Remembers what the predictions of one log solved.
+struct ChainMemory {
+  CableHeat heat;
+  HangingLoads loads;
+};
+
+/// A design in the state of one sample after the other. A solved tether flies as a straight one
+/// that is as long and loads the drone as much.
+class FlownDesign {
+ public:
+  /// `design` with a cable cross-section.
+  FlownDesign(const Design& design, HangingLoads& loads);
+  FlownDesign(const FlownDesign&) = delete;
+  FlownDesign& operator=(const FlownDesign&) = delete;
+
+  /// With the drone's own mass `mass` in kg.
+  void set_mass(double mass) { design_.drone.mass = mass; }
+
+  /// That which holds until the next call; nothing where the tether cannot hang.
+  [[nodiscard]] const SteadyFlight* in(const FlightState& state);
+
+  /// m of the conductor.
+  [[nodiscard]] double radius() const { return radius_; }
+  /// N at the motors, in the last state.
+  [[nodiscard]] double weight() const { return steady_->weight(radius_); }
+  /// Tangent of the tilt in the last state, +infinity beyond `limit`; `guess` only saves time.
+  [[nodiscard]] double tan_pitch(double limit, double guess = 0) const;
+
+ private:
+  Design design_;  ///< its tether straight
+  std::optional<Tether> hanging_;
+  HangingLoads& loads_;
+  double radius_;
+  double drag_ = 0;  ///< N of the tether in the last state
+  std::optional<SteadyFlight> steady_;
+};
+
 /// Loop resistance in Ω at every sample of a log without the errors of its instruments; see
 /// `flight_state_at` for the cable on a drum and the temperature of the air. A heated cable is as
 /// warm as the current of the log makes it: where its heating was measured it follows with its time
 /// constant from a cold start, otherwise at once. NaN where it would be too hot for any insulation.
 [[nodiscard]] std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
-                                                  CableHeat& heat);
+                                                  ChainMemory& memory);
 
 /// Power in W at the bus in steady flight at the height and airspeed of every sample of such a log.
 /// Above the motors' largest thrust their curve is continued straight, and the design's limit of
 /// the tilt does not count, so that the value stays finite: a log shows what was flown. NaN beyond
 /// a tilt of 80°. In free flight without tether, winch, converter and reserve battery, and with the
 /// auxiliary power, which the battery feeds as well; the design then needs no cross-section.
-[[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log);
+[[nodiscard]] std::vector<double> motor_power(const PowerModel& model, const PowerLog& log,
+                                              HangingLoads& loads);
 
 /// The design as a drone that left its tether, and all that hangs on that, on the ground.
 [[nodiscard]] Design without_tether(Design design);

@@ -302,7 +302,7 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   const PowerInstruments& instruments = model.instruments;
   const PowerLog log = without_errors(screened_.log, instruments);
   if (stage.stage == Stage::tether) {
-    const std::vector<double> resistance = loop_resistance(model, log, heat_);
+    const std::vector<double> resistance = loop_resistance(model, log, memory_);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const double lost = log.supply_voltage[i] - log.drone_voltage[i];
       out[i] = (lost - log.supply_current[i] * resistance[i]) / stage.noise;
@@ -322,7 +322,7 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
           (std::sqrt(variance) * stage.noise);
     }
   } else {
-    const std::vector<double> power = motor_power(model, log);
+    const std::vector<double> power = motor_power(model, log, memory_.loads);
     const double gain = std::log(instruments.bus_current_gain);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i] = (log_bus_power_[i] - gain - std::log(power[i])) / stage.noise;

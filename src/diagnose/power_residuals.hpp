@@ -80,7 +80,7 @@ class PowerResiduals {
   std::size_t rows_ = 0;
   std::vector<double> bus_power_;
   std::vector<double> log_bus_power_;
-  mutable CableHeat heat_;
+  mutable ChainMemory memory_;
   double input_variance_ = 1;   ///< W², of U_drone·I
   double output_variance_ = 0;  ///< W², of the bus power
 };

@@ -207,6 +207,7 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
                                  has_supply ? "supply current" : "power at the bus")});
     log = shifted(delay);
   };
+  ChainMemory memory;
   const std::vector<double> power =
       has_supply ? product(log.supply_voltage, log.supply_current) : bus_power_of(log);
   if (has_supply && has_bus) {
@@ -217,11 +218,11 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
   if (!power.empty() && (log.free_flight || !log.height.empty())) {
     shift(log.height.empty() ? "airspeed_m_s" : "height_m and airspeed_m_s",
           {&PowerLog::height, &PowerLog::airspeed}, power,
-          [&model](const PowerLog& l) { return motor_power(model, l); });
+          [&](const PowerLog& l) { return motor_power(model, l, memory.loads); });
   }
   if (has_supply && is_measured(Stage::tether, log)) {
-    CableHeat heat;
-    const std::vector<double> lost = product(log.supply_current, loop_resistance(model, log, heat));
+    const std::vector<double> lost =
+        product(log.supply_current, loop_resistance(model, log, memory));
     shift("drone_voltage_V", {&PowerLog::drone_voltage}, lost, [](PowerLog l) {
       for (double& v : l.drone_voltage) v = -v;
       return l.drone_voltage;

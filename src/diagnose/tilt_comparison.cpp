@@ -92,13 +92,13 @@ double TiltComparison::predicted(const PowerModel& model) const {
   std::optional<Design> freed;
   if (free_flight_) freed = without_tether(model.design);
   const Design& design = freed ? *freed : model.design;
-  const double radius = conductor_radius(*design.tether.cross_section);
   const double height = std::max(0.0, height_ - model.instruments.height_offset);
   const double deployed = free_flight_ ? 0 : (1 + model.slack) * height;
+  FlownDesign flown(design, loads_);
   double sum = 0;
   for (const double v : shown_.airspeed) {
-    const SteadyFlight flight(design, flight_state_at(design, deployed, v));
-    sum += design.flight.gravity * flight.tan_pitch(radius, flight.weight(radius), steepest_tan);
+    const bool hangs = flown.in(flight_state_at(design, deployed, v)) != nullptr;
+    sum += design.flight.gravity * (hangs ? flown.tan_pitch(steepest_tan) : infinity);
   }
   return sum / static_cast<double>(shown_.airspeed.size());
 }

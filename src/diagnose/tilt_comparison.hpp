@@ -55,6 +55,7 @@ class TiltComparison {
   double mean_ = 0;   ///< m/s²
   double half_width_ = 0;
   double noise_ = 1;  ///< m/s², of one row
+  mutable HangingLoads loads_;
 };
 
 }  // namespace tethercalc

@@ -324,6 +324,23 @@ PaidOut paid_out_to(const Tether& tether, double height, double offset) {
   return {.length = (1 + tether.slack) * std::hypot(height, offset), .winch_tension = {}};
 }
 
+HangingSituation hanging_situation(const Tether& tether, double wall, const FlightState& state,
+                                   const Flight& flight) {
+  const StraightTether metre(tether, wall, {.deployed = 1}, flight.air_density, flight.gravity);
+  return {.weight = {flight.gravity * metre.mass_0_, flight.gravity * metre.mass_1_,
+                     flight.gravity * metre.mass_2_},
+          .width = {4 * tether.projection_factor * metre.width_, 4 * tether.projection_factor},
+          .drag_coefficient = vibrating_drag_coefficient(tether),
+          .by_reynolds_number = tether.drag_by_reynolds_number,
+          .wall = wall,
+          .air = air_about(state, flight),
+          .paid_out = paid_out_to(tether, state.deployed, flight.horizontal_offset),
+          .cable_there_is = cable_there_is(state),
+          .axial_stiffness = tether.axial_stiffness,
+          .offset = flight.horizontal_offset,
+          .height = state.deployed};
+}
+
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,
                                const Flight& flight, ConductorsAsked asked)
     : straight_(tether, wall, state, flight.air_density, flight.gravity), asked_(asked) {
@@ -335,22 +352,7 @@ void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
   const Tether& tether = *straight_.tether_;
   // On the ground nothing hangs.
   if (tether.model == TetherModel::straight || !(state.deployed > 0)) return;
-  const StraightTether metre(tether, straight_.wall_, {.deployed = 1}, flight.air_density,
-                             flight.gravity);
-  hanging_ = hanging_load(
-      {.weight = {flight.gravity * metre.mass_0_, flight.gravity * metre.mass_1_,
-                  flight.gravity * metre.mass_2_},
-       .width = {4 * tether.projection_factor * metre.width_, 4 * tether.projection_factor},
-       .drag_coefficient = vibrating_drag_coefficient(tether),
-       .by_reynolds_number = tether.drag_by_reynolds_number,
-       .wall = straight_.wall_,
-       .air = air_about(state, flight),
-       .paid_out = paid_out_to(tether, state.deployed, flight.horizontal_offset),
-       .cable_there_is = cable_there_is(state),
-       .axial_stiffness = tether.axial_stiffness,
-       .offset = flight.horizontal_offset,
-       .height = state.deployed},
-      asked_);
+  hanging_ = hanging_load(hanging_situation(tether, straight_.wall_, state, flight), asked_);
 }
 
 TetherLoad TetherInFlight::load(double radius) const {

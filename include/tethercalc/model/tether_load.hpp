@@ -30,6 +30,8 @@ struct TetherLoad {
   }
 };
 
+struct HangingSituation;
+
 /// The tether that hangs straight between drone and ground, all of its weight, its drag and the
 /// pull of the winch on the drone (paper section III-A and V-B), as functions of the conductor's
 /// radius r in m, with what does not depend on r computed once. Mass is a quadratic in r, drag
@@ -102,6 +104,8 @@ class StraightTether {
 
  private:
   friend class TetherInFlight;
+  friend HangingSituation hanging_situation(const Tether& tether, double wall,
+                                            const FlightState& state, const Flight& flight);
   /// Ω of conductors of `radius` with these lengths in the air and on the drum at these °C.
   [[nodiscard]] double resistance(double radius, double in_air, double on_drum, double in_air_C,
                                   double on_drum_C) const;
@@ -141,6 +145,11 @@ struct HangingSituation {
 
   auto operator<=>(const HangingSituation&) const = default;  ///< member by member
 };
+
+/// That of a tether in one state of a design's flight, with `wall` m of insulation; the drone
+/// stands upwind, and its own motion counts as wind.
+[[nodiscard]] HangingSituation hanging_situation(const Tether& tether, double wall,
+                                                 const FlightState& state, const Flight& flight);
 
 class SimilarCables;
 

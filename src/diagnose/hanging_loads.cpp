@@ -1,0 +1,173 @@
+#include "diagnose/hanging_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/constants.hpp"
+#include "model/similar_cables.hpp"
+
+namespace tethercalc {
+namespace {
+
+constexpr double places_per_octave = 8;
+/// Drag over weight up to which places are spread evenly from still air on, beyond by octaves.
+constexpr double little_wind = 1.0 / 256;
+
+double distance_to(const HangingSituation& situation) {
+  return std::hypot(situation.height, situation.offset);
+}
+
+/// Of the cable: what is paid out beyond the distance over that, or the winch's tension over the
+/// weight of a cable as long as the drone is high.
+double held(const HangingSituation& situation, double weight) {
+  const PaidOut& out = situation.paid_out;
+  return out.length ? *out.length / distance_to(situation) - 1
+                    : *out.winch_tension / (weight * situation.height);
+}
+
+void hold(HangingSituation& situation, double weight, double value) {
+  PaidOut& out = situation.paid_out;
+  if (out.length) {
+    out.length = (1 + value) * distance_to(situation);
+  } else {
+    out.winch_tension = value * weight * situation.height;
+  }
+}
+
+double weight_of(const HangingSituation& situation, double radius) {
+  return situation.weight[0] + radius * (situation.weight[1] + radius * situation.weight[2]);
+}
+
+/// m/s at which the wind's drag is so many times the weight.
+double wind_of(HangingSituation situation, double radius, double ratio) {
+  situation.air.wind.x = 1;
+  return std::sqrt(ratio / drag_over_weight(situation, radius).value);
+}
+
+constexpr HangingLoad::Parts no_load{infinity, infinity, infinity, infinity, infinity};
+
+HangingLoad::Parts solved_itself(const HangingSituation& situation, double radius) {
+  return HangingLoad(situation, ConductorsAsked::one).at(radius).value;
+}
+
+/// Weights of four neighbours, `u` in their spacing from the first (Lagrange's cubic).
+std::array<double, 4> cubic(double u) {
+  const double a = u, b = u - 1, c = u - 2, d = u - 3;
+  return {-b * c * d / 6, a * c * d / 2, -a * b * d / 2, a * b * c / 6};
+}
+
+}  // namespace
+
+HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation, double radius) {
+  Key key{situation, radius};
+  HangingSituation& alike = key.situation;
+  alike.height = 0;
+  alike.paid_out.length = situation.paid_out.length ? std::optional(0.0) : std::nullopt;
+  alike.paid_out.winch_tension =
+      situation.paid_out.winch_tension ? std::optional(0.0) : std::nullopt;
+  alike.cable_there_is = infinity;
+  alike.air.wind.x = -1;
+  alike.air.reference_height = 0;
+  // Drag over weight has them, but where the Reynolds number follows the speed.
+  if (!situation.by_reynolds_number) alike.air.density = alike.drag_coefficient = 1;
+  const auto known = families_.find(key);
+  if (known != families_.end()) return known->second;
+  Family family{.member = situation, .radius = radius};
+  family.member.cable_there_is = infinity;
+  family.of_height = situation.offset != 0 || situation.by_reynolds_number ||
+                     situation.axial_stiffness || situation.air.profile != WindProfile::uniform;
+  return families_.emplace(std::move(key), std::move(family)).first->second;
+}
+
+const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& family,
+                                                                   const Place& place) {
+  const auto known = family.solved.find(place);
+  if (known != family.solved.end()) return known->second;
+  const auto octaves = [](int index) { return std::exp2(index / places_per_octave); };
+  HangingSituation there = family.member;
+  if (family.of_height) {
+    there.height = octaves(place[2]);
+    there.air.reference_height += there.height - family.member.height;
+  }
+  there.air.wind.x = -wind_of(there, family.radius, little_wind * (octaves(place[0]) - 1));
+  hold(there, weight_of(there, family.radius), octaves(place[1]));
+  CableSolver solver(most_steps_for_load);
+  LoadShares shares{};
+  std::optional<Values> values;
+  if (solve_shares(there, solver, family.radius, shares) == CableOutcome::hangs) {
+    values = shares;
+    values->back() /= distance_to(there);
+  }
+  return family.solved.emplace(place, values).first->second;
+}
+
+const HangingLoads::Cell& HangingLoads::cell_at(Family& family, const Place& first) {
+  const auto known = family.cells.find(first);
+  if (known != family.cells.end()) return known->second;
+  Cell cell;
+  const int heights = family.of_height ? 4 : 1;
+  const auto towards_middle = [](int index, int count) {
+    return count == 1 ? index : std::clamp(index, 1, 2);
+  };
+  for (int i = 0; i < 4 && cell.hangs; ++i) {
+    for (int j = 0; j < 4 && cell.hangs; ++j) {
+      for (int k = 0; k < heights && cell.hangs; ++k) {
+        const auto* values = &solved_at(family, {first[0] + i, first[1] + j, first[2] + k});
+        // Beside where it ceases to hang the outer corners are as those inside.
+        if (!*values) {
+          values =
+              &solved_at(family, {first[0] + towards_middle(i, 4), first[1] + towards_middle(j, 4),
+                                  first[2] + towards_middle(k, heights)});
+        }
+        cell.hangs = values->has_value();
+        if (*values) cell.corners.push_back(**values);
+      }
+    }
+  }
+  return family.cells.emplace(first, std::move(cell)).first->second;
+}
+
+HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double radius) {
+  Family& family = family_of(situation, radius);
+  const double weight = weight_of(situation, radius);
+  const double ratio = drag_over_weight(situation, radius).value;
+  const std::array<double, 3> at{
+      places_per_octave * std::log2(1 + ratio / little_wind),
+      places_per_octave * std::log2(held(situation, weight)),
+      family.of_height ? places_per_octave * std::log2(situation.height) : 0};
+  // A cable without slack or weight, or in a storm, has no place.
+  constexpr double furthest = 1000;
+  const auto has_place = [](double x) { return std::abs(x) < furthest; };
+  if (!std::all_of(at.begin(), at.end(), has_place)) return solved_itself(situation, radius);
+  Place first{};
+  std::array<std::array<double, 4>, 3> weights{};
+  for (std::size_t axis = 0; axis < at.size(); ++axis) {
+    if (axis == 2 && !family.of_height) break;
+    first[axis] = static_cast<int>(std::floor(at[axis])) - 1;
+    if (axis == 0) first[axis] = std::max(0, first[axis]);
+    weights[axis] = cubic(at[axis] - first[axis]);
+  }
+  const Cell& cell = cell_at(family, first);
+  if (!cell.hangs) return no_load;
+  Values values{};
+  auto corner = cell.corners.begin();
+  const std::size_t heights = family.of_height ? 4 : 1;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t k = 0; k < heights; ++k, ++corner) {
+        const double share = weights[0][i] * weights[1][j] * (family.of_height ? weights[2][k] : 1);
+        for (std::size_t part = 0; part < part_count; ++part) {
+          values[part] += share * (*corner)[part];
+        }
+      }
+    }
+  }
+  const double load = own_load(situation, radius).value;
+  const double length =
+      situation.paid_out.length.value_or(std::max(1.0, values[4]) * distance_to(situation));
+  if (length > situation.cable_there_is) return no_load;
+  return {std::max(0.0, values[0]) * load, values[1] * load, values[2] * load, values[3] * load,
+          length};
+}
+
+}  // namespace tethercalc

@@ -1,0 +1,54 @@
+// What a solved tether puts on the drone in the thousands of states of a log.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "tethercalc/model/tether_load.hpp"
+
+namespace tethercalc {
+
+/// The loads of hanging cables, between those at places of a grid that are solved once each, by
+/// cubics. Drag over weight and what is paid out over the height decide how a cable hangs; with a
+/// drone aside, a profile of the wind, stretch or a drag by the Reynolds number the height as well.
+/// A search moves these a little from one prediction of a log to the next, so most places are known
+/// already. The places do not move: a load is a continuous function of all that is asked.
+///
+/// Mostly within 1e-5 of the solver, of the greatest force. Between places of which one next to it
+/// cannot hang, a cable is taken not to hang. Not for two threads at once.
+class HangingLoads {
+ public:
+  /// The load with conductors of `radius` > 0 m; +infinity where the cable cannot hang.
+  [[nodiscard]] HangingLoad::Parts at(const HangingSituation& situation, double radius);
+
+ private:
+  static constexpr std::size_t part_count = 5;
+  using Values = std::array<double, part_count>;  ///< over the cable's own load, or the distance
+  using Place = std::array<int, 3>;
+  struct Cell {
+    bool hangs = true;
+    std::vector<Values> corners{};  ///< 4 along each axis, the last axis innermost
+  };
+  /// Cables that hang alike at the same place.
+  struct Family {
+    HangingSituation member;  ///< whichever was asked for first
+    double radius = 0;
+    bool of_height = false;  ///< whether the height decides, too
+    std::map<Place, std::optional<Values>> solved{};
+    std::map<Place, Cell> cells{};  ///< by their first corner
+  };
+  [[nodiscard]] Family& family_of(const HangingSituation& situation, double radius);
+  [[nodiscard]] static const Cell& cell_at(Family& family, const Place& first);
+  [[nodiscard]] static const std::optional<Values>& solved_at(Family& family, const Place& place);
+
+  struct Key {
+    HangingSituation situation;
+    double radius = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::map<Key, Family> families_;
+};
+
+}  // namespace tethercalc
