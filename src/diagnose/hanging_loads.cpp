@@ -56,6 +56,21 @@ std::array<double, 4> cubic(double u) {
   return {-b * c * d / 6, a * c * d / 2, -a * b * d / 2, a * b * c / 6};
 }
 
+/// Where between `lo` and `hi` a function that falls, then rises is least, by sections.
+template <typename Function>
+double place_of_least(const Function& f, double lo, double hi) {
+  constexpr int sections = 40;
+  for (int i = 0; i < sections; ++i) {
+    const double a = (2 * lo + hi) / 3, b = (lo + 2 * hi) / 3;
+    if (f(a) < f(b)) {
+      hi = b;
+    } else {
+      lo = a;
+    }
+  }
+  return (lo + hi) / 2;
+}
+
 }  // namespace
 
 HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation, double radius) {
@@ -127,6 +142,37 @@ const HangingLoads::Cell& HangingLoads::cell_at(Family& family, const Place& fir
   return family.cells.emplace(first, std::move(cell)).first->second;
 }
 
+HangingLoad::Parts HangingLoads::by_length(HangingSituation situation, double radius) {
+  const double tension = *situation.paid_out.winch_tension;
+  const double distance = distance_to(situation);
+  const auto with_slack = [&](double octaves) {
+    situation.paid_out = {.length = (1 + std::exp2(octaves)) * distance, .winch_tension = {}};
+    return at(situation, radius);
+  };
+  const auto pull = [&](double octaves) { return with_slack(octaves).tension_at_ground; };
+  constexpr double tautest = -12, slackest = 6, step = 1 / places_per_octave;
+  constexpr int halvings = 40;
+  /// The slack between `strong` and `weak` at which the cable pulls as the winch does.
+  const auto as_the_winch = [&](double strong, double weak) {
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = (strong + weak) / 2;
+      (pull(middle) > tension ? strong : weak) = middle;
+    }
+    return with_slack(weak);
+  };
+  double before = pull(tautest);
+  for (double octaves = tautest; octaves < slackest; octaves += step) {
+    const double next = pull(octaves + step);
+    if (next <= tension) return as_the_winch(octaves, octaves + step);
+    if (next > before) {
+      const double least = place_of_least(pull, octaves - step, octaves + step);
+      return pull(least) <= tension ? as_the_winch(octaves - step, least) : with_slack(least);
+    }
+    before = next;
+  }
+  return no_load;
+}
+
 HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double radius) {
   Family& family = family_of(situation, radius);
   const double weight = weight_of(situation, radius);
@@ -148,7 +194,7 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
     weights[axis] = cubic(at[axis] - first[axis]);
   }
   const Cell& cell = cell_at(family, first);
-  if (!cell.hangs) return no_load;
+  if (!cell.hangs) return situation.paid_out.winch_tension ? by_length(situation, radius) : no_load;
   Values values{};
   auto corner = cell.corners.begin();
   const std::size_t heights = family.of_height ? 4 : 1;

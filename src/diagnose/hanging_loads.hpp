@@ -16,14 +16,18 @@ namespace tethercalc {
 /// A search moves these a little from one prediction of a log to the next, so most places are known
 /// already. The places do not move: a load is a continuous function of all that is asked.
 ///
-/// Mostly within 1e-5 of the solver, of the greatest force. Between places of which one next to it
-/// cannot hang, a cable is taken not to hang. Not for two threads at once.
+/// Mostly within 1e-5 of the solver, of the greatest force. A cable that its winch is too weak for
+/// is taken to hang where it pulls at the winch the least. Not for two threads at once.
 class HangingLoads {
  public:
   /// The load with conductors of `radius` > 0 m; +infinity where the cable cannot hang.
   [[nodiscard]] HangingLoad::Parts at(const HangingSituation& situation, double radius);
 
  private:
+  /// Of a cable on a winch, by the length it has: the tension follows with that smoothly where the
+  /// length follows with the tension's root.
+  [[nodiscard]] HangingLoad::Parts by_length(HangingSituation situation, double radius);
+
   static constexpr std::size_t part_count = 5;
   using Values = std::array<double, part_count>;  ///< over the cable's own load, or the distance
   using Place = std::array<int, 3>;

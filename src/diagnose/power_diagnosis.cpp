@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -47,12 +48,14 @@ void check_lengths(const PowerLog& log) {
   }
 }
 
-/// What the effect needs and the log lacks, "" where nothing.
-std::string lacking(const Effect& effect, const PowerLog& log) {
+/// What the effect needs and the log or the design lacks, "" where nothing.
+std::string lacking(const Effect& effect, const Design& design, const PowerLog& log) {
   const bool in_the_air = std::all_of(effect.shows_in.begin(), effect.shows_in.end(), [](Stage s) {
     return s == Stage::motors || s == Stage::airframe;
   });
   if (log.free_flight && (effect.of_tether || !in_the_air)) return "a flight on the tether";
+  std::string of_design = effect.lacking_in ? effect.lacking_in(design) : "";
+  if (!of_design.empty()) return of_design;
   const bool has_bus = !bus_power_of(log).empty();
   std::vector<std::string_view> names;
   for (const PowerChannel& channel : power_channels) {
@@ -438,13 +441,13 @@ double stage_rmse(const PowerStage& stage, std::span<const double> held_out) {
 }
 
 /// The effects that the log can show; the others go to `diagnosis.not_testable`.
-std::vector<const Effect*> testable_effects(const PowerLog& log,
+std::vector<const Effect*> testable_effects(const Design& design, const PowerLog& log,
                                             const std::map<Stage, std::string>& unusable,
                                             const std::vector<const Effect*>& candidates,
                                             Diagnosis& diagnosis) {
   std::vector<const Effect*> effects;
   for (const Effect* effect : candidates) {
-    std::string needs = lacking(*effect, log);
+    std::string needs = lacking(*effect, design, log);
     for (const auto& [stage, reason] : unusable) {
       if (needs.empty() && acts_on(*effect, stage)) needs = reason;
     }
@@ -455,6 +458,21 @@ std::vector<const Effect*> testable_effects(const PowerLog& log,
     }
   }
   return effects;
+}
+
+/// The effects as they act where the tether is solved.
+std::deque<Effect> of_solved_tether(const Tether& tether, const PowerResiduals& residuals,
+                                    const std::vector<const Effect*>& effects) {
+  const bool loss_shows_length =
+      hangs_on_winch(tether) &&
+      std::ranges::count(residuals.stages(), Stage::tether, &PowerStage::stage) > 0;
+  std::deque<Effect> out;
+  for (const Effect* effect : effects) {
+    Effect& solved = out.emplace_back(*effect);
+    solved.twin_of.clear();
+    if (solved.bends_tether && loss_shows_length) solved.shows_in.push_back(Stage::tether);
+  }
+  return out;
 }
 
 /// True where nothing can be judged from a log this short, which is then told.
@@ -650,9 +668,14 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   if (drop_scattered_stages(residuals, screened, unusable)) {
     residuals = PowerResiduals(base, std::move(screened));
   }
-  const std::vector<const Effect*> effects =
-      testable_effects(residuals.log(), unusable, candidates, diagnosis);
+  std::vector<const Effect*> effects =
+      testable_effects(design, residuals.log(), unusable, candidates, diagnosis);
   if (residuals.stages().empty()) return result;
+  std::deque<Effect> of_solved;
+  if (design.tether.model == TetherModel::solved) {
+    of_solved = of_solved_tether(design.tether, residuals, effects);
+    std::ranges::transform(of_solved, effects.begin(), [](const Effect& e) { return &e; });
+  }
 
   std::optional<TiltComparison> tilt;
   if (shown_by_tilt && !design.drone.drag.is_estimate) {

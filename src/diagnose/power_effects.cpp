@@ -169,7 +169,12 @@ std::vector<Effect> power_effects() {
              if (solved) tether.slack = std::max(tether.slack, taut);
            },
        .shows_in = {Stage::tether, Stage::motors, Stage::airframe},
-       .of_tether = true},
+       .of_tether = true,
+       .lacking_in = [](const Design& design) -> std::string {
+         if (!hangs_on_winch(design.tether)) return "";
+         return "a length of cable that slack decides: here the winch's pull does "
+                "(tether.winch_pull_N)";
+       }},
 
       {.id = "height_bias",
        .title = "The height is read wrong",
@@ -279,7 +284,8 @@ std::vector<Effect> power_effects() {
              if (bench_air_density(m.design.drone)) return;
              m.design.drone.motor_power_factor /= std::sqrt(x[0]);
            },
-       .shows_in = {Stage::motors, Stage::airframe}},
+       .shows_in = {Stage::motors, Stage::airframe},
+       .bends_tether = true},
 
       {.id = "translational_lift",
        .title = "Moving through the air saves hover power",
@@ -342,7 +348,14 @@ std::vector<Effect> power_effects() {
        .channel = "height",
        .on_power = [](PowerModel& m, Values x) { m.design.tether.winch_pull = x[0]; },
        .of_tether = true,
-       .twin_of = "extra_mass"},
+       .bends_tether = true,
+       .twin_of = "extra_mass",
+       .lacking_in = [](const Design& design) -> std::string {
+         const Tether& tether = design.tether;
+         if (tether.model == TetherModel::straight || hangs_on_winch(tether)) return "";
+         return "a winch whose pull decides the length of cable: here slack does "
+                "(tether.slack_percent)";
+       }},
 
       {.id = "airspeed_scale",
        .title = "The airspeed is read wrong",
@@ -356,7 +369,8 @@ std::vector<Effect> power_effects() {
        .change = "v = v_read/g",
        .channel = "airspeed",
        .on_power = [](PowerModel& m, Values x) { m.instruments.airspeed_gain *= x[0]; },
-       .shows_in = {Stage::motors}},
+       .shows_in = {Stage::motors},
+       .bends_tether = true},
 
       {.id = "tether_drag",
        .title = "The tether drags more, or less, than assumed",
@@ -368,7 +382,8 @@ std::vector<Effect> power_effects() {
        .change = "f·C",
        .channel = "airspeed",
        .on_power = [](PowerModel& m, Values x) { m.design.tether.drag_coefficient *= x[0]; },
-       .of_tether = true},
+       .of_tether = true,
+       .bends_tether = true},
 
       {.id = "airframe_drag",
        .title = "The drone drags more, or less, than assumed",

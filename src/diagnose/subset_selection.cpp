@@ -281,8 +281,8 @@ class SubsetSearch {
   }
 
   /// The best model, but for one of its names.
-  [[nodiscard]] Model best_without(std::size_t g) const {
-    return model(without_group(best_.named, g), best_.shapes, &best_.fit);
+  [[nodiscard]] Model best_without(std::size_t g, FitUse use = FitUse::search) const {
+    return model(without_group(best_.named, g), best_.shapes, &best_.fit, use);
   }
 
   [[nodiscard]] Groups rivals(std::size_t g) const {
@@ -312,7 +312,7 @@ class SubsetSearch {
   }
 
   /// The names of the best model in the order of what they add, with their gains.
-  [[nodiscard]] std::vector<SelectedGroup> selected(FitUse use) const {
+  [[nodiscard]] std::vector<SelectedGroup> selected() const {
     std::vector<SelectedGroup> order;
     Groups so_far;
     BlockFit before = base_.fit;
@@ -320,7 +320,7 @@ class SubsetSearch {
       std::optional<std::pair<std::size_t, BlockFit>> next;
       for (const std::size_t g : best_.named) {
         if (contains(so_far, g)) continue;
-        BlockFit fit = model(with_group(so_far, g), {}, &best_.fit, use).fit;
+        BlockFit fit = model(with_group(so_far, g), {}, &best_.fit, FitUse::report).fit;
         if (!next || fit.squared_error() < next->second.squared_error()) next = {g, std::move(fit)};
       }
       so_far = with_group(so_far, next->first);
@@ -331,14 +331,17 @@ class SubsetSearch {
   }
 
   /// Leaves out the names whose gain, where they stand in the order or beside all others, does not
-  /// earn one, the weakest first.
+  /// earn one, the weakest first; by the fits that will be told.
   void drop_unearned() {
+    base_ = model({}, {}, nullptr, FitUse::report);
     while (true) {
+      best_ = model(best_.named, best_.shapes, &best_.fit, FitUse::report);
       std::optional<std::size_t> weakest;
       Gain weakest_gain{infinity, 0};
-      for (const SelectedGroup& s : selected(FitUse::search)) {
+      for (const SelectedGroup& s : selected()) {
         const Gain in_order{s.gain_percent, s.gain_se_percent};
-        for (const Gain& gain : {in_order, gain_between(best_without(s.group).fit, best_.fit)}) {
+        const BlockFit without = best_without(s.group, FitUse::report).fit;
+        for (const Gain& gain : {in_order, gain_between(without, best_.fit)}) {
           if (gain.percent >= weakest_gain.percent ||
               earns_a_name(record_, s.group, gain, options_.least_gain_percent)) {
             continue;
@@ -354,11 +357,9 @@ class SubsetSearch {
   }
 
   [[nodiscard]] Selection sum_up() {
-    base_ = model({}, {}, nullptr, FitUse::report);
-    best_ = model(best_.named, best_.shapes, &best_.fit, FitUse::report);
     Selection result = nothing_selected(record_, options_);
     result.aliased = aliased_;
-    result.selected = selected(FitUse::report);
+    result.selected = selected();
     for (SelectedGroup& entry : result.selected) {
       entry.indistinguishable = rivals(entry.group);
       entry.p_value = chi_squared_tail(

@@ -20,6 +20,10 @@ bool is_heated(const Tether& tether) {
   return tether.ambient_temperature_C.has_value() || tether.heating.rise_per_loss > 0;
 }
 
+bool hangs_on_winch(const Tether& tether) {
+  return tether.model == TetherModel::solved && tether.winch_pull > 0;
+}
+
 Tether without_heat(Tether tether) {
   tether.conductor_temperature_C =
       tether.ambient_temperature_C.value_or(tether.conductor_temperature_C);

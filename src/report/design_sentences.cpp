@@ -416,7 +416,7 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
     sentences.push_back(fmt::format(
         "It hangs as weight and wind have it, {}: {} m are paid out in hover and {} m in forward "
         "flight, and at the drone its tension is {} N and {} N.",
-        tether.winch_pull > 0
+        hangs_on_winch(tether)
             ? fmt::format("pulled by a winch with {} N", significant(tether.winch_pull, 3))
             : fmt::format("with {} % slack", significant(100 * tether.slack, 3)),
         significant(points.hover.tether_length, 4), significant(points.forward.tether_length, 4),

@@ -46,8 +46,7 @@ std::optional<double> threshold(const Design& design, Quantity quantity, double 
                                 double bound) {
   const double ratio = bound / present;
   // Cables on a winch are solved anew for each step.
-  const bool by_winch = design.tether.model == TetherModel::solved && design.tether.winch_pull > 0;
-  const double stride = std::log(by_winch ? 1.1 : 1.02);
+  const double stride = std::log(hangs_on_winch(design.tether) ? 1.1 : 1.02);
   const int steps = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / stride));
   double infeasible = present;
   for (int step = 1; step <= steps; ++step) {

@@ -26,6 +26,11 @@ Design spec(const Rig& rig) {
   design.tether.cross_section = rig.area;
   design.tether.conductor = {0.0278e-6, 0.00403, 2700};
   design.tether.insulation = {1360, 0.75e-3};
+  if (rig.cable != Rig::Cable::straight) {
+    design.tether.model = TetherModel::solved;
+    design.tether.slack = rig.slack;
+    design.tether.winch_pull = rig.winch_pull;
+  }
   design.supply.voltage = rig.voltage;
   design.supply.converter = {{{0.0, rig.efficiency}}, 20};
   design.flight.airspeed = 8.3333;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "support/linked_cable.hpp"
+
 namespace power_truth {
 namespace {
 
@@ -68,22 +70,48 @@ double motor_power_at(const Rig& rig, const HiddenEffects& hidden, double thrust
          relief / std::sqrt(hidden.air_density_factor);
 }
 
+using tethercalc::test::CablePull;
+using tethercalc::test::LinkedCable;
+
+/// What the cable does to the drone in flight.
+class FlownCable {
+ public:
+  FlownCable(const Rig& rig, const HiddenEffects& hidden)
+      : rig_(rig),
+        slack_(rig.slack + hidden.slack),
+        winch_pull_(rig.winch_pull + hidden.winch_pull),
+        weight_(kg_per_metre(rig) * gravity),
+        drag_(0.5 * rig.air_density * hidden.air_density_factor * hidden.tether_drag_factor * 0.75 *
+              4 * outer_radius(rig)),
+        hanging_(weight_, drag_) {}
+
+  CablePull at(double height, double speed) {
+    const double length = height * (1 + slack_);
+    if (rig_.cable == Rig::Cable::slack) return hanging_.of_length(height, speed, length);
+    if (rig_.cable == Rig::Cable::winch) return hanging_.of_tension(height, speed, winch_pull_);
+    return {drag_ * length * speed * speed, weight_ * length + winch_pull_, length};
+  }
+
+ private:
+  const Rig& rig_;
+  double slack_;
+  double winch_pull_;
+  double weight_;  ///< N/m
+  double drag_;    ///< kg/m²
+  LinkedCable hanging_;
+};
+
 /// W at the bus for steady flight, without the random deviation.
-double motor_power(const Rig& rig, const HiddenEffects& hidden, double height, double speed,
-                   double dropped) {
-  const double cable = height * (1 + hidden.slack);
+double motor_power(const Rig& rig, const HiddenEffects& hidden, const CablePull& cable,
+                   double speed, double dropped) {
   const double density = rig.air_density * hidden.air_density_factor;
-  const double weight =
-      (rig.mass + hidden.extra_mass - dropped + kg_per_metre(rig) * cable) * gravity +
-      hidden.winch_pull;
-  const double tether_drag = 0.5 * density * hidden.tether_drag_factor * 0.75 * 4 * cable *
-                             outer_radius(rig) * speed * speed;
+  const double weight = (rig.mass + hidden.extra_mass - dropped) * gravity + cable.down;
   double angle = 0;
   for (int i = 0; i < 60; ++i) {  // contraction: drag changes little with the angle
     const double area = rig.drag_scale * hidden.airframe_drag_factor *
                         (0.01451 * std::cos(angle) + 0.01361 * std::sin(angle));
     const double drag = 0.5 * density * area * (speed * speed + 19.27 * speed);
-    angle = std::atan((drag + tether_drag) / weight);
+    angle = std::atan((drag + cable.along) / weight);
   }
   return motor_power_at(rig, hidden, weight / std::cos(angle), speed, angle);
 }
@@ -142,6 +170,7 @@ Log simulate(const Scenario& scenario) {
   double next_change = 0;
   double deviation = scenario.deviation * normal(engine);
   double rise = 0;
+  FlownCable flown(rig, hidden);
   const double memory = std::pow(0.79, dt);
   for (std::size_t i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) * dt;
@@ -164,9 +193,10 @@ Log simulate(const Scenario& scenario) {
       h = scenario.track.height[i];
       v = scenario.track.airspeed[i];
     }
+    const CablePull pull = flown.at(h, v);
     double power =
         (tracked ? motor_power_at(rig, hidden, scenario.track.thrust[i], v, scenario.track.tilt[i])
-                 : motor_power(rig, hidden, h, v, dropped)) *
+                 : motor_power(rig, hidden, pull, v, dropped)) *
         (1 + deviation);
     if (share >= hidden.step_at) power *= 1 + hidden.step_in_motor_power;
     power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
@@ -180,7 +210,7 @@ Log simulate(const Scenario& scenario) {
     const double input = converter_input + rig.auxiliaries + hidden.auxiliary_power;
 
     const double cable =
-        hidden.spooled_length >= 0 ? rig.length + hidden.spooled_length : h * (1 + hidden.slack);
+        hidden.spooled_length >= 0 ? rig.length + hidden.spooled_length : pull.length;
     const double temperature = hidden.heating > 0 ? ambient + rise : 20;
     const double ohm_per_metre = ohm_per_metre_20C(rig) * hidden.resistivity_factor *
                                  (1 + temperature_coefficient * (temperature - 20));

@@ -28,8 +28,8 @@ struct HiddenEffects {
   double induced_speed = 6;       ///< m/s, induced velocity in hover
   double tether_drag_factor = 1;
   double airframe_drag_factor = 1;
-  double slack = 0;               ///< cable in the air over the height, less 1
-  double winch_pull = 0;          ///< N
+  double slack = 0;               ///< cable in the air over the height, beside the rig's
+  double winch_pull = 0;          ///< N, beside the rig's
   double motor_power_growth = 0;  ///< relative, steadily over the log
   double air_density_factor = 1;  ///< truth over the spec's
   double payload_drop = 0;        ///< kg, from `step_at` on
@@ -64,6 +64,12 @@ struct Rig {
   double motor_size = 1;       ///< thrust and power of the data sheet are multiplied with it
   double drag_scale = 1;       ///< of the airframe's areas
   double air_density = 1.293;  ///< kg/m³
+
+  /// How the cable hangs: straight down; or as weight and wind shape it, paid out so much beyond
+  /// the height, or as the winch's pull takes it.
+  enum class Cable { straight, slack, winch } cable = Cable::straight;
+  double slack = 0;       ///< of the height
+  double winch_pull = 0;  ///< N
 };
 
 enum class Profile {

@@ -104,9 +104,15 @@ struct Effect {
   std::vector<Stage> shows_in{};
   /// Says something of the tether in the air, which the motors carry: no free flight shows it.
   bool of_tether = false;
-  /// id of an effect before it in the catalogue that every log shows in the same way. It is told
-  /// with that one, never in its place.
+  /// Changes how a solved tether hangs. On a winch, which lets out what its tension asks for, the
+  /// loss in the tether shows that as well.
+  bool bends_tether = false;
+  /// id of an effect before it in the catalogue that every log on a straight tether shows in the
+  /// same way. It is told with that one, never in its place.
   std::string twin_of{};
+  /// What a spec would need for any log to show the effect, in words; "" where it has that. Null
+  /// where every spec has.
+  std::string (*lacking_in)(const Design&) = nullptr;
   /// Its first parameter is a time by which a channel of a flight is late. What is late by less
   /// than half the time between samples is told together with its like: the log does not show
   /// which.

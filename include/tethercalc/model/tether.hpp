@@ -143,6 +143,9 @@ struct Tether {
 /// Whether the current warms the tether: an ambient temperature or a measured heating is set.
 [[nodiscard]] bool is_heated(const Tether& tether);
 
+/// Whether the tether is solved and a winch's pull decides how much of it is out, not its slack.
+[[nodiscard]] bool hangs_on_winch(const Tether& tether);
+
 /// The tether with its conductors as warm as the air, whatever current they carry.
 [[nodiscard]] Tether without_heat(Tether tether);
 
