@@ -339,7 +339,9 @@ std::vector<Effect> power_effects() {
 
       {.id = "winch_tension",
        .title = "The winch pulls harder, or less, than assumed",
-       .mechanism = "A pull on the tether loads the drone like weight, the same at every height.",
+       .mechanism =
+           "A pull on the tether loads the drone at every height alike, like weight where it "
+           "hangs straight; where it is solved, the pull also decides how much is out.",
        .stage = Stage::airframe,
        .parameters = {{"winch_pull_N", "N", 1, 0, 0, 500, 0.5, "tether.winch_pull_N",
                        [](const Design& d) { return d.tether.winch_pull; }}},
