@@ -353,4 +353,20 @@ AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design
   return asked;
 }
 
+DiagnosisStudy studied_diagnosis(const AskedDiagnosis& asked, const LogsAsked& options,
+                                 const SelectionProgress& progress) {
+  const auto with_notes = [](std::optional<Diagnosis>& of, const std::vector<Warning>& notes) {
+    if (of) of->notes.insert(of->notes.begin(), notes.begin(), notes.end());
+  };
+  try {
+    DiagnosisStudy study = study_diagnosis(asked.question, progress);
+    with_notes(study.flight, asked.flight_notes);
+    with_notes(study.power, asked.power_notes);
+    return study;
+  } catch (const UnsuitableLog& error) {
+    const auto& logs = error.kind() == LogKind::flight ? options.flight_logs : options.power_logs;
+    throw InputError(fmt::format("{}", fmt::join(logs, ", ")), error.what());
+  }
+}
+
 }  // namespace tethercalc
