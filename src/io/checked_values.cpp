@@ -202,10 +202,15 @@ std::string out_of_range(const SpecField& field, double value, std::string_view 
                      meant_in_thousands(field, value));
 }
 
+void check_range(const char* option, double value, const SpecField& field) {
+  if (field.range.contains(value)) return;
+  throw InputError(option, out_of_range(field, value, fmt::format("{:g}", value)));
+}
+
 void check_range(const char* option, double value, double least, double most, const char* unit) {
   if (value >= least && value <= most) return;
-  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
-                                       most, unit));
+  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {}{}{}", value,
+                                       least, most, *unit == '\0' ? "" : " ", unit));
 }
 
 std::string meant_in_thousands(const SpecField& field, double value) {

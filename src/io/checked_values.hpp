@@ -87,8 +87,10 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
 [[nodiscard]] std::string out_of_range(const SpecField& field, double value,
                                        std::string_view written);
 
-/// Throws InputError, about `option`, where `value` is not from `least` to `most`; of what is no
-/// field of a spec.
+/// Throws InputError, about `option`, where `value` is not in the field's range.
+void check_range(const char* option, double value, const SpecField& field);
+
+/// The same of what is no field: from `least` to `most`, the unit said where it has one.
 void check_range(const char* option, double value, double least, double most, const char* unit);
 
 /// "; did you mean 1710? The unit is the gram" for 1.71, which is out of the field's range, where

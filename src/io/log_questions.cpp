@@ -228,11 +228,7 @@ LogsAsked with_halves(LogsAsked options) {
 
 std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
-  const SpecField& field = *find_field("drone.mass_g");
-  if (!field.range.contains(*options.mass_g)) {
-    throw InputError("--mass-g",
-                     out_of_range(field, *options.mass_g, fmt::format("{:g}", *options.mass_g)));
-  }
+  check_range("--mass-g", *options.mass_g, *find_field("drone.mass_g"));
   return *options.mass_g * unit::gram;
 }
 
