@@ -227,6 +227,20 @@ std::optional<double> parsed_number(std::string_view text) {
   return value;
 }
 
+std::optional<std::size_t> typed_word(std::string text, std::span<const std::string> words) {
+  std::ranges::replace(text, '-', '_');
+  const auto found = std::ranges::find(words, text);
+  if (found == words.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+std::string no_such_word(std::string_view text, std::span<const std::string> words,
+                         std::string_view found) {
+  return fmt::format("expected \"{}\" or \"{}\", found {}{}",
+                     fmt::join(words.begin(), words.end() - 1, "\", \""), words.back(), found,
+                     did_you_mean(text, words));
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
