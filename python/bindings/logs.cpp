@@ -11,6 +11,7 @@
 #include "bindings/design_object.hpp"
 #include "files/log_file.hpp"
 #include "files/logs_in_files.hpp"
+#include "io/log_questions.hpp"
 #include "report/told_diagnosis.hpp"
 #include "tethercalc/files/effect_file.hpp"
 #include "tethercalc/io/log_summary.hpp"
