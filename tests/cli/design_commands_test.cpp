@@ -290,6 +290,18 @@ TEST_CASE(
   CHECK_THAT(checked.out, !Contains("Not checked") && !Contains("Nothing that was checked"));
 }
 
+TEST_CASE("a cable of any cross-section that the spec takes has an answer in numbers") {
+  for (const char* area : {"1e-300", "1e-9", "1e6"}) {
+    for (const char* format : {"table", "json", "csv"}) {
+      const Ran run =
+          run_tethercalc({"evaluate", published, "--area-mm2", area, "--format", format});
+      INFO(area << " " << format << run.err << run.out);
+      CHECK(run.exit_code == 0);
+      CHECK_THAT(run.out, !Contains("nan", Catch::CaseSensitive::No) && !Contains("inf"));
+    }
+  }
+}
+
 TEST_CASE("the strength of a cable is told where it is known") {
   const auto told = [](const std::string& member) {
     return run_tethercalc({"evaluate", published, "--area-mm2", "1", "--set",
