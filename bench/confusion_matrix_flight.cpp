@@ -202,9 +202,7 @@ int main(int argc, char** argv) {
   }
   std::vector<std::string> columns{"none"};
   for (const Effect& effect : effect_catalogue()) {
-    if (effect.log == LogKind::flight && effect.id != "linear_drag" && effect.id != "wind") {
-      columns.push_back(effect.id);
-    }
+    if (effect.log == LogKind::flight && !effect.in_first_look) columns.push_back(effect.id);
   }
   fmt::print(
       "| hidden \\ first finding | {} | first or in set | of those removing 5 % | truth in "

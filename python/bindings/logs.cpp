@@ -11,6 +11,7 @@
 #include "bindings/design_object.hpp"
 #include "files/log_file.hpp"
 #include "files/logs_in_files.hpp"
+#include "io/log_questions.hpp"
 #include "report/told_diagnosis.hpp"
 #include "tethercalc/files/effect_file.hpp"
 #include "tethercalc/io/log_summary.hpp"
@@ -146,11 +147,13 @@ Answer drag(const Texts& logs, const FlightOptions& flight) {
 ToldDiagnosis diagnosed(const DesignFile& file, const LogsAsked& asked, const Texts& effect_files,
                         const StopFlag& stop) {
   struct Unwanted {};
-  return told_diagnosis(
-      diagnosis_question(asked, file.design, read_effect_files(effect_files), logs_in_files()),
-      asked, file, [&](const std::string&) {
-        if (*stop) throw Unwanted();
-      });
+  const AskedDiagnosis question =
+      diagnosis_question(asked, file.design, read_effect_files(effect_files), logs_in_files());
+  return told_diagnosis(studied_diagnosis(question, asked,
+                                          [&](const std::string&) {
+                                            if (*stop) throw Unwanted();
+                                          }),
+                        file);
 }
 
 Answer diagnosis_answer(const std::shared_ptr<const ToldDiagnosis>& told,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/design_options.hpp"
+#include "io/log_questions.hpp"
 #include "report/told_diagnosis.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/io/design_request.hpp"
@@ -218,8 +219,8 @@ struct AnsweredDiagnosis : ToldDiagnosis {
   std::optional<NextFlight> next_flight{};  ///< where it was asked for
 };
 
-/// Compares the logs that `options` name with the spec, see told_diagnosis; progress is shown on a
-/// terminal. Throws InputError for bad input.
+/// Compares the logs that `options` name with the spec, see studied_diagnosis; progress is shown on
+/// a terminal. Throws InputError for bad input.
 [[nodiscard]] AnsweredDiagnosis diagnose_logs(const DiagnoseOptions& options,
                                               const DesignFile& file);
 

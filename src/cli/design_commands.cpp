@@ -101,7 +101,7 @@ ReferenceCheck checked(const fs::path& spec) {
   try {
     refuse_pipe(spec);
     const DesignFile file = read_design(spec.string());
-    return check_reference(spec.string(), file, record_of(spec));
+    return check_reference(spec.string(), file, reference_results(file.design), record_of(spec));
   } catch (const InputError& error) {
     ReferenceCheck check;
     check.spec = spec.string();

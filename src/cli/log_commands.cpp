@@ -62,7 +62,7 @@ void clear_progress() {
 ToldDiagnosis studied(const AskedDiagnosis& asked, const DiagnoseOptions& options,
                       const DesignFile& file) {
   try {
-    ToldDiagnosis told = told_diagnosis(asked, options, file, progress_line());
+    ToldDiagnosis told = told_diagnosis(studied_diagnosis(asked, options, progress_line()), file);
     clear_progress();
     return told;
   } catch (const InputError&) {

@@ -20,11 +20,16 @@ namespace {
 
 bool is_motor_file(const std::string& file) { return file.ends_with(".json"); }
 
-void check_between(Problems& problems, const char* option, const std::optional<double>& value,
-                   double least, double most, const char* unit) {
-  if (!value || (*value > least && *value <= most)) return;
-  problems.add(option, fmt::format("{:g} is out of range; allowed is above {:g} up to {:g} {}",
-                                   *value, least, most, unit));
+/// Adds what `check_range` says of an option that was given.
+template <typename... Range>
+void check_given(Problems& problems, const char* option, const std::optional<double>& value,
+                 const Range&... range) {
+  if (value) problems.succeeds([&] { check_range(option, *value, range...); });
+}
+
+/// The field of a motor file that an option sets.
+const SpecField& field_of(FieldKind object, std::string_view pointer) {
+  return *std::ranges::find(object_fields(object), pointer, &SpecField::pointer);
 }
 
 void check_autopilot(const MotorOptions& options, Problems& problems) {
@@ -47,17 +52,11 @@ void check_autopilot(const MotorOptions& options, Problems& problems) {
   if (options.files.empty() || !std::ranges::all_of(options.files, is_table)) {
     problems.add("--parameters", "needs tables of a thrust stand with a throttle");
   }
-  const auto in = [&](const char* option, const std::optional<double>& value, double least,
-                      double most) {
-    if (!value || (*value >= least && *value <= most)) return;
-    problems.add(option,
-                 fmt::format("{:g} is out of range; allowed is {:g} to {:g}", *value, least, most));
-  };
   // As ArduPilot documents them.
-  in("--spin-min", options.spin_min, 0, 0.3);
-  in("--spin-max", options.spin_max, 0.9, 1);
-  in("--pwm-min-us", options.pwm_min_us, 0, 2000);
-  in("--pwm-max-us", options.pwm_max_us, 0, 2000);
+  check_given(problems, "--spin-min", options.spin_min, 0, 0.3, "");
+  check_given(problems, "--spin-max", options.spin_max, 0.9, 1, "");
+  check_given(problems, "--pwm-min-us", options.pwm_min_us, 0, 2000, "µs");
+  check_given(problems, "--pwm-max-us", options.pwm_max_us, 0, 2000, "µs");
   const PulseRange usual;
   if (options.pwm_min_us.value_or(usual.least) >= options.pwm_max_us.value_or(usual.most)) {
     problems.add("--pwm-min-us", "must be below --pwm-max-us");
@@ -67,11 +66,14 @@ void check_autopilot(const MotorOptions& options, Problems& problems) {
 /// Every problem of the options by themselves.
 void check(const MotorOptions& options) {
   Problems problems;
-  check_between(problems, "--propeller-in", options.propeller_in, 0, 200, "inch");
-  check_between(problems, "--air-density", options.air_density_kg_m3, 0.001, 100, "kg/m³");
-  check_between(problems, "--figure-of-merit", options.figure_of_merit, 0, 0.99,
-                "(1 is an ideal propeller on an ideal motor)");
-  check_between(problems, "--max-thrust-g", options.max_thrust_g, 0, 1e6, "g");
+  check_given(problems, "--propeller-in", options.propeller_in,
+              field_of(FieldKind::motor, "/propeller_in"));
+  check_given(problems, "--air-density", options.air_density_kg_m3,
+              field_of(FieldKind::motor, "/measured_air_density_kg_m3"));
+  check_given(problems, "--figure-of-merit", options.figure_of_merit, 0.01, 0.99,
+              "(1 is an ideal propeller on an ideal motor)");
+  check_given(problems, "--max-thrust-g", options.max_thrust_g,
+              field_of(FieldKind::motor_points, "/thrust_g"));
   const bool flown = !options.power_log.empty();
   if (flown && (options.spec.file.empty() || !options.max_thrust_g)) {
     problems.add(
@@ -132,6 +134,11 @@ ShownMotor generic_motor(const MotorOptions& options) {
                                     *options.figure_of_merit,
                                     *options.max_thrust_g * unit::gram_force,
                                     options.air_density_kg_m3.value_or(standard_air_density)};
+  // No motor file could hold what draws more.
+  check_range("--propeller-in, --figure-of-merit and --max-thrust-g",
+              ideal_hover_power(request.max_thrust, request.diameter, request.air_density) /
+                  request.figure_of_merit,
+              field_of(FieldKind::motor_points, "/power_W"));
   const FigureOfMeritSpread spread = figure_of_merit_spread(library_motors());
   const double band = std::round(100 * spread.power_band);
   ShownMotor out;

@@ -162,6 +162,7 @@ std::vector<Effect> flight_effects() {
            "fly at speeds from a walk to the fastest, so that linear and quadratic drag part",
        .change = "F_D: u|u| → u|u| + j·u",
        .channel = "forward_speed",
+       .in_first_look = true,
        .flight_phase = FlightPhase::air,
        .on_flight = [](FlightPrediction& p, Values x) { p.law.linear_speed += x[0]; }},
 
@@ -176,6 +177,7 @@ std::vector<Effect> flight_effects() {
        .change = "u = v − w",
        .channel = "forward_speed",
        .own_in_each_flight = true,
+       .in_first_look = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
@@ -513,5 +515,7 @@ std::string_view to_string(Stage stage) {
                                                   "airframe"};  // in the order of the stages
   return names[static_cast<std::size_t>(stage)];
 }
+
+std::string_view to_string(LogKind kind) { return kind == LogKind::flight ? "flight" : "power"; }
 
 }  // namespace tethercalc

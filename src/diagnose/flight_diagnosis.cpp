@@ -35,11 +35,32 @@ struct Preliminary {
   std::vector<std::vector<double>> time_stamp_error;
 };
 
+/// A delay of the attitude, which shifts the thrust against all else that is logged.
+bool delays_attitude(const Effect& effect) {
+  return effect.is_delay && effect.flight_phase == FlightPhase::attitude;
+}
+
+/// The headwind: of what the first look fits only the air is each flight's own.
+bool is_steady_wind(const Effect& effect) {
+  return effect.in_first_look && effect.own_in_each_flight;
+}
+
+/// Index of the size of the effect, the only one that `is_it`, that acts in the flight.
+std::size_t size_in(const FlightModel& model, std::size_t flight, bool (*is_it)(const Effect&)) {
+  std::size_t group = 0;
+  while (!is_it(model.effect(group)) || model.log_of(group).value_or(flight) != flight) ++group;
+  return model.first_parameter(group);
+}
+
 Preliminary preliminary_fit(const Design& design, const std::vector<FlightData>& flights) {
-  const FlightModel model(design, flights, effects_for(LogKind::flight, {}),
-                          {"linear_drag", "wind"});
+  const std::vector<const Effect*> effects = effects_for(LogKind::flight, {});
+  std::vector<std::string> fitted;
+  for (const Effect* effect : effects) {
+    if (effect->in_first_look) fitted.push_back(effect->id);
+  }
+  const FlightModel model(design, flights, effects, fitted);
   const SelectionProblem& problem = model.problem;
-  const std::size_t delay = model.index_of("attitude_delay_s").value();
+  const std::size_t delay = size_in(model, 0, delays_attitude);
   SelectionOptions nothing;
   nothing.most_findings = 0;
   std::vector<double> values = select_effects(problem, nothing).base.values;
@@ -48,7 +69,7 @@ Preliminary preliminary_fit(const Design& design, const std::vector<FlightData>&
   std::vector<double> early(problem.measured.size());
   Preliminary result;
   for (std::size_t k = 0; k < flights.size(); ++k) {
-    result.wind.push_back(values[model.index_in(k, "wind_m_s").value()]);
+    result.wind.push_back(values[size_in(model, k, is_steady_wind)]);
     values[delay] = time_stamp_uncertainty * flights[k].step;
     problem.predict(values, late);
     values[delay] = -values[delay];
@@ -292,9 +313,10 @@ DragByTilt drag_by_tilt(const std::vector<FlightData>& flights, const FlightMode
 void report(const std::vector<FlightData>& flights, const FlightModel& model,
             const Selection& selection, const FlightDiagnosisOptions& options,
             const std::vector<const Effect*>& effects, Diagnosis& d) {
-  d.not_identifiable.push_back(
-      {"extra_mass",
-       "a wrong mass only rescales the drag areas, since both enter as force over mass"});
+  for (const Effect& effect : effect_catalogue(LogKind::power)) {
+    if (effect.no_flight_shows_because.empty()) continue;
+    d.not_identifiable.push_back({effect.id, effect.no_flight_shows_because});
+  }
   tell(model, selection, d);
   tell_headings(flights, d);
   for (const FlightData& flight : flights) d.samples += used_samples(flight);
@@ -386,7 +408,7 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
     add_delays_alike(read, model, selection);
     report(read, model, selection, options, effects, d);
   }
-  d.kind = "flight";
+  d.kind = LogKind::flight;
   d.unit = unit_of_flights;
   const bool aside =
       std::any_of(read.begin(), read.end(), [](const FlightData& f) { return f.record.both_axes; });

@@ -337,9 +337,18 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted,
 }
 
 std::optional<std::size_t> LogModel::index_of(std::string_view parameter) const {
+  return index_where(&EffectParameter::name, parameter);
+}
+
+std::optional<std::size_t> LogModel::index_of_field(std::string_view spec_field) const {
+  return index_where(&EffectParameter::spec_field, spec_field);
+}
+
+std::optional<std::size_t> LogModel::index_where(std::string EffectParameter::*member,
+                                                 std::string_view text) const {
   for (std::size_t g = 0; g < effects_.size(); ++g) {
     for (std::size_t k = 0; k < effects_[g]->parameters.size(); ++k) {
-      if (effects_[g]->parameters[k].name == parameter) return first_[g] + k;
+      if (effects_[g]->parameters[k].*member == text) return first_[g] + k;
     }
   }
   return std::nullopt;

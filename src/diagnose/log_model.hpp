@@ -56,6 +56,8 @@ class LogModel {
   [[nodiscard]] std::size_t first_parameter(std::size_t group) const { return first_[group]; }
   /// Index of a parameter by its name, over all groups added; nothing where there is none.
   [[nodiscard]] std::optional<std::size_t> index_of(std::string_view parameter) const;
+  /// The same of the parameter that a field of the spec takes.
+  [[nodiscard]] std::optional<std::size_t> index_of_field(std::string_view spec_field) const;
   /// The part of all parameters that belongs to `group`.
   [[nodiscard]] std::span<const double> own(std::size_t group,
                                             std::span<const double> values) const {
@@ -77,6 +79,10 @@ class LogModel {
                                                     std::span<const double> values) const = 0;
 
  private:
+  /// Of the first parameter whose `member` is `text`.
+  [[nodiscard]] std::optional<std::size_t> index_where(std::string EffectParameter::*member,
+                                                       std::string_view text) const;
+
   std::vector<Span> logs_;
   std::vector<std::optional<std::size_t>> in_log_;
   std::vector<const Effect*> effects_;

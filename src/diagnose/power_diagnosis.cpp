@@ -644,7 +644,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
 
   PowerDiagnosis result{{}, design};
   Diagnosis& diagnosis = result.diagnosis;
-  diagnosis.kind = "power";
+  diagnosis.kind = LogKind::power;
   diagnosis.unit = "standard deviations of the noise";
   diagnosis.quantity = compared_quantities(log);
   diagnosis.samples = log.time.size();

@@ -314,6 +314,8 @@ std::vector<Effect> power_effects() {
        .to_separate = to_separate_motors,
        .change = "m_d + Δm",
        .channel = "height",
+       .no_flight_shows_because =
+           "a wrong mass only rescales the drag areas, since both enter as force over mass",
        .on_power = [](PowerModel& m, Values x) { m.design.drone.mass += x[0]; }},
 
       {.id = "payload_drop",

@@ -202,10 +202,15 @@ std::string out_of_range(const SpecField& field, double value, std::string_view 
                      meant_in_thousands(field, value));
 }
 
+void check_range(const char* option, double value, const SpecField& field) {
+  if (field.range.contains(value)) return;
+  throw InputError(option, out_of_range(field, value, fmt::format("{:g}", value)));
+}
+
 void check_range(const char* option, double value, double least, double most, const char* unit) {
   if (value >= least && value <= most) return;
-  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {} {}", value, least,
-                                       most, unit));
+  throw InputError(option, fmt::format("{:g} is out of range; allowed is {} to {}{}{}", value,
+                                       least, most, *unit == '\0' ? "" : " ", unit));
 }
 
 std::string meant_in_thousands(const SpecField& field, double value) {
@@ -220,6 +225,20 @@ std::optional<double> parsed_number(std::string_view text) {
   const auto [stopped, error] = read_number(text.data(), end, value);
   if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<std::size_t> typed_word(std::string text, std::span<const std::string> words) {
+  std::ranges::replace(text, '-', '_');
+  const auto found = std::ranges::find(words, text);
+  if (found == words.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+std::string no_such_word(std::string_view text, std::span<const std::string> words,
+                         std::string_view found) {
+  return fmt::format("expected \"{}\" or \"{}\", found {}{}",
+                     fmt::join(words.begin(), words.end() - 1, "\", \""), words.back(), found,
+                     did_you_mean(text, words));
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

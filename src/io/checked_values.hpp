@@ -87,8 +87,10 @@ std::optional<double> checked_number(const JsonPlace& place, const SpecField& fi
 [[nodiscard]] std::string out_of_range(const SpecField& field, double value,
                                        std::string_view written);
 
-/// Throws InputError, about `option`, where `value` is not from `least` to `most`; of what is no
-/// field of a spec.
+/// Throws InputError, about `option`, where `value` is not in the field's range.
+void check_range(const char* option, double value, const SpecField& field);
+
+/// The same of what is no field: from `least` to `most`, the unit said where it has one.
 void check_range(const char* option, double value, double least, double most, const char* unit);
 
 /// "; did you mean 1710? The unit is the gram" for 1.71, which is out of the field's range, where
@@ -97,6 +99,16 @@ void check_range(const char* option, double value, double least, double most, co
 
 /// The finite number that the whole of `text` is; nothing where it is none.
 std::optional<double> parsed_number(std::string_view text);
+
+/// Which of `words` was typed, where a hyphen may stand for an underscore; nothing where it is
+/// none.
+[[nodiscard]] std::optional<std::size_t> typed_word(std::string text,
+                                                    std::span<const std::string> words);
+
+/// "expected "hover" or "forward", found …; did you mean …" of a text that is none of `words`, of
+/// which there are two at least; `found` is what stands there, as people read it.
+[[nodiscard]] std::string no_such_word(std::string_view text, std::span<const std::string> words,
+                                       std::string_view found);
 
 /// The parts of `text` between separators, at least one.
 std::vector<std::string_view> split(std::string_view text, char separator);

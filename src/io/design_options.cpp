@@ -1,7 +1,6 @@
 #include "io/design_options.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,7 +9,6 @@
 #include <utility>
 
 #include "io/checked_values.hpp"
-#include "io/closest_name.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/study/design.hpp"
 #include "tethercalc/study/motor.hpp"
@@ -66,23 +64,18 @@ class FieldOptions {
   }
 
   /// Likewise of a word, in which a hyphen may stand for the underscore.
-  std::size_t word(const char* option, std::optional<std::string> given, const char* path) {
+  std::size_t word(const char* option, const std::optional<std::string>& given, const char* path) {
     const SpecField& field = *find_field(path);
     if (!given) return field_word(design_, field);
-    std::ranges::replace(*given, '-', '_');
     const std::span<const std::string> words = field_words(field.kind);
-    const auto found = std::ranges::find(words, *given);
-    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    problems_.add(option, fmt::format("{} is none of {}{}", shown(*given), fmt::join(words, ", "),
-                                      did_you_mean(*given, words)));
+    if (const auto word = typed_word(*given, words)) return *word;
+    problems_.add(option, no_such_word(*given, words, shown(*given)));
     return 0;
   }
 
  private:
   bool allowed(const char* option, const SpecField& field, double value) {
-    if (field.range.contains(value)) return true;
-    problems_.add(option, out_of_range(field, value, fmt::format("{:g}", value)));
-    return false;
+    return problems_.succeeds([&] { check_range(option, value, field); });
   }
 
   const Design& design_;

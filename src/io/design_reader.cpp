@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "io/checked_values.hpp"
-#include "io/closest_name.hpp"
 #include "io/embedded_files.hpp"
 #include "io/entry_readers.hpp"
 #include "io/json_document.hpp"
@@ -101,10 +100,7 @@ void read_word(const JsonPlace& place, const SpecField& field, Design& design, P
   if (word != words.end()) {
     set_word(design, field, static_cast<std::size_t>(word - words.begin()));
   } else if (quoted) {
-    problems.add(place.where(),
-                 fmt::format("expected \"{}\" or \"{}\", found {}{}",
-                             fmt::join(words.begin(), words.end() - 1, "\", \""), words.back(),
-                             type_name(*place.value), did_you_mean(found, words)));
+    problems.add(place.where(), no_such_word(found, words, type_name(*place.value)));
   } else {
     problems.add(place.where(), "expected true or false, found " + type_name(*place.value));
   }

@@ -228,11 +228,7 @@ LogsAsked with_halves(LogsAsked options) {
 
 std::optional<double> flown_mass(const FlightOptions& options) {
   if (!options.mass_g) return std::nullopt;
-  const SpecField& field = *find_field("drone.mass_g");
-  if (!field.range.contains(*options.mass_g)) {
-    throw InputError("--mass-g",
-                     out_of_range(field, *options.mass_g, fmt::format("{:g}", *options.mass_g)));
-  }
+  check_range("--mass-g", *options.mass_g, *find_field("drone.mass_g"));
   return *options.mass_g * unit::gram;
 }
 
@@ -351,6 +347,22 @@ AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design
   }
   question.one_flight = !options.whole_logs.empty();
   return asked;
+}
+
+DiagnosisStudy studied_diagnosis(const AskedDiagnosis& asked, const LogsAsked& options,
+                                 const SelectionProgress& progress) {
+  const auto with_notes = [](std::optional<Diagnosis>& of, const std::vector<Warning>& notes) {
+    if (of) of->notes.insert(of->notes.begin(), notes.begin(), notes.end());
+  };
+  try {
+    DiagnosisStudy study = study_diagnosis(asked.question, progress);
+    with_notes(study.flight, asked.flight_notes);
+    with_notes(study.power, asked.power_notes);
+    return study;
+  } catch (const UnsuitableLog& error) {
+    const auto& logs = error.kind() == LogKind::flight ? options.flight_logs : options.power_logs;
+    throw InputError(fmt::format("{}", fmt::join(logs, ", ")), error.what());
+  }
 }
 
 }  // namespace tethercalc

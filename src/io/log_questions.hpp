@@ -108,4 +108,10 @@ struct AskedDiagnosis {
 [[nodiscard]] AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design,
                                                 std::vector<Effect> own, const LogReaders& read);
 
+/// The answer to `asked`, which `options` put; the notes on how a log was read stand before its
+/// own. Throws InputError for a log that cannot be diagnosed.
+[[nodiscard]] DiagnosisStudy studied_diagnosis(const AskedDiagnosis& asked,
+                                               const LogsAsked& options,
+                                               const SelectionProgress& progress = {});
+
 }  // namespace tethercalc

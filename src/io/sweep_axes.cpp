@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "io/checked_values.hpp"
-#include "io/closest_name.hpp"
 #include "io/entry_readers.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/io/spec_fields.hpp"
@@ -251,16 +250,15 @@ class AxisReader {
     const auto words = field_words(field.kind);
     NamedChoices choices{names_in(text, {words.begin(), words.end()})};
     std::vector<std::size_t> chosen;
-    for (const std::string& name : choices.names) {
-      const auto found = std::ranges::find(words, name);
-      if (found == words.end()) {
-        refuse(fmt::format("expected {} or {}, found {}{}",
-                           fmt::join(words.begin(), words.end() - 1, ", "), words.back(),
-                           shown(name), did_you_mean(name, words)));
+    for (std::string& name : choices.names) {
+      if (const auto word = typed_word(name, words)) {
+        chosen.push_back(*word);
+        name = words[*word];
+      } else {
+        refuse(no_such_word(name, words, shown(name)));
       }
-      chosen.push_back(static_cast<std::size_t>(found - words.begin()));
     }
-    if (std::ranges::count(chosen, words.size()) > 0) return std::nullopt;
+    if (chosen.size() < choices.names.size()) return std::nullopt;
     return SweepAxis{dot_path(field.pointer), std::move(choices),
                      [field, chosen](Design& design, double position) {
                        set_word(design, field, chosen[static_cast<std::size_t>(position)]);

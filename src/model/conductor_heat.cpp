@@ -160,8 +160,6 @@ double radiated_heat(double perimeter, double surface_emissivity, double surface
          (fourth_power(kelvin(surface_C)) - fourth_power(kelvin(ambient_C)));
 }
 
-double ampacity(double heat, double resistance) { return std::sqrt(heat / resistance); }
-
 ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
                              const Surroundings& around)
     : around_(around),
@@ -334,17 +332,6 @@ std::optional<ConductorHeat::Balance> ConductorHeat::search_surface(double curre
   Balance at = balance(*found, current);
   at.surface_change = 0;
   return at.inside_C <= highest_conductor_temperature_C ? std::optional(at) : std::nullopt;
-}
-
-double ConductorHeat::current_at(double temperature_C) const {
-  // The surface below a conductor of this temperature: q rises with T_s, and T_s + q·R_th with it.
-  const auto excess = [&](double surface) {
-    return surface + std::max(given_off(surface), 0.0) * thermal_resistance_ - temperature_C;
-  };
-  const auto surface = first_root(excess, around_.temperature_C, temperature_C);
-  if (!surface) return 0;
-  const double heat = given_off(*surface);
-  return heat > 0 ? ampacity(heat, resistance(temperature_C)) : 0;
 }
 
 }  // namespace tethercalc

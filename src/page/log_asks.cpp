@@ -115,8 +115,8 @@ LogsAsked logs_asked(const Request& request) {
 ordered_json diagnose(const Request& request) {
   const LogsAsked options = logs_asked(request);
   const DesignFile file = request.design();
-  const ToldDiagnosis told =
-      told_diagnosis(diagnosis_question(options, file.design, {}, logs_of(request)), options, file);
+  const AskedDiagnosis asked = diagnosis_question(options, file.design, {}, logs_of(request));
+  const ToldDiagnosis told = told_diagnosis(studied_diagnosis(asked, options), file);
   ordered_json figures = ordered_json::array();
   const auto draw = [&figures](const char* kind, const std::string& log,
                                const std::optional<Diagnosis>& diagnosis) {

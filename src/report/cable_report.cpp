@@ -105,9 +105,10 @@ std::string strength_sentence(const ShapeStudy& study) {
   if (study.breaking_load == 0) {
     return "Its strength is unknown: the conductor's tensile strength is not set.";
   }
-  return fmt::format("It breaks at {} N, {} times its greatest tension.",
-                     significant(study.breaking_load, 3),
-                     significant(study.breaking_load / greatest, 3));
+  return fmt::format("It breaks at {} N{}.", significant(study.breaking_load, 3),
+                     greatest > 0 ? fmt::format(", {} times its greatest tension",
+                                                significant(study.breaking_load / greatest, 3))
+                                  : "");
 }
 
 }  // namespace

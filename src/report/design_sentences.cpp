@@ -400,6 +400,24 @@ ordered_json cable_json(const Design& design, const AreaPoints& points) {
   return out;
 }
 
+namespace {
+
+/// A cable that nothing pulls at breaks at no multiple of that, and one of unknown strength, whose
+/// `load` is 0, at no known load.
+std::string strength_sentence(double tension, double load) {
+  const std::string pull =
+      tension > 0 ? fmt::format("pulls at the drone with {} N and ", significant(tension, 3)) : "";
+  if (!(load > 0)) {
+    return "The tether " + pull +
+           "breaks at a load that is unknown: the conductor's tensile strength is not set.";
+  }
+  return fmt::format(
+      "The tether {}breaks at {} N{}.", pull, significant(load, 3),
+      tension > 0 ? fmt::format(", {} times that", significant(load / tension, 3)) : "");
+}
+
+}  // namespace
+
 std::vector<std::string> cable_sentences(const Design& design, const AreaPoints& points) {
   std::vector<std::string> sentences;
   const Tether& tether = design.tether;
@@ -425,10 +443,7 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
   }
   if (design.requirements.strength_safety_factor > 0) {
     const double tension = std::max(points.hover.tether_tension, points.forward.tether_tension);
-    const double load = breaking_load(tether, points.area);
-    sentences.push_back(
-        fmt::format("The tether pulls at the drone with {} N and breaks at {} N, {} times that.",
-                    significant(tension, 3), significant(load, 3), significant(load / tension, 3)));
+    sentences.push_back(strength_sentence(tension, breaking_load(tether, points.area)));
   }
   if (tether.insulation.dielectric_safety_factor > 0) {
     sentences.push_back(fmt::format(

@@ -84,7 +84,7 @@ Errors errors_of(const Diagnosis& d, std::size_t series) {
   const auto words = [](double value, const std::string& unit) {
     return significant(value, 3) + " " + unit;
   };
-  if (d.kind == "power" && series < d.further.size()) {
+  if (d.kind == LogKind::power && series < d.further.size()) {
     const HoldoutComparison& c = d.further[series];
     return {words(c.base_rmse, c.unit), words(c.extended_rmse, c.unit)};
   }

@@ -47,14 +47,14 @@ ordered_json finding_json(const Finding& f) {
 }
 
 /// What has no name as an effect of one's own, ready to be given one; null where it has no formula.
-ordered_json unnamed_effect(const Unexplained& u, const std::string& kind) {
+ordered_json unnamed_effect(const Unexplained& u, LogKind kind) {
   if (!u.detected || u.formula.empty()) return nullptr;
   const double size = std::abs(u.coefficient);
   const auto rounded = [](double value) { return std::stod(significant(value, 2)); };
   return {{"id", "unnamed"},
           {"title", "Follows " + u.regressor},
           {"mechanism", "Not known yet."},
-          {kind == "power" ? "power_W" : "force_N", u.formula},
+          {kind == LogKind::power ? "power_W" : "force_N", u.formula},
           {"parameters",
            {{{"name", "c"},
              {"lower", rounded(-10 * size)},
@@ -161,8 +161,9 @@ class Story {
   void open() {
     std::string text;
     if (d_.findings.empty()) {
-      text = fmt::format(
-          "Nothing of the catalogue explains this {} log better than the base model.", d_.kind);
+      text =
+          fmt::format("Nothing of the catalogue explains this {} log better than the base model.",
+                      to_string(d_.kind));
     } else {
       const double gain =
           100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
@@ -170,7 +171,7 @@ class Story {
       for (const Finding& f : d_.findings) titles.push_back(within_sentence(title_of(f)));
       const std::string found = fmt::format("Found: {}.", fmt::join(titles, "; "));
       text = fmt::format("{} That explains {:.0f} % of the error of this {} log.",
-                         style_.good(found), gain, d_.kind);
+                         style_.good(found), gain, to_string(d_.kind));
     }
     paragraph(fmt::format("{} It has {} samples, worth {:.0f} independent ones.", text, d_.samples,
                           d_.effective_samples));
@@ -187,7 +188,7 @@ class Story {
       table.add({quantity, significant(base, 3) + " " + unit,
                  found ? significant(extended, 3) + " " + unit : ""});
     };
-    if (d_.kind == "flight") {
+    if (d_.kind == LogKind::flight) {
       row(d_.quantity, d_.unit, d_.base.holdout_rmse, d_.extended.holdout_rmse);
     }
     for (const HoldoutComparison& c : d_.further) {
@@ -327,7 +328,7 @@ std::span<const std::string_view> verdict_names() {
 }
 
 ordered_json diagnosis_json(const Diagnosis& d, const ordered_json& extended) {
-  ordered_json out{{"kind", d.kind},
+  ordered_json out{{"kind", to_string(d.kind)},
                    {"samples", d.samples},
                    {"effective_samples", number_or_null(d.effective_samples)},
                    {"quantity", d.quantity},

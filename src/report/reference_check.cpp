@@ -180,13 +180,13 @@ bool ReferenceCheck::passed() const {
 }
 
 ReferenceCheck check_reference(std::string spec, const DesignFile& file,
+                               const std::vector<NamedResult>& results,
                                const std::optional<LoadedText>& record) {
   ReferenceCheck check;
   check.spec = std::move(spec);
   check.name = file.name;
   check.recorded = record.has_value();
   try {
-    const std::vector<NamedResult> results = reference_results(file.design);
     check.results =
         record ? compared(parse_json(record->text, record->name), results) : unrecorded(results);
   } catch (const InputError& error) {

@@ -227,11 +227,12 @@ Section drag_section(const DragStudy& drag) {
 
 /// The story with its figure after the opening paragraphs, which say what it shows.
 Section diagnosis_section(const LogDiagnosis& log) {
-  const std::string id = log.diagnosis.kind + "-diagnosis";
+  const std::string kind(to_string(log.diagnosis.kind));
+  const std::string id = kind + "-diagnosis";
   std::string picture;
   if (!log.diagnosis.compared.empty()) {  // the log was long enough to judge by
     Figure figure = diagnosis_figure(log.log, log.diagnosis);
-    figure.id = log.diagnosis.kind + "_diagnosis";  // a page may hold two
+    figure.id = kind + "_diagnosis";  // a page may hold two
     picture = html::picture(figure);
   }
   std::string body;

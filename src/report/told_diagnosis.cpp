@@ -1,8 +1,5 @@
 #include "report/told_diagnosis.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <utility>
 
 #include "tethercalc/io/spec_writer.hpp"
@@ -12,18 +9,6 @@
 namespace tethercalc {
 namespace {
 
-DiagnosisStudy studied(const AskedDiagnosis& asked, const LogsAsked& options,
-                       const SelectionProgress& progress) {
-  try {
-    return study_diagnosis(asked.question, progress);
-  } catch (const UnsuitableLog& error) {
-    throw InputError(error.kind() == LogKind::flight
-                         ? fmt::format("{}", fmt::join(options.flight_logs, ", "))
-                         : fmt::format("{}", fmt::join(options.power_logs, ", ")),
-                     error.what());
-  }
-}
-
 /// Of one log alone.
 const Diagnosis& only_one(const ToldDiagnosis& told) {
   return told.power ? *told.power : *told.flight;
@@ -31,17 +16,7 @@ const Diagnosis& only_one(const ToldDiagnosis& told) {
 
 }  // namespace
 
-ToldDiagnosis told_diagnosis(const AskedDiagnosis& asked, const LogsAsked& options,
-                             const DesignFile& file, const SelectionProgress& progress) {
-  DiagnosisStudy study = studied(asked, options, progress);
-  if (study.flight) {
-    study.flight->notes.insert(study.flight->notes.begin(), asked.flight_notes.begin(),
-                               asked.flight_notes.end());
-  }
-  if (study.power) {
-    study.power->notes.insert(study.power->notes.begin(), asked.power_notes.begin(),
-                              asked.power_notes.end());
-  }
+ToldDiagnosis told_diagnosis(DiagnosisStudy study, const DesignFile& file) {
   for (Warning& warning : spec_warnings(file)) {
     (study.power ? study.power : study.flight)->notes.push_back(std::move(warning));
   }

@@ -1,12 +1,12 @@
-// A diagnosis with the spec that it leads to, from reading the logs to the words.
+// A diagnosis with the spec that it leads to, in words.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/log_questions.hpp"
 #include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/report/text_table.hpp"
+#include "tethercalc/study/diagnosis.hpp"
 
 namespace tethercalc {
 
@@ -15,12 +15,9 @@ struct ToldDiagnosis : DiagnosisStudy {
   nlohmann::ordered_json spec;  ///< of the extended design
 };
 
-/// Compares each log of `asked`, which `options` name, with the design of `file` as it stands; what
-/// both together do to the design stands in the last of them. Drag that a flight shows directly
-/// outranks what the power at the motors says of it. Throws InputError for bad input.
-[[nodiscard]] ToldDiagnosis told_diagnosis(const AskedDiagnosis& asked, const LogsAsked& options,
-                                           const DesignFile& file,
-                                           const SelectionProgress& progress = {});
+/// What a study says of logs held against the design of `file`, with that file's own warnings among
+/// the notes of the last log. Throws InputError where the extended design makes no spec.
+[[nodiscard]] ToldDiagnosis told_diagnosis(DiagnosisStudy study, const DesignFile& file);
 
 /// The story of either, or of both together.
 [[nodiscard]] std::string told_text(const ToldDiagnosis& told, const TextStyle& style);

@@ -290,6 +290,31 @@ TEST_CASE(
   CHECK_THAT(checked.out, !Contains("Not checked") && !Contains("Nothing that was checked"));
 }
 
+TEST_CASE("a cable of any cross-section that the spec takes has an answer in numbers") {
+  for (const char* area : {"1e-300", "1e-9", "1e6"}) {
+    for (const char* format : {"table", "json", "csv"}) {
+      const Ran run =
+          run_tethercalc({"evaluate", published, "--area-mm2", area, "--format", format});
+      INFO(area << " " << format << run.err << run.out);
+      CHECK(run.exit_code == 0);
+      CHECK_THAT(run.out, !Contains("nan", Catch::CaseSensitive::No) && !Contains("inf"));
+    }
+  }
+}
+
+TEST_CASE("the strength of a cable is told where it is known") {
+  const auto told = [](const std::string& member) {
+    return run_tethercalc({"evaluate", published, "--area-mm2", "1", "--set",
+                           "tether.ambient_temperature_C=20", "--set",
+                           "requirements.strength_safety_factor=3", "--set",
+                           "tether.strength_member.cross_section_mm2=0.5", "--set",
+                           "tether.strength_member.material=" + member})
+        .out;
+  };
+  CHECK_THAT(told("aramid"), Contains("breaks at 1370 N"));
+  CHECK_THAT(told("none"), Contains("breaks at a load that is unknown") && !Contains("0 times"));
+}
+
 TEST_CASE("tables speak in words, files in names") {
   const std::vector<std::string> compare{"compare", published};
   CHECK_THAT(run_tethercalc(compare).out,

@@ -115,6 +115,24 @@ TEST_CASE("motor says every option that it lacks or that does not fit") {
   CHECK_THAT(bare.err, Contains("--figure-of-merit: 1.2 is out of range") &&
                            Contains("--propeller-in: is needed") &&
                            Contains("--max-thrust-g: is needed") && Contains("--where"));
+  // What no motor file may hold is refused, not written.
+  for (const auto& [option, value] :
+       {std::pair{"--propeller-in", "1e-300"}, std::pair{"--max-thrust-g", "2e6"},
+        std::pair{"--figure-of-merit", "1e-9"}, std::pair{"--air-density", "0"}}) {
+    std::vector<std::string> arguments{"motor", "--propeller-in", "10",  "--figure-of-merit",
+                                       "0.5",   "--max-thrust-g", "1000"};
+    const auto given = std::ranges::find(arguments, option);
+    if (given != arguments.end()) {
+      *(given + 1) = value;
+    } else {
+      arguments.insert(arguments.end(), {option, value});
+    }
+    const Ran refused = run_tethercalc(arguments);
+    INFO(option << refused.err);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.out.empty());
+    CHECK_THAT(refused.err, Contains(option) && Contains("out of range"));
+  }
   const TemporaryFolder folder;
   const std::string table = (folder.path() / "unclear.csv").string();
   write_file(table, "F,P\n1,2\n3,4\n");
@@ -175,6 +193,13 @@ TEST_CASE("the thrust curve for ArduPilot comes from throttles in percent and in
   const Ran by_pulse = printed(
       {table("ESC signal (\u00B5s)", pulse), "--pwm-min-us", "1100", "--pwm-max-us", "1900"});
   CHECK_THAT(by_pulse.out, Contains("\nMOT_THST_EXPO,0.400\n") && Contains("MOT_PWM_MIN,1100\n"));
+  const Ran beyond = printed({table("throttle_percent", percent), "--spin-min", "0.5", "--spin-max",
+                              "0.5", "--pwm-max-us", "3000"});
+  CHECK(beyond.exit_code == 2);
+  CHECK_THAT(beyond.err,
+             Contains("--spin-min: 0.5 is out of range; allowed is 0 to 0.3\n") &&
+                 Contains("--spin-max: 0.5 is out of range; allowed is 0.9 to 1\n") &&
+                 Contains("--pwm-max-us: 3000 is out of range; allowed is 0 to 2000 µs\n"));
 
   const std::string unsaid = table("throttle", percent);
   CHECK_THAT(printed({unsaid}).err, Contains("does not say what its throttle is counted in"));

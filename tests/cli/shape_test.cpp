@@ -116,7 +116,8 @@ TEST_CASE("bad numbers of a shape are told all at once") {
   const Ran run = shaped({"--height", "0", "--slack", "-1", "--profile", "log", "--offset", "-3"});
   CHECK(run.exit_code == 2);
   CHECK(run.out.empty());
-  for (const char* part : {"--height", "--slack", "--profile", "logarithmic", "--offset"}) {
+  for (const char* part :
+       {"--height", "--slack", "--profile", "did you mean \"logarithmic\"", "--offset"}) {
     CHECK_THAT(run.err, Catch::Contains(part));
   }
   CHECK(shaped({"--slack", "1", "--length", "31"}).exit_code == 2);

@@ -108,11 +108,13 @@ TEST_CASE("every field of a spec that changes the result can vary") {
         break;
       case FieldKind::wind_profile:
         CHECK(value_count(axis_of(path + "=uniform,power_law,logarithmic")) == 3U);
+        CHECK(std::get<NamedChoices>(axis_of(path + "=power-law").values).names ==
+              std::vector<std::string>{"power_law"});
         break;
       case FieldKind::strength_material:
         CHECK(value_count(axis_of(path + "=none,aramid,uhmwpe")) == 3U);
-        CHECK_THAT(refusal_of(path + "=armid"),
-                   Contains("none, aramid or uhmwpe") && Contains("did you mean \"aramid\""));
+        CHECK_THAT(refusal_of(path + "=armid"), Contains(R"("none", "aramid" or "uhmwpe")") &&
+                                                    Contains("did you mean \"aramid\""));
         break;
       case FieldKind::converter_masses:
         CHECK_THAT(refusal_of(path + "=1"), Contains("a sweep cannot vary this field"));

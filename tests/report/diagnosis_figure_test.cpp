@@ -18,7 +18,7 @@ namespace {
 Diagnosis power_diagnosis() {
   Random random(run_seed());
   Diagnosis d;
-  d.kind = "power";
+  d.kind = LogKind::power;
   d.unit = "standard deviations of the noise";
   d.base.holdout_rmse = 3;
   d.extended.holdout_rmse = 1;

@@ -11,7 +11,7 @@ namespace {
 
 Diagnosis example() {
   Diagnosis d;
-  d.kind = "flight";
+  d.kind = LogKind::flight;
   d.quantity = "forward acceleration";
   d.unit = "m/s²";
   d.samples = 5000;

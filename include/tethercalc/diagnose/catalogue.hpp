@@ -82,6 +82,9 @@ struct Effect {
   /// Why a log may not show it beside the base model, where that has one reason; else empty.
   std::string aliased_because{};
 
+  /// Why no flight shows this effect of a power log, whatever its channels; else empty.
+  std::string no_flight_shows_because{};
+
   /// A flight must gain so many times the usual minimum by it: where some of it is always there, as
   /// of an air that is never quite steady, or where many other things look a little like it.
   double least_gain_factor = 1;
@@ -90,6 +93,10 @@ struct Effect {
 
   /// Belongs to one flight, like the wind: of several flights of one drone each has its own.
   bool own_in_each_flight = false;
+
+  /// Fitted in the first look at a flight, before anything is tested: airspeed and drag are wrong
+  /// without it.
+  bool in_first_look = false;
 
   FlightPhase flight_phase = FlightPhase::force;  ///< for effects of a flight
   /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
@@ -133,5 +140,8 @@ struct Effect {
 
 /// "supply", "tether", "converter", "motors" or "airframe".
 [[nodiscard]] std::string_view to_string(Stage stage);
+
+/// "flight" or "power".
+[[nodiscard]] std::string_view to_string(LogKind kind);
 
 }  // namespace tethercalc

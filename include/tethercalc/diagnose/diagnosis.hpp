@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/drag_by_tilt.hpp"
 #include "tethercalc/model/warning.hpp"
 
@@ -203,7 +204,7 @@ struct FindingTrace {
 
 /// All that is said of one log.
 struct Diagnosis {
-  std::string kind;                               ///< "flight" or "power"
+  LogKind kind = LogKind::flight;                 ///< which log it is of
   std::size_t samples = 0;                        ///< used
   double effective_samples = 0;                   ///< as many independent ones would weigh as much;
                                                   ///< of a power log the mean over its comparisons

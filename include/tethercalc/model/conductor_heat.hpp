@@ -51,10 +51,6 @@ struct AirProperties {
 [[nodiscard]] double radiated_heat(double perimeter, double emissivity, double surface_C,
                                    double ambient_C);
 
-/// Current in A at which a conductor of `resistance` Ω/m, at the temperature for which both are
-/// taken, makes `heat` W/m (≥ 0): the ampacity where that is what it can give off.
-[[nodiscard]] double ampacity(double heat, double resistance);
-
 /// What a conductor of the tether is surrounded by.
 struct Surroundings {
   double temperature_C = 20;   ///< of the air
@@ -131,10 +127,6 @@ class ConductorHeat {
   /// The balance that leads to the steady state at `current` A (≥ 0); nothing where there is none,
   /// as above.
   [[nodiscard]] std::optional<Balance> steady_surface(double current) const;
-
-  /// Largest current in A with the conductor at most at `temperature_C`; 0 where the sun alone
-  /// heats it beyond. Exact to 1e-9 relative.
-  [[nodiscard]] double current_at(double temperature_C) const;
 
   /// Heat in W/m that a surface of `surface_C` gives off, less what it takes from the sun.
   [[nodiscard]] double given_off(double surface_C) const { return flow(surface_C).heat; }

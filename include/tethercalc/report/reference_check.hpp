@@ -29,12 +29,13 @@ struct ReferenceCheck {
 /// "ok", "drifted", "unrecorded" and "error": what `status` of the answers says.
 [[nodiscard]] std::span<const std::string_view> check_status_names();
 
-/// Computes the design of `file`, which messages call `spec`, and compares it with its record: an
+/// Compares the `results` of the design of `file`, which messages call `spec`, with its record: an
 /// object from a result's name to `{"value": …, "relative_tolerance": …}`, or "absolute_tolerance"
 /// in the result's unit, or both, of which the wider one counts. Texts and null have no tolerance.
 /// Names are those of `reference_results`. Problems of the record are part of
 /// the answer, so that one bad file does not hide what the others say.
 [[nodiscard]] ReferenceCheck check_reference(std::string spec, const DesignFile& file,
+                                             const std::vector<NamedResult>& results,
                                              const std::optional<LoadedText>& record);
 
 /// The record of a design that was checked without problems, brought up to date, the tolerances
