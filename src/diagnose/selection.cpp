@@ -307,6 +307,7 @@ class Search {
         for (const std::size_t in : candidates()) {
           if (exchanged) break;
           const Groups trial = with_group(selected_without(out), in);
+          if (left_.contains(trial)) continue;
           tell("trying " + group(in).id + " instead of " + group(out).id);
           BlockFit instead = placed_fit(trial);
           const BlockDifference better = difference(current_.block_error, instead.block_error);
