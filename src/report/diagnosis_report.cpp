@@ -203,11 +203,11 @@ class Story {
     if (d_.budget.findings.size() != d_.findings.size() || d_.budget.noise <= 0) return;
     TextTable table({word_column("source"), word_column("stage"), "share"});
     for (std::size_t k = 0; k < d_.findings.size(); ++k) {
-      table.add({name_of(d_.findings[k]), d_.findings[k].stage,
-                 fmt::format("{:.1f} %", d_.budget.findings[k])});
+      table.add(
+          {name_of(d_.findings[k]), d_.findings[k].stage, fixed(d_.budget.findings[k], 1) + " %"});
     }
-    table.add({"unexplained", "", fmt::format("{:.1f} %", d_.budget.unexplained)});
-    table.add({rest_words(d_.unexplained), "", fmt::format("{:.1f} %", d_.budget.noise)});
+    table.add({"unexplained", "", fixed(d_.budget.unexplained, 1) + " %"});
+    table.add({rest_words(d_.unexplained), "", fixed(d_.budget.noise, 1) + " %"});
     out_.emplace_back(TitledTable{"Where the squared error comes from", std::move(table)});
   }
 

@@ -130,8 +130,10 @@ std::string battery_text(const LogSummary::Battery& battery) {
                   battery.instance ? fmt::format(" {}", *battery.instance) : "",
                   battery.least_voltage, battery.greatest_voltage, battery.mean_voltage);
   if (!battery.mean_current) return text + "; no current\n";
-  return text + fmt::format("; mean {:.2f} A, at most {:.2f} A; {:.2f} Wh\n", *battery.mean_current,
-                            *battery.greatest_current, *battery.energy / joule_per_Wh);
+  // An ammeter off zero reads a little less than nothing.
+  return text + fmt::format("; mean {} A, at most {} A; {} Wh\n", fixed(*battery.mean_current, 2),
+                            fixed(*battery.greatest_current, 2),
+                            fixed(*battery.energy / joule_per_Wh, 2));
 }
 
 std::string findings_text(const LogSummary& summary) {

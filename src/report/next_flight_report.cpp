@@ -115,10 +115,10 @@ std::string next_flight_text(const NextFlight& flight, const std::string& file,
     out += table.text(style);
     const FlightArea area = area_of(flight);
     std::string words = fmt::format(
-        "It takes an area that is free from {:.0f} m south to {:.0f} m north of home and from "
-        "{:.0f} m west to {:.0f} m east, {:.0f} to {:.0f} m above it, and up to {:.1f} m/s.",
-        -area.south, area.north, -area.west, area.east, area.lowest, area.highest,
-        flight.limits.speed);
+        "It takes an area that is free from {} m south to {} m north of home and from {} m west to "
+        "{} m east, {} to {} m above it, and up to {} m/s.",
+        fixed(-area.south, 0), fixed(area.north, 0), fixed(-area.west, 0), fixed(area.east, 0),
+        fixed(area.lowest, 0), fixed(area.highest, 0), fixed(flight.limits.speed, 1));
     words += " Then diagnose all flights together, each with its --flight";
     for (const FinerBase& f : flight.finer_base) {
       words += fmt::format(", and with {} instead of {} in --base, since this one turns", f.fine,

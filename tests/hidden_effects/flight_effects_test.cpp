@@ -32,6 +32,11 @@ HiddenFlight drawn_flight(std::uint64_t seed) {
   return hidden;
 }
 
+/// Another one in each run.
+HiddenFlight fresh_flight(std::uint64_t draw) {
+  return drawn_flight(1'000'003ULL * test::run_seed() + draw);
+}
+
 bool names_first(const Diagnosis& d, const std::string& effect) {
   if (d.findings.empty()) return false;
   const Finding& first = d.findings.front();
@@ -98,7 +103,7 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
     std::uint64_t seed = 40;
     for (const double strength : c.strengths) {
       for (int repeat = 0; repeat < repeats; ++repeat) {
-        HiddenFlight hidden = drawn_flight(++seed);
+        HiddenFlight hidden = fresh_flight(++seed);
         hidden.*(c.field) = strength;
         const Diagnosis d = diagnosed(hidden);
         INFO(c.effect << " " << strength << " seed " << seed);
@@ -279,7 +284,7 @@ TEST_CASE("nothing hidden, nothing found") {
   int structure = 0;
   constexpr int flights = test::draws(200);
   for (int i = 0; i < flights; ++i) {
-    const Diagnosis d = diagnosed(drawn_flight(2000 + static_cast<std::uint64_t>(i)));
+    const Diagnosis d = diagnosed(fresh_flight(2000 + static_cast<std::uint64_t>(i)));
     alarms += d.findings.empty() ? 0 : 1;
     structure += d.unexplained.detected ? 1 : 0;
   }
@@ -319,7 +324,7 @@ TEST_CASE("two effects at once are both found") {
     for (std::size_t b = a + 1; b < cases().size(); ++b) {
       ++seed;
       if (seed % 4 >= test::draws(4)) continue;
-      HiddenFlight hidden = drawn_flight(seed);
+      HiddenFlight hidden = fresh_flight(seed);
       hidden.duration = 540;
       hidden.*(cases()[a].field) = cases()[a].strengths[1];
       hidden.*(cases()[b].field) = cases()[b].strengths[1];
@@ -390,7 +395,7 @@ TEST_CASE("what no catalogue knows is detected on its channel and not named") {
   int names = 0;
   for (const auto& [channel, effect] : unknown) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      HiddenFlight hidden = drawn_flight(1300 + 10 * static_cast<std::uint64_t>(flights) + seed);
+      HiddenFlight hidden = fresh_flight(1300 + 10 * static_cast<std::uint64_t>(flights) + seed);
       hidden.*(effect.first) = effect.second;
       hidden.roll_std = 3;
       const Diagnosis d = diagnosed(hidden);

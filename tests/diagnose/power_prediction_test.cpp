@@ -1,0 +1,107 @@
+// What the instruments of a power log should have read, and what effects change of it.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "diagnose/power_chain.hpp"
+#include "support/random.hpp"
+#include "support/random_designs.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+PowerLog drawn_log(test::Random& random) {
+  PowerLog log;
+  for (int i = 0; i < 40; ++i) {
+    log.time.push_back(5.0 * i);
+    log.height.push_back(random.uniform(5, 30));
+    log.airspeed.push_back(random.uniform(0, 9));
+    log.ambient_temperature_C.push_back(random.uniform(5, 30));
+    log.supply_voltage.push_back(random.uniform(74, 76));
+    log.supply_current.push_back(random.uniform(5, 7));
+    log.drone_voltage.push_back(random.uniform(60, 70));
+    log.bus_voltage.push_back(random.uniform(15, 17));
+    log.bus_current.push_back(random.uniform(15, 30));
+  }
+  return log;
+}
+
+/// All that the comparisons of the three stages take from the model.
+std::vector<double> predictions(const PowerModel& model, const PowerLog& read) {
+  ChainMemory memory;
+  const PowerLog log = without_errors(read, model.instruments);
+  std::vector<double> all = loop_resistance(model, log, memory);
+  const std::vector<double> power = motor_power(model, log, memory.loads);
+  all.insert(all.end(), power.begin(), power.end());
+  for (const double output : bus_power_of(log)) {
+    all.push_back(model.design.drone.auxiliary_power +
+                  converter_input_power(model.design.supply.converter, output));
+  }
+  for (const auto* channel : {&log.supply_voltage, &log.supply_current, &log.drone_voltage,
+                              &log.bus_voltage, &log.bus_current, &log.height, &log.airspeed}) {
+    all.insert(all.end(), channel->begin(), channel->end());
+  }
+  return all;
+}
+
+std::vector<double> neutral_values(const Effect& effect, const Design& design) {
+  std::vector<double> values;
+  for (const EffectParameter& p : effect.parameters) {
+    values.push_back(p.in_design != nullptr ? p.in_design(design) : p.neutral * p.unit_SI);
+  }
+  return values;
+}
+
+double largest_change(const std::vector<double>& before, const std::vector<double>& after) {
+  REQUIRE(before.size() == after.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    REQUIRE(std::isfinite(before[i]));
+    REQUIRE(std::isfinite(after[i]));
+    largest = std::max(largest, std::abs(after[i] - before[i]) / std::abs(before[i]));
+  }
+  return largest;
+}
+
+/// In a design that has some of what effects are about already.
+Design drawn_design(test::Random& random) {
+  Design design = test::published_design();
+  design.tether.cross_section = random.uniform(0.9e-6, 1.5e-6);
+  design.tether.conductor.temperature_coefficient = 0.004;
+  design.flight.air_density = random.uniform(1, 1.3);
+  if (random.chance(0.5)) design.tether.heating = {random.uniform(5, 30), 100, 0.3};
+  if (random.chance(0.5)) design.supply.converter.losses = {random.uniform(1, 10), 1e-4};
+  if (random.chance(0.5)) design.drone.translational_lift = {random.uniform(0.1, 0.5), 6};
+  if (random.chance(0.5)) design.drone.motor_air_density = 1.2;
+  if (random.chance(0.5)) design.tether.winch_pull = random.uniform(0, 3);
+  if (random.chance(0.5)) design.tether.spooled_length = random.uniform(0, 30);
+  if (random.chance(0.5)) design.tether.contact_resistance = random.uniform(0, 0.5);
+  if (random.chance(0.3)) {
+    design.tether.model = TetherModel::solved;
+    design.tether.slack = random.uniform(0.02, 0.1);
+  }
+  return design;
+}
+
+}  // namespace
+
+TEST_CASE("a power effect at its neutral values changes no prediction, beyond it every one does") {
+  test::each_random(6, [](test::Random& random) {
+    const PowerLog log = drawn_log(random);
+    const PowerModel model{.design = drawn_design(random)};
+    const std::vector<double> plain = predictions(model, log);
+    for (const Effect& effect : effect_catalogue(LogKind::power)) {
+      INFO(effect.id);
+      std::vector<double> values = neutral_values(effect, model.design);
+      PowerModel neutral = model;
+      effect.on_power(neutral, values);
+      CHECK(largest_change(plain, predictions(neutral, log)) < 1e-12);
+      values[0] += effect.parameters[0].scale * effect.parameters[0].unit_SI;
+      PowerModel changed = model;
+      effect.on_power(changed, values);
+      CHECK(largest_change(plain, predictions(changed, log)) > 1e-9);
+    }
+  });
+}
