@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "diagnose/flight_clock.hpp"
 #include "diagnose/flight_samples.hpp"
 #include "identify/flight_units.hpp"
 #include "identify/statistics.hpp"
@@ -58,6 +59,7 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
   FlightData data;
   data.faults = repair_flight_log(samples.log, samples.range);
   average_fast_samples(samples, data.faults.sample);
+  if (auto note = even_out_stamps(samples.log)) samples.notes.push_back(std::move(*note));
   data.faults.notes.insert(data.faults.notes.begin(), samples.notes.begin(), samples.notes.end());
   data.observations = observe(samples.log, samples.range, pitch_offset, gravity);
   data.record =

@@ -42,6 +42,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "log_flights_joined",
                                                                    "log_not_flying",
                                                                    "log_averaged",
+                                                                   "log_clock_jitter",
                                                                    "log_spikes",
                                                                    "log_stuck",
                                                                    "log_lag",

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "hidden_effects/diagnosed.hpp"
 #include "hidden_effects/power_scenarios.hpp"
@@ -87,6 +89,29 @@ std::string file_with(const std::string& formula, const std::string& parameter =
          R"(", "parameters": [{"name": ")" + parameter + R"(", "lower": -2, "upper": 2}]})";
 }
 
+/// The diagnosis of the published flight, the samples that were published.
+nlohmann::ordered_json published_flight(const std::filesystem::path& log,
+                                        const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"diagnose",
+                                     test::project_file("examples/holybro-x500.json"),
+                                     "--flight",
+                                     log.string(),
+                                     "--mass-g",
+                                     "1549",
+                                     "--from",
+                                     "25%",
+                                     "--to",
+                                     "90%",
+                                     "--pitch-offset-deg",
+                                     "1.4955439766569403",
+                                     "--format",
+                                     "json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const test::Ran run = test::run_tethercalc(arguments);
+  REQUIRE(run.exit_code == 0);
+  return nlohmann::ordered_json::parse(run.out);
+}
+
 }  // namespace
 
 TEST_CASE("a true hypothesis is found and sized, a false one beside it is not") {
@@ -166,34 +191,36 @@ TEST_CASE("the examples of hypotheses hold of the published flight as they say")
   const auto file = test::reference_file("data/x500-flight.csv");
   if (!file) return;
   const std::string folder = test::project_file("examples/effects/");
-  const test::Ran run = test::run_tethercalc({"diagnose",
-                                              test::project_file("examples/holybro-x500.json"),
-                                              "--flight",
-                                              file->string(),
-                                              "--mass-g",
-                                              "1549",
-                                              "--from",
-                                              "25%",
-                                              "--to",
-                                              "90%",
-                                              "--pitch-offset-deg",
-                                              "1.4955439766569403",
-                                              "--base",
-                                              "linear_drag,wind",
-                                              "--effects",
-                                              folder + "braking-wake.json",
-                                              "--effects",
-                                              folder + "ground-cushion.json",
-                                              "--format",
-                                              "json"});
-  REQUIRE(run.exit_code == 0);
-  const auto d = nlohmann::ordered_json::parse(run.out);
+  const auto d = published_flight(
+      *file, {"--base", "linear_drag,wind", "--effects", folder + "braking-wake.json", "--effects",
+              folder + "ground-cushion.json"});
   const auto& first = d["findings"][0];
   const auto rivals = first["indistinguishable_from"].get<std::vector<std::string>>();
   CHECK((first["effect"] == "braking_wake" ||
          std::find(rivals.begin(), rivals.end(), "braking_wake") != rivals.end()));
   CHECK(std::any_of(d["ruled_out"].begin(), d["ruled_out"].end(),
                     [](const auto& r) { return r["effect"] == "ground_cushion"; }));
+}
+
+TEST_CASE("structure of the published flight that comes back as an effect displaces no drag") {
+  const auto file = test::reference_file("data/x500-flight.csv");
+  if (!file) return;
+  const auto names = [](const nlohmann::ordered_json& d) {
+    std::set<std::string> found;
+    for (const auto& f : d["findings"]) found.insert(f["effect"].get<std::string>());
+    return found;
+  };
+  const auto before = published_flight(*file, {});
+  REQUIRE(before["unexplained"]["effect"].is_object());
+  const test::TemporaryFolder folder;
+  const std::string effects = folder.path() / "unnamed.json";
+  test::write_file(effects, before["unexplained"]["effect"].dump());
+  const std::set<std::string> after = names(published_flight(*file, {"--effects", effects}));
+  for (const char* effect : {"linear_drag", "wind", "propwash"}) {
+    INFO(effect);
+    CHECK(names(before).contains(effect));
+    CHECK(after.contains(effect));
+  }
 }
 
 TEST_CASE("an effect's sizes come first, whatever the order in its file") {

@@ -174,6 +174,29 @@ class LoggedLate {
   std::deque<double> on_its_way_;
 };
 
+/// What the recorder makes of a log: its stamps jitter, and rows are missing. Draws of its own, so
+/// that the flight is the same.
+void record(const HiddenFlight& h, FlightLog& log) {
+  Random random(~h.seed);
+  const double begin = log.time.front();
+  const double gap_begin = begin + 0.3 * (log.time.back() - begin);
+  FlightLog kept;
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    const bool in_gap = log.time[i] > gap_begin && log.time[i] < gap_begin + h.gap;
+    if (in_gap || uniform(random, 0, 1) < h.lost_rows) continue;
+    double stamp = log.time[i] + h.clock_jitter * uniform(random, -1, 1);
+    // A clock that is read later never shows less.
+    if (!kept.time.empty()) stamp = std::max(stamp, kept.time.back() + 1e-4);
+    kept.time.push_back(stamp);
+    for (auto series : {&FlightLog::roll, &FlightLog::pitch, &FlightLog::yaw,
+                        &FlightLog::north_velocity, &FlightLog::east_velocity,
+                        &FlightLog::down_velocity, &FlightLog::north_wind, &FlightLog::east_wind}) {
+      if (!(log.*series).empty()) (kept.*series).push_back((log.*series)[i]);
+    }
+  }
+  log = std::move(kept);
+}
+
 }  // namespace
 
 FlightLog fly(const HiddenFlight& h, Flown* flown) {
@@ -326,6 +349,7 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
       }
     }
   }
+  if (h.lost_rows > 0 || h.gap > 0 || h.clock_jitter > 0) record(h, log);
   return log;
 }
 

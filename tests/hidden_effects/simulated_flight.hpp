@@ -92,6 +92,11 @@ struct HiddenFlight {
   double velocity_lag = 0;    ///< s, of first order
   double velocity_scale = 1;  ///< logged over true
 
+  // What the log is, whatever flew.
+  double lost_rows = 0;     ///< part of the rows that are not in it, drawn one by one
+  double gap = 0;           ///< s without a row, after 30 % of the flight
+  double clock_jitter = 0;  ///< s, by so much at most a stamp is off; rows are taken evenly
+
   // Effects that no catalogue has.
   double roll_drag = 0;    ///< N·s/m: drag of u·(1 − cos φ)
   double step_force = 0;   ///< N forward from 45 % of the flight on

@@ -46,6 +46,7 @@ enum class WarningKind {
   log_flights_joined,          ///< flights of one log judged together
   log_not_flying,              ///< seconds on the ground or tilted too far
   log_averaged,                ///< means judged instead of samples
+  log_clock_jitter,            ///< stamps off the even moments of the samples
   log_spikes,                  ///< samples that stand out from their neighbours
   log_stuck,                   ///< a channel that repeats one value
   log_lag,                     ///< a channel on a clock of its own, shifted back
@@ -61,7 +62,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 49;
+inline constexpr std::size_t warning_kind_count = 50;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.

@@ -1,0 +1,69 @@
+// Flights whose recorder was not perfect: rows that are missing, and stamps that are off.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "hidden_effects/diagnosed.hpp"
+#include "support/random.hpp"
+
+using namespace tethercalc;
+using truth::HiddenFlight;
+
+namespace {
+
+HiddenFlight drawn_flight(int draw) {
+  test::Random random(1'000'003U * test::run_seed() + static_cast<unsigned>(draw));
+  HiddenFlight hidden;
+  hidden.seed = 1'000'003ULL * test::run_seed() + static_cast<std::uint64_t>(draw);
+  hidden.duration = 300;
+  hidden.mass = random.uniform(1.5, 2.3);
+  hidden.front_area = random.uniform(0.010, 0.022);
+  hidden.top_area = random.uniform(0.012, 0.022);
+  hidden.linear = random.uniform(12, 20);
+  hidden.wind = random.uniform(-1.8, 1.8);
+  return hidden;
+}
+
+struct Alarms {
+  int names = 0;
+  std::string told;
+};
+
+/// Of flights that hide nothing, recorded as `spoil` has it.
+template <typename Spoil>
+Alarms alarms(int flights, Spoil spoil) {
+  Alarms all;
+  for (int draw = 0; draw < flights; ++draw) {
+    HiddenFlight hidden = drawn_flight(draw);
+    spoil(hidden, draw);
+    const Diagnosis d = diagnosed(hidden);
+    all.names += d.findings.empty() ? 0 : 1;
+    for (const Finding& f : d.findings) all.told += f.effect + " ";
+  }
+  return all;
+}
+
+constexpr int flights = test::draws(40);
+/// 2 % are asked for; four of 40 have a chance of 0.8 % then.
+constexpr int most_alarms = 3;
+
+}  // namespace
+
+TEST_CASE("rows that are missing here and there, and for seconds, give nothing a name") {
+  const Alarms found = alarms(flights, [](HiddenFlight& hidden, int draw) {
+    hidden.lost_rows = 0.05;
+    hidden.gap = draw % 2 == 0 ? 3 : 0;
+  });
+  INFO(found.told);
+  CHECK(found.names <= most_alarms);
+}
+
+TEST_CASE("stamps that are off by milliseconds give nothing a name") {
+  const Alarms found = alarms(flights, [](HiddenFlight& hidden, int draw) {
+    hidden.clock_jitter = 0.015;
+    constexpr int steps[] = {10, 5, 4, 2};  // 10, 20, 25 and 50 Hz
+    hidden.steps_per_sample = steps[draw % 4];
+  });
+  INFO(found.told);
+  CHECK(found.names <= most_alarms);
+}
