@@ -40,7 +40,7 @@ PowerDiagnosis diagnosis_of(const Rig& rig, const HiddenEffects& hidden, std::ui
   return diagnose_power(spec(rig), as_power_log(simulate(scenario)));
 }
 
-std::string summary(const Diagnosis& diagnosis) {
+std::string findings_in(const Diagnosis& diagnosis) {
   std::string text;
   for (const Finding& f : diagnosis.findings) {
     text += fmt::format("{} {:.3g} to {:.3g}, {:.0f} %; ", f.effect, f.parameters[0].ci95_lower,
@@ -87,7 +87,7 @@ TEST_CASE("a cable that hangs as the spec says yields no finding") {
     for (int i = 0; i < logs; ++i) {
       const Diagnosis d = diagnosis_of(rig, {}, static_cast<std::uint64_t>(i)).diagnosis;
       alarms += !d.findings.empty();
-      told += summary(d) + "\n";
+      told += findings_in(d) + "\n";
     }
   }
   INFO(told);
@@ -106,7 +106,7 @@ TEST_CASE("drag, slack and pull of a hanging cable are told from one another and
       const double truth = hanging.hide(hidden, random);
       const Diagnosis d =
           diagnosis_of(hanging.rig, hidden, 100 + static_cast<std::uint64_t>(i)).diagnosis;
-      told += fmt::format("{:.3g}: {}\n", truth, summary(d));
+      told += fmt::format("{:.3g}: {}\n", truth, findings_in(d));
       if (d.findings.empty()) {
         // Wind on much cable is rare: where few stretches have it, that is no proof.
         told_of += test::lists(d.suspected, hanging.effect);
