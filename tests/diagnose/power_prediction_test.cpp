@@ -60,7 +60,7 @@ double largest_change(const std::vector<double>& before, const std::vector<doubl
   REQUIRE(before.size() == after.size());
   double largest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    REQUIRE(std::isfinite(before[i]));
+    if (!std::isfinite(before[i]) && !std::isfinite(after[i])) continue;
     const double change = std::abs(after[i] - before[i]) / std::abs(before[i]);
     largest = std::max(largest, std::isfinite(change) ? change : infinity);
   }
@@ -73,7 +73,7 @@ Design drawn_design(test::Random& random) {
   design.tether.cross_section = random.uniform(0.9e-6, 1.5e-6);
   design.tether.conductor.temperature_coefficient = 0.004;
   design.flight.air_density = random.uniform(1, 1.3);
-  if (random.chance(0.5)) design.tether.heating = {random.uniform(5, 30), 100, 0.3};
+  if (random.chance(0.5)) design.tether.heating = {random.uniform(5, 12), 100, 0.3};
   if (random.chance(0.5)) design.supply.converter.losses = {random.uniform(1, 10), 1e-4};
   if (random.chance(0.5)) design.drone.translational_lift = {random.uniform(0.1, 0.5), 6};
   if (random.chance(0.5)) design.drone.motor_air_density = 1.2;
@@ -95,6 +95,8 @@ TEST_CASE("a power effect at its neutral values changes no prediction, beyond it
     const PowerLog log = drawn_log(random);
     const PowerModel model{.design = drawn_design(random)};
     const std::vector<double> plain = predictions(model, log);
+    const auto exist = std::ranges::count_if(plain, [](double x) { return std::isfinite(x); });
+    REQUIRE(static_cast<double>(exist) > 0.8 * static_cast<double>(plain.size()));
     for (const Effect& effect : effect_catalogue(LogKind::power)) {
       INFO(effect.id);
       std::vector<double> values = neutral_values(effect, model.design);

@@ -67,3 +67,27 @@ TEST_CASE("stamps that are off by milliseconds give nothing a name") {
   INFO(found.told);
   CHECK(found.names <= most_alarms);
 }
+
+TEST_CASE("what is hidden is found and sized in spite of missing rows and stamps that are off") {
+  int found = 0;
+  int covered = 0;
+  const int draws = test::draws(8);
+  for (int draw = 0; draw < draws; ++draw) {
+    HiddenFlight hidden = drawn_flight(100 + draw);
+    hidden.propwash = 0.4;
+    hidden.lost_rows = 0.05;
+    hidden.gap = 3;
+    hidden.clock_jitter = draw % 2 == 0 ? 0.015 : 0;
+    const Diagnosis d = diagnosed(hidden);
+    const auto propwash = std::ranges::find(d.findings, "propwash", &Finding::effect);
+    if (propwash == d.findings.end()) continue;
+    ++found;
+    const ParameterEstimate& k = propwash->parameters.front();
+    covered += k.ci95_lower <= hidden.propwash && hidden.propwash <= k.ci95_upper ? 1 : 0;
+    const bool evened = std::ranges::any_of(
+        d.notes, [](const Warning& w) { return w.kind == WarningKind::log_clock_jitter; });
+    CHECK(evened == (hidden.clock_jitter > 0));
+  }
+  CHECK(found >= draws - 1);
+  CHECK(covered >= found - 3);
+}
