@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -31,12 +32,15 @@ Diagnosis diagnosis_of(const Scenario& scenario) {
   return diagnose_power(spec(), as_power_log(simulate(scenario))).diagnosis;
 }
 
-Row row_of(const HiddenEffect* effect, int logs, std::uint64_t seed) {
+using Hide = std::function<void(HiddenEffects&, double)>;
+
+/// `effect` is that which `hide` hides, where the catalogue has it.
+Row row_of(const Hide& hide, const HiddenEffect* effect, int logs, std::uint64_t seed) {
   Row row;
   for (int i = 0; i < logs; ++i) {
     Scenario scenario;
     scenario.seed = seed + static_cast<std::uint64_t>(i);
-    if (effect) effect->hide(scenario.hidden, logs > 1 ? i / (logs - 1.0) : 1);
+    hide(scenario.hidden, logs > 1 ? i / (logs - 1.0) : 1);
     const Diagnosis d = diagnosis_of(scenario);
     row.unnamed += d.unexplained.detected;
     if (d.findings.empty()) {
@@ -73,8 +77,9 @@ int main(int argc, char** argv) {
   columns.emplace_back("-");
 
   fmt::print(
-      "Rows: hidden, {} logs each, from the limit of detection to large. Columns: first finding,\n"
-      "numbered like the rows; \"-\" none.\n\n",
+      "Rows: hidden, {} logs each, from the limit of detection to large; then what no effect "
+      "does,\n"
+      "and nothing. Columns: first finding, numbered like the rows; \"-\" none.\n\n",
       logs);
   fmt::print("{:>2} {:<28}", "", "");
   for (std::size_t c = 0; c + 1 < columns.size(); ++c) fmt::print("{:>4}", c + 1);
@@ -89,15 +94,20 @@ int main(int argc, char** argv) {
                fmt::format("{}/{}", row.covered, row.fitted), row.more, row.unnamed);
     std::fflush(stdout);
   };
-  std::size_t number = 0;
+  std::size_t kinds = 0;
   for (const HiddenEffect& effect : hidden_effects()) {
-    ++number;
-    print(std::to_string(number), effect.id, row_of(&effect, logs, 50'000 * number));
+    ++kinds;
+    print(std::to_string(kinds), effect.id, row_of(effect.hide, &effect, logs, 50'000 * kinds));
   }
-  print("", "nothing", row_of(nullptr, 4 * logs, 900'000));
+  for (const UnknownEffect& unknown : unknown_effects()) {
+    ++kinds;
+    print("", unknown.words, row_of(unknown.hide, nullptr, logs, 50'000 * kinds));
+  }
+  const auto nothing = [](HiddenEffects&, double) {};
+  print("", "nothing", row_of(nothing, nullptr, 4 * logs, 900'000));
 
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   fmt::print("\n{:.0f} ms a log of about 1,550 samples\n",
-             1000 * seconds / (logs * (static_cast<double>(number) + 4)));
+             1000 * seconds / (logs * (static_cast<double>(kinds) + 4)));
 }

@@ -222,20 +222,12 @@ TEST_CASE("two power effects at once are both found, first half of the pairs") {
 TEST_CASE("two power effects at once are both found, second half of the pairs") { check_pairs(1); }
 
 TEST_CASE("what no power effect describes is seen, with its channel, and not given a name") {
-  struct Unknown {
-    const char* channel;
-    void (*hide)(HiddenEffects&, double);
-  };
-  const std::vector<Unknown> unknowns{
-      {"time_s", [](HiddenEffects& h, double s) { h.step_in_motor_power = 0.03 + 0.07 * s; }},
-      {"time_s", [](HiddenEffects& h, double s) { h.step_in_resistance = 0.03 + 0.15 * s; }},
-      {"height_m", [](HiddenEffects& h, double s) { h.motor_power_per_height = 0.06 + 0.1 * s; }}};
   constexpr int sizes = test::draws(10);
   int right = 0;
   int total = 0;
   std::string failures;
   test::Random random(test::run_seed());
-  for (const Unknown& unknown : unknowns) {
+  for (const UnknownEffect& unknown : unknown_effects()) {
     for (int i = 0; i < sizes; ++i) {
       Scenario scenario;
       scenario.seed = seed(300'000 + static_cast<std::uint64_t>(total));
@@ -246,7 +238,7 @@ TEST_CASE("what no power effect describes is seen, with its channel, and not giv
                       d.findings.empty();
       ++total;
       right += ok;
-      if (!ok) failures += std::string(unknown.channel) + ": " + summary(d) + "\n";
+      if (!ok) failures += unknown.words + ": " + summary(d) + "\n";
     }
   }
   INFO(failures);

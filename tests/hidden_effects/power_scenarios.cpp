@@ -120,4 +120,17 @@ const std::vector<HiddenEffect>& hidden_effects() {
   return effects;
 }
 
+const std::vector<UnknownEffect>& unknown_effects() {
+  static const std::vector<UnknownEffect> unknowns{
+      {"step of the motor power", "time_s",
+       [](HiddenEffects& h, double s) { h.step_in_motor_power = 0.03 + 0.07 * s; }},
+      {"step of a resistance", "time_s",
+       [](HiddenEffects& h, double s) { h.step_in_resistance = 0.03 + 0.15 * s; }},
+      {"motor power with height²", "height_m",
+       [](HiddenEffects& h, double s) { h.motor_power_per_height = 0.06 + 0.1 * s; }},
+      {"wave of the motor power", "time_s",
+       [](HiddenEffects& h, double s) { h.motor_power_swing = 0.02 + 0.06 * s; }}};
+  return unknowns;
+}
+
 }  // namespace power_truth

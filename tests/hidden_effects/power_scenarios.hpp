@@ -26,4 +26,13 @@ struct HiddenEffect {
 
 [[nodiscard]] const std::vector<HiddenEffect>& hidden_effects();
 
+/// What no effect of the catalogue does, hidden at a strength as above.
+struct UnknownEffect {
+  std::string words;
+  std::string channel;  ///< that it goes with
+  std::function<void(HiddenEffects&, double strength)> hide;
+};
+
+[[nodiscard]] const std::vector<UnknownEffect>& unknown_effects();
+
 }  // namespace power_truth
