@@ -674,7 +674,8 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   std::deque<Effect> of_solved;
   if (design.tether.model == TetherModel::solved) {
     of_solved = of_solved_tether(design.tether, residuals, effects);
-    std::ranges::transform(of_solved, effects.begin(), [](const Effect& e) { return &e; });
+    std::transform(of_solved.begin(), of_solved.end(), effects.begin(),
+                   [](const Effect& e) { return &e; });
   }
 
   std::optional<TiltComparison> tilt;
