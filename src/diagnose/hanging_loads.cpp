@@ -74,8 +74,7 @@ double place_of_least(const Function& f, double lo, double hi) {
 }  // namespace
 
 HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation, double radius) {
-  Key key{situation, radius};
-  HangingSituation& alike = key.situation;
+  HangingSituation alike = situation;
   alike.height = 0;
   alike.paid_out.length = situation.paid_out.length ? std::optional(0.0) : std::nullopt;
   alike.paid_out.winch_tension =
@@ -85,19 +84,22 @@ HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation,
   alike.air.reference_height = 0;
   // Drag over weight has them, but where the Reynolds number follows the speed.
   if (!situation.by_reynolds_number) alike.air.density = alike.drag_coefficient = 1;
-  const auto known = families_.find(key);
-  if (known != families_.end()) return known->second;
-  Family family{.member = situation, .radius = radius};
+  for (Family& known : families_) {
+    if (known.radius == radius && known.alike == alike) return known;
+  }
+  Family& family = families_.emplace_back();
+  family = {.alike = alike, .member = situation, .radius = radius};
   family.member.cable_there_is = infinity;
   family.of_height = situation.offset != 0 || situation.by_reynolds_number ||
                      situation.axial_stiffness || situation.air.profile != WindProfile::uniform;
-  return families_.emplace(std::move(key), std::move(family)).first->second;
+  return family;
 }
 
 const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& family,
                                                                    const Place& place) {
-  const auto known = family.solved.find(place);
-  if (known != family.solved.end()) return known->second;
+  Known& known = family.known[place];
+  if (known.is_solved) return known.values;
+  known.is_solved = true;
   const auto octaves = [](int index) { return std::exp2(index / places_per_octave); };
   HangingSituation there = family.member;
   if (family.of_height) {
@@ -108,25 +110,25 @@ const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& famil
   hold(there, weight_of(there, family.radius), octaves(place[1]));
   CableSolver solver(most_steps_for_load);
   LoadShares shares{};
-  std::optional<Values> values;
   if (solve_shares(there, solver, family.radius, shares) == CableOutcome::hangs) {
-    values = shares;
-    values->back() /= distance_to(there);
+    known.values = shares;
+    known.values->back() /= distance_to(there);
   }
-  return family.solved.emplace(place, values).first->second;
+  return known.values;
 }
 
-const HangingLoads::Cell& HangingLoads::cell_at(Family& family, const Place& first) {
-  const auto known = family.cells.find(first);
-  if (known != family.cells.end()) return known->second;
-  Cell cell;
+const std::vector<HangingLoads::Values>& HangingLoads::corners_of(Family& family,
+                                                                  const Place& first) {
+  Known& known = family.known[first];
+  if (known.has_corners) return known.corners;
+  known.has_corners = true;
   const int heights = family.of_height ? 4 : 1;
   const auto towards_middle = [](int index, int count) {
     return count == 1 ? index : std::clamp(index, 1, 2);
   };
-  for (int i = 0; i < 4 && cell.hangs; ++i) {
-    for (int j = 0; j < 4 && cell.hangs; ++j) {
-      for (int k = 0; k < heights && cell.hangs; ++k) {
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      for (int k = 0; k < heights; ++k) {
         const auto* values = &solved_at(family, {first[0] + i, first[1] + j, first[2] + k});
         // Beside where it ceases to hang the outer corners are as those inside.
         if (!*values) {
@@ -134,12 +136,15 @@ const HangingLoads::Cell& HangingLoads::cell_at(Family& family, const Place& fir
               &solved_at(family, {first[0] + towards_middle(i, 4), first[1] + towards_middle(j, 4),
                                   first[2] + towards_middle(k, heights)});
         }
-        cell.hangs = values->has_value();
-        if (*values) cell.corners.push_back(**values);
+        if (!*values) {
+          known.corners.clear();
+          return known.corners;
+        }
+        known.corners.push_back(**values);
       }
     }
   }
-  return family.cells.emplace(first, std::move(cell)).first->second;
+  return known.corners;
 }
 
 HangingLoad::Parts HangingLoads::by_length(HangingSituation situation, double radius) {
@@ -193,10 +198,11 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
     if (axis == 0) first[axis] = std::max(0, first[axis]);
     weights[axis] = cubic(at[axis] - first[axis]);
   }
-  const Cell& cell = cell_at(family, first);
-  if (!cell.hangs) return situation.paid_out.winch_tension ? by_length(situation, radius) : no_load;
+  const std::vector<Values>& corners = corners_of(family, first);
+  if (corners.empty())
+    return situation.paid_out.winch_tension ? by_length(situation, radius) : no_load;
   Values values{};
-  auto corner = cell.corners.begin();
+  auto corner = corners.begin();
   const std::size_t heights = family.of_height ? 4 : 1;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {

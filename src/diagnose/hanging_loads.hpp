@@ -31,28 +31,26 @@ class HangingLoads {
   static constexpr std::size_t part_count = 5;
   using Values = std::array<double, part_count>;  ///< over the cable's own load, or the distance
   using Place = std::array<int, 3>;
-  struct Cell {
-    bool hangs = true;
-    std::vector<Values> corners{};  ///< 4 along each axis, the last axis innermost
+  /// A cable of the grid, and the loads about the places that it is the first corner of.
+  struct Known {
+    bool is_solved = false;
+    std::optional<Values> values{};  ///< of the cable, where it hangs
+    bool has_corners = false;
+    std::vector<Values> corners{};  ///< 4 along each axis, the last axis innermost; none: no cubic
   };
   /// Cables that hang alike at the same place.
   struct Family {
+    HangingSituation alike;   ///< what they share
     HangingSituation member;  ///< whichever was asked for first
     double radius = 0;
     bool of_height = false;  ///< whether the height decides, too
-    std::map<Place, std::optional<Values>> solved{};
-    std::map<Place, Cell> cells{};  ///< by their first corner
+    std::map<Place, Known> known{};
   };
   [[nodiscard]] Family& family_of(const HangingSituation& situation, double radius);
-  [[nodiscard]] static const Cell& cell_at(Family& family, const Place& first);
   [[nodiscard]] static const std::optional<Values>& solved_at(Family& family, const Place& place);
+  [[nodiscard]] static const std::vector<Values>& corners_of(Family& family, const Place& first);
 
-  struct Key {
-    HangingSituation situation;
-    double radius = 0;
-    auto operator<=>(const Key&) const = default;
-  };
-  std::map<Key, Family> families_;
+  std::vector<Family> families_;  ///< few
 };
 
 }  // namespace tethercalc

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -461,14 +460,15 @@ std::vector<const Effect*> testable_effects(const Design& design, const PowerLog
 }
 
 /// The effects as they act where the tether is solved.
-std::deque<Effect> of_solved_tether(const Tether& tether, const PowerResiduals& residuals,
-                                    const std::vector<const Effect*>& effects) {
+std::vector<Effect> of_solved_tether(const Tether& tether, const PowerResiduals& residuals,
+                                     const std::vector<const Effect*>& effects) {
   const bool loss_shows_length =
       hangs_on_winch(tether) &&
       std::ranges::count(residuals.stages(), Stage::tether, &PowerStage::stage) > 0;
-  std::deque<Effect> out;
+  std::vector<Effect> out;
   for (const Effect* effect : effects) {
-    Effect& solved = out.emplace_back(*effect);
+    out.push_back(*effect);
+    Effect& solved = out.back();
     solved.twin_of.clear();
     if (solved.bends_tether && loss_shows_length) solved.shows_in.push_back(Stage::tether);
   }
@@ -671,7 +671,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   std::vector<const Effect*> effects =
       testable_effects(design, residuals.log(), unusable, candidates, diagnosis);
   if (residuals.stages().empty()) return result;
-  std::deque<Effect> of_solved;
+  std::vector<Effect> of_solved;
   if (design.tether.model == TetherModel::solved) {
     of_solved = of_solved_tether(design.tether, residuals, effects);
     std::transform(of_solved.begin(), of_solved.end(), effects.begin(),
