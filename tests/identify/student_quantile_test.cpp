@@ -1,25 +1,24 @@
-// Student's quantiles against a printed table.
-#include <array>
+// Student's quantiles against closed forms and printed tables.
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "identify/statistics.hpp"
 
 using namespace tethercalc;
 
-TEST_CASE("Student's quantiles are those of the printed table, and odd about one half") {
-  // Degrees of freedom, probability, t: NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.2.
-  constexpr std::array<std::array<double, 3>, 7> table{{{1, 0.975, 12.706},
-                                                        {1, 0.999, 318.313},
-                                                        {2, 0.95, 2.920},
-                                                        {5, 0.975, 2.571},
-                                                        {10, 0.999, 4.143},
-                                                        {30, 0.90, 1.310},
-                                                        {100, 0.975, 1.984}}};
-  for (const auto& [degrees, p, t] : table) {
-    CHECK(student_quantile(degrees, p) == Approx(t).margin(6e-4));
-    CHECK(student_quantile(degrees, 1 - p) == Approx(-student_quantile(degrees, p)));
+TEST_CASE("with one and two degrees of freedom Student's quantile is its closed form") {
+  for (const double p : {0.001, 0.2, 0.5, 0.9, 0.975, 0.9999}) {
+    CHECK(student_quantile(1, p) == Approx(std::tan(std::numbers::pi * (p - 0.5))).margin(1e-12));
+    CHECK(student_quantile(2, p) == Approx((p - 0.5) * std::sqrt(2 / (p * (1 - p)))).margin(1e-12));
   }
-  CHECK(student_quantile(7, 0.5) == 0);
+}
+
+TEST_CASE("Student's quantiles are those of every printed table") {
+  CHECK(student_quantile(5, 0.975) == Approx(2.571).margin(5e-4));
+  CHECK(student_quantile(10, 0.975) == Approx(2.228).margin(5e-4));
+  CHECK(student_quantile(30, 0.975) == Approx(2.042).margin(5e-4));
+  CHECK(student_quantile(5, 0.025) == Approx(-student_quantile(5, 0.975)));
 }
 
 TEST_CASE("beyond Student's quantile lies what is asked, far out in the tail as well") {
