@@ -84,8 +84,8 @@ HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation,
   alike.air.reference_height = 0;
   // Drag over weight has them, but where the Reynolds number follows the speed.
   if (!situation.by_reynolds_number) alike.air.density = alike.drag_coefficient = 1;
-  for (Family& known : families_) {
-    if (known.radius == radius && known.alike == alike) return known;
+  for (Family& one : families_) {
+    if (one.radius == radius && one.alike == alike) return one;
   }
   Family& family = families_.emplace_back();
   family = {.alike = alike, .member = situation, .radius = radius};
