@@ -96,6 +96,10 @@ std::vector<PaidOut> parsed_paid_out(const CableOptions& options, const Design& 
     problems.succeeds([&] { check_range("--length", *options.length, 1e-3, 1e6, "m"); });
     return {{.length = options.length, .winch_tension = {}}};
   }
+  if (options.winch_tension == 0) {
+    problems.add("--winch-tension",
+                 "a winch that does not pull decides no length; --slack or --length does");
+  }
   FieldOptions fields(design, problems);
   Tether tether = design.tether;
   tether.winch_pull =

@@ -128,6 +128,12 @@ TEST_CASE("bad numbers of a shape are told all at once") {
   CHECK_THAT(no_area.err, Catch::Contains("--area-mm2"));
 }
 
+TEST_CASE("a winch that does not pull is refused, not taken for slack") {
+  const Ran none = shaped({"--winch-tension", "0"});
+  CHECK(none.exit_code == 2);
+  CHECK(none.err.find("--winch-tension: a winch that does not pull") != std::string::npos);
+}
+
 TEST_CASE("bare cables of a file are answered under their ids, with the keys of exact solutions") {
   for (const char* name : {"data/shape/catenary.json", "data/shape/drag.json"}) {
     const auto file = reference_file(name);
