@@ -29,11 +29,14 @@ bool is_hardly_chance(double p_value, const Gain& gain, double least_of_a_name,
          gain.percent >= least_worth_telling;
 }
 
-bool helps_much(const BlockFit& before, const BlockFit& after, double least_of_a_name) {
-  const Gain gain = gain_between(before, after);
-  const Gain typical = typical_gain_between(before, after);
+bool helps_much(const Gain& gain, const Gain& typical, double least_of_a_name) {
   return gain.percent >= much * least_of_a_name && gain.percent > 2 * gain.se &&
          typical.percent > 2 * typical.se;
+}
+
+/// Standard errors to either side of a 95 % interval.
+double student_factor(const Record& record, std::size_t group) {
+  return student_quantile(degrees_of_freedom(record, group), 0.975);
 }
 
 std::size_t owner_of(const Record& record, std::size_t parameter) {
@@ -274,7 +277,19 @@ Gain typical_gain_between(const BlockFit& before, const BlockFit& after) {
 
 bool earns_a_name(const Record& record, std::size_t group, const Gain& gain, double least_percent) {
   return gain.percent >= least_percent * record.problem().groups[group].least_gain_factor &&
-         gain.percent > student_quantile(degrees_of_freedom(record, group), 0.975) * gain.se;
+         gain.percent > student_factor(record, group) * gain.se;
+}
+
+std::optional<Unearned> weakest_unearned(const Record& record, std::span<const NamedGains> names,
+                                         double least_percent) {
+  std::optional<Unearned> weakest;
+  for (const NamedGains& name : names) {
+    for (const Gain& gain : {name.in_order, name.beside}) {
+      if (weakest && gain.percent >= weakest->gain.percent) continue;
+      if (!earns_a_name(record, name.group, gain, least_percent)) weakest = {name.group, gain};
+    }
+  }
+  return weakest;
 }
 
 SelectedGroup freed_between(const BlockFit& before, const BlockFit& after, std::size_t group) {
@@ -480,10 +495,11 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     }
     BlockFit freed = with({g}, FitUse::search);
     Gain gained = gain_between(fit, freed);
-    candidate.suspected = (contains(found.doubted, g) && gained.percent >= least_worth_telling) ||
-                          is_hardly_chance(candidate.p_value, gained, found.least_gain_percent,
-                                           record.problem().groups[g]) ||
-                          helps_much(fit, freed, found.least_gain_percent);
+    candidate.suspected =
+        (contains(found.doubted, g) && gained.percent >= least_worth_telling) ||
+        is_hardly_chance(candidate.p_value, gained, found.least_gain_percent,
+                         record.problem().groups[g]) ||
+        helps_much(gained, typical_gain_between(fit, freed), found.least_gain_percent);
     if (candidate.suspected) {
       freed = with({g}, FitUse::report);
       gained = gain_between(fit, freed);
@@ -575,7 +591,7 @@ Selection nothing_selected(const Record& record, const SelectionOptions& options
   nothing.rows = static_cast<std::size_t>(record.rows());
   nothing.blocks = record.blocks();
   for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
-    nothing.student_factor.push_back(student_quantile(degrees_of_freedom(record, g), 0.975));
+    nothing.student_factor.push_back(student_factor(record, g));
   }
   nothing.least_gain_percent = options.least_gain_percent;
   return nothing;

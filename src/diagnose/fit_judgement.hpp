@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,6 +34,24 @@ struct Gain {
 /// rule for flights and power logs, for a step of the search and for what is told.
 [[nodiscard]] bool earns_a_name(const Record& record, std::size_t group, const Gain& gain,
                                 double least_percent);
+
+/// A name with what it gains beside those told before it, and beside all others.
+struct NamedGains {
+  std::size_t group = 0;
+  Gain in_order;
+  Gain beside;
+};
+
+/// A name that is not earned, and by which gain.
+struct Unearned {
+  std::size_t group = 0;
+  Gain gain;
+};
+
+/// The weakest of the gains that do not earn their name; nothing where all do.
+[[nodiscard]] std::optional<Unearned> weakest_unearned(const Record& record,
+                                                       std::span<const NamedGains> names,
+                                                       double least_percent);
 
 /// By how much a fit predicts the typical block better than another: the mean over blocks of
 /// 100·(1 − √(after/before)) as logarithms, each block held against itself. Unlike the gain, it

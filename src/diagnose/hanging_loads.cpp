@@ -34,10 +34,6 @@ void hold(HangingSituation& situation, double weight, double value) {
   }
 }
 
-double weight_of(const HangingSituation& situation, double radius) {
-  return situation.weight[0] + radius * (situation.weight[1] + radius * situation.weight[2]);
-}
-
 /// m/s at which the wind's drag is so many times the weight.
 double wind_of(HangingSituation situation, double radius, double ratio) {
   situation.air.wind.x = 1;
@@ -107,7 +103,7 @@ const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& famil
     there.air.reference_height += there.height - family.member.height;
   }
   there.air.wind.x = -wind_of(there, family.radius, little_wind * (octaves(place[0]) - 1));
-  hold(there, weight_of(there, family.radius), octaves(place[1]));
+  hold(there, weight_at(there, family.radius), octaves(place[1]));
   CableSolver solver(most_steps_for_load);
   LoadShares shares{};
   if (solve_shares(there, solver, family.radius, shares) == CableOutcome::hangs) {
@@ -180,7 +176,7 @@ HangingLoad::Parts HangingLoads::by_length(HangingSituation situation, double ra
 
 HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double radius) {
   Family& family = family_of(situation, radius);
-  const double weight = weight_of(situation, radius);
+  const double weight = weight_at(situation, radius);
   const double ratio = drag_over_weight(situation, radius).value;
   const std::array<double, 3> at{
       places_per_octave * std::log2(1 + ratio / little_wind),
@@ -192,6 +188,7 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   if (!std::all_of(at.begin(), at.end(), has_place)) return solved_itself(situation, radius);
   Place first{};
   std::array<std::array<double, 4>, 3> weights{};
+  weights[2] = {1};  // where the height does not decide
   for (std::size_t axis = 0; axis < at.size(); ++axis) {
     if (axis == 2 && !family.of_height) break;
     first[axis] = static_cast<int>(std::floor(at[axis])) - 1;
@@ -199,15 +196,16 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
     weights[axis] = cubic(at[axis] - first[axis]);
   }
   const std::vector<Values>& corners = corners_of(family, first);
-  if (corners.empty())
+  if (corners.empty()) {
     return situation.paid_out.winch_tension ? by_length(situation, radius) : no_load;
+  }
   Values values{};
   auto corner = corners.begin();
   const std::size_t heights = family.of_height ? 4 : 1;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       for (std::size_t k = 0; k < heights; ++k, ++corner) {
-        const double share = weights[0][i] * weights[1][j] * (family.of_height ? weights[2][k] : 1);
+        const double share = weights[0][i] * weights[1][j] * weights[2][k];
         for (std::size_t part = 0; part < part_count; ++part) {
           values[part] += share * (*corner)[part];
         }

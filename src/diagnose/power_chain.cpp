@@ -144,13 +144,7 @@ const SteadyFlight* FlownDesign::in(const FlightState& state) {
 }
 
 double FlownDesign::tan_pitch(double limit, double guess) const {
-  const double weight = this->weight();
-  if (!std::isfinite(weight)) return infinity;
-  const AirframeDrag& drag = design_.drone.drag;
-  const double factor =
-      area_force_factor(drag, design_.flight.air_density, steady_->state().airspeed);
-  return equilibrium_tan_pitch({weight, factor, drag_, drag.front_area, drag.top_area}, limit,
-                               guess);
+  return steady_->tan_pitch_against(drag_, weight(), limit, guess);
 }
 
 std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,

@@ -423,26 +423,21 @@ class Search {
   /// Takes back the weakest name whose gain, as it will be told or beside all the other names, does
   /// not earn one. True where there was one.
   bool drop_unearned(const BlockFit& base) {
-    std::optional<std::size_t> weakest;
-    double weakest_gain = infinity;
     const BlockFit all = fit(selected_, {}, &current_);
     BlockFit before = base;
     Groups so_far;
+    std::vector<NamedGains> names;
     for (const std::size_t g : selected_) {
       so_far.push_back(g);
       BlockFit after = fit(so_far, {}, &current_);
       const BlockFit without = fit(selected_without(g), {}, &current_);
-      for (const Gain& gain : {gain_between(before, after), gain_between(without, all)}) {
-        if (earns_a_name(record_, g, gain, options_.least_gain_percent)) continue;
-        if (gain.percent >= weakest_gain) continue;
-        weakest = g;
-        weakest_gain = gain.percent;
-      }
+      names.push_back({g, gain_between(before, after), gain_between(without, all)});
       before = std::move(after);
     }
-    if (!weakest) return false;
-    tell("taking back " + group(*weakest).id);
-    leave(*weakest);
+    const auto unearned = weakest_unearned(record_, names, options_.least_gain_percent);
+    if (!unearned) return false;
+    tell("taking back " + group(unearned->group).id);
+    leave(unearned->group);
     return true;
   }
 

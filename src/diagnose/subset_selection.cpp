@@ -336,23 +336,18 @@ class SubsetSearch {
     base_ = model({}, {}, nullptr, FitUse::report);
     while (true) {
       best_ = model(best_.named, best_.shapes, &best_.fit, FitUse::report);
-      std::optional<std::size_t> weakest;
-      Gain weakest_gain{infinity, 0};
+      std::vector<NamedGains> names;
       for (const SelectedGroup& s : selected()) {
-        const Gain in_order{s.gain_percent, s.gain_se_percent};
         const BlockFit without = best_without(s.group, FitUse::report).fit;
-        for (const Gain& gain : {in_order, gain_between(without, best_.fit)}) {
-          if (gain.percent >= weakest_gain.percent ||
-              earns_a_name(record_, s.group, gain, options_.least_gain_percent)) {
-            continue;
-          }
-          weakest = s.group;
-          weakest_gain = gain;
-        }
+        names.push_back(
+            {s.group, {s.gain_percent, s.gain_se_percent}, gain_between(without, best_.fit)});
       }
-      if (!weakest) return;
-      if (weakest_gain.percent >= options_.least_gain_percent) doubted_.push_back(*weakest);
-      best_ = best_without(*weakest);
+      const auto unearned = weakest_unearned(record_, names, options_.least_gain_percent);
+      if (!unearned) return;
+      if (unearned->gain.percent >= options_.least_gain_percent) {
+        doubted_.push_back(unearned->group);
+      }
+      best_ = best_without(unearned->group);
     }
   }
 

@@ -18,11 +18,6 @@ constexpr double narrowest_piece = 1.0 / 1024;
 /// log2(drag/weight) beyond which nothing is remembered.
 constexpr double most_octaves = 60;
 
-double weight_at(const HangingSituation& situation, double radius) {
-  const auto& [w0, w1, w2] = situation.weight;
-  return w0 + radius * (w1 + radius * w2);
-}
-
 double weight_slope_at(const HangingSituation& situation, double radius) {
   return situation.weight[1] + 2 * radius * situation.weight[2];
 }
@@ -42,6 +37,11 @@ double slack_above_station(const HangingSituation& situation) {
 }
 
 }  // namespace
+
+double weight_at(const HangingSituation& situation, double radius) {
+  const auto& [w0, w1, w2] = situation.weight;
+  return w0 + radius * (w1 + radius * w2);
+}
 
 OwnLoad own_load(const HangingSituation& situation, double radius) {
   const double weight = weight_at(situation, radius);

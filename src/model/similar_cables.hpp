@@ -25,6 +25,9 @@ struct OwnLoad {
   double slope = 0;
 };
 
+/// N/m of the cable with conductors of `radius`.
+[[nodiscard]] double weight_at(const HangingSituation& situation, double radius);
+
 /// hypot(weight, drag)·height + winch tension.
 [[nodiscard]] OwnLoad own_load(const HangingSituation& situation, double radius);
 

@@ -195,14 +195,19 @@ double SteadyFlight::radius_between(double limit, double light, double heavy) co
 }
 
 double SteadyFlight::tan_pitch(double radius, double weight, double tan_limit, double guess) const {
-  if (area_force_factor_ == 0 && tether_.drag(radius) == 0) return 0;
-  if (!(weight < std::numeric_limits<double>::infinity())) return weight;
-  return equilibrium_tan_pitch(force_balance(radius, weight), tan_limit, guess);
+  return tan_pitch_against(tether_.drag(radius), weight, tan_limit, guess);
 }
 
-ForceBalance SteadyFlight::force_balance(double radius, double weight) const {
+double SteadyFlight::tan_pitch_against(double tether_drag, double weight, double tan_limit,
+                                       double guess) const {
+  if (area_force_factor_ == 0 && tether_drag == 0) return 0;
+  if (!(weight < std::numeric_limits<double>::infinity())) return weight;
+  return equilibrium_tan_pitch(force_balance(tether_drag, weight), tan_limit, guess);
+}
+
+ForceBalance SteadyFlight::force_balance(double tether_drag, double weight) const {
   const AirframeDrag& drag = design_->drone.drag;
-  return {weight, area_force_factor_, tether_.drag(radius), drag.front_area, drag.top_area};
+  return {weight, area_force_factor_, tether_drag, drag.front_area, drag.top_area};
 }
 
 SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
@@ -224,15 +229,15 @@ SteadyFlight::Radii SteadyFlight::beyond_pitch_limit() const {
 }
 
 SteadyFlight::Thrust SteadyFlight::thrust_of(double radius, Weight weight, double tan_pitch) const {
-  const InclinedThrust all = inclined_thrust(force_balance(radius, weight.value), tan_pitch,
-                                             weight.slope, tether_.drag_slope(radius));
+  const InclinedThrust all = inclined_thrust(force_balance(tether_.drag(radius), weight.value),
+                                             tan_pitch, weight.slope, tether_.drag_slope(radius));
   return {all.value * per_motor_, all.slope * per_motor_, all.tan_slope};
 }
 
 double SteadyFlight::least_tan_pitch(const Radii& between, double lighter, double of_drag) const {
   const double heaviest = weight(between.hi);
   if (!(heaviest < std::numeric_limits<double>::infinity())) return 0;
-  ForceBalance balance = force_balance(between.lo, heaviest + lighter);
+  ForceBalance balance = force_balance(tether_.drag(between.lo), heaviest + lighter);
   balance.tether_drag *= of_drag;
   return equilibrium_tan_pitch(balance, std::numeric_limits<double>::infinity());
 }
@@ -241,7 +246,7 @@ double SteadyFlight::most_tan_pitch(const Radii& between, double lighter, double
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   const double least = weight(between.lo) - lighter;
   if (!(least > 0) || !(least < unlimited)) return unlimited;
-  ForceBalance balance = force_balance(between.hi, least);
+  ForceBalance balance = force_balance(tether_.drag(between.hi), least);
   balance.tether_drag *= of_drag;
   return equilibrium_tan_pitch(balance, unlimited);
 }

@@ -19,6 +19,7 @@
 using namespace tethercalc;
 using namespace power_truth;
 using test::lists;
+using test::names;
 
 namespace {
 
@@ -27,13 +28,6 @@ std::uint64_t seed(std::uint64_t number) { return 1'000'003ULL * test::run_seed(
 Diagnosis diagnosis_of(const PowerLog& log) { return diagnose_power(spec(), log).diagnosis; }
 Diagnosis diagnosis_of(const Scenario& scenario) {
   return diagnosis_of(as_power_log(simulate(scenario)));
-}
-
-/// True where the finding names the effect, alone or in a set of at most three.
-bool names(const Finding& finding, const std::string& effect) {
-  const auto& others = finding.indistinguishable_from;
-  return finding.effect == effect ||
-         (others.size() <= 2 && std::find(others.begin(), others.end(), effect) != others.end());
 }
 
 bool any_names(const Diagnosis& diagnosis, const std::string& effect) {

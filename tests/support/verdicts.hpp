@@ -17,6 +17,13 @@ bool lists(const List& list, const std::string& effect) {
                      [&effect](const auto& entry) { return entry.effect == effect; });
 }
 
+/// True where the finding names the effect, alone or in a set of at most three.
+inline bool names(const Finding& finding, const std::string& effect) {
+  const auto& others = finding.indistinguishable_from;
+  return finding.effect == effect ||
+         (others.size() <= 2 && std::find(others.begin(), others.end(), effect) != others.end());
+}
+
 /// How many verdicts each effect got. Being a rival of several findings is one.
 inline std::map<std::string, int> verdict_counts(const Diagnosis& d) {
   std::map<std::string, int> verdicts;

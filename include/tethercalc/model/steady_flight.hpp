@@ -97,6 +97,9 @@ class SteadyFlight {
   /// +infinity beyond `tan_limit`. `guess` saves iterations.
   [[nodiscard]] double tan_pitch(double radius, double weight, double tan_limit,
                                  double guess = 0) const;
+  /// The same of a tether that drags with `tether_drag` N, whatever it is taken for here.
+  [[nodiscard]] double tan_pitch_against(double tether_drag, double weight, double tan_limit,
+                                         double guess = 0) const;
   /// First approximation of `tan_pitch`: with the drag of the level drone.
   [[nodiscard]] double level_drag_tan_pitch(double radius, double weight) const {
     return (area_force_factor_ * design_->drone.drag.front_area + tether_.drag(radius)) / weight;
@@ -212,7 +215,7 @@ class SteadyFlight {
   };
   [[nodiscard]] Weight weighed(double radius) const;
   [[nodiscard]] Thrust thrust_of(double radius, Weight weight, double tan_pitch) const;
-  [[nodiscard]] ForceBalance force_balance(double radius, double weight) const;
+  [[nodiscard]] ForceBalance force_balance(double tether_drag, double weight) const;
   [[nodiscard]] double sized_battery(double radius) const;
   [[nodiscard]] double searched_radius(double weight) const;
   /// The radius at which the battery takes the drone to `takeoff` kg, or to what its motors hold
