@@ -100,17 +100,6 @@ std::string ground_sentence(const ShapeStudy& study) {
       fixed(-study.shape.lowest.position.z, 2));
 }
 
-std::string strength_sentence(const ShapeStudy& study) {
-  const double greatest = study.shape.tautest.tension;
-  if (study.breaking_load == 0) {
-    return "Its strength is unknown: the conductor's tensile strength is not set.";
-  }
-  return fmt::format("It breaks at {} N{}.", significant(study.breaking_load, 3),
-                     greatest > 0 ? fmt::format(", {} times its greatest tension",
-                                                significant(study.breaking_load / greatest, 3))
-                                  : "");
-}
-
 }  // namespace
 
 std::span<const std::string_view> cable_outcome_names() {
@@ -136,10 +125,13 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   out += fmt::format("{} m paid out, {} % more than the distance\n\n",
                      significant(study.loads.length, 4),
                      significant(100 * (study.loads.length / distance - 1), 3));
-  out += wrapped(fmt::format("Tension: {} N at the station, {} N at the drone, least {} N. {}",
-                             fixed(study.loads.tension_at_station, 2),
-                             fixed(study.loads.tension_at_drone, 2),
-                             fixed(study.shape.slackest.tension, 2), strength_sentence(study)));
+  out += wrapped(fmt::format(
+      "Tension: {} N at the station, {} N at the drone, least {} N. {}",
+      fixed(study.loads.tension_at_station, 2), fixed(study.loads.tension_at_drone, 2),
+      fixed(study.shape.slackest.tension, 2),
+      "It " +
+          strength_words(study.breaking_load, study.shape.tautest.tension, "its greatest tension") +
+          "."));
   out += wrapped(fmt::format("At the drone the cable leaves {}° from straight down.",
                              fixed(angle_at_drone(study.loads), 1)));
   if (!study.hangs_free) {

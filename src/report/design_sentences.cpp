@@ -407,13 +407,7 @@ namespace {
 std::string strength_sentence(double tension, double load) {
   const std::string pull =
       tension > 0 ? fmt::format("pulls at the drone with {} N and ", significant(tension, 3)) : "";
-  if (!(load > 0)) {
-    return "The tether " + pull +
-           "breaks at a load that is unknown: the conductor's tensile strength is not set.";
-  }
-  return fmt::format(
-      "The tether {}breaks at {} N{}.", pull, significant(load, 3),
-      tension > 0 ? fmt::format(", {} times that", significant(load / tension, 3)) : "");
+  return "The tether " + pull + strength_words(load, tension, "that") + ".";
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tethercalc/report/text_table.hpp"
+
 namespace tethercalc {
 
 ordered_json number_or_null(double value) {
@@ -66,6 +68,15 @@ void add_warnings(ordered_json& answer, std::span<const Warning> warnings) {
 
 void add_notes(ordered_json& answer, std::span<const Warning> notes) {
   add_told(answer, "notes", "note_codes", notes);
+}
+
+std::string strength_words(double load, double tension, std::string_view of_what) {
+  if (!(load > 0)) {
+    return "breaks at a load that is unknown: the conductor's tensile strength is not set";
+  }
+  const std::string times =
+      tension > 0 ? fmt::format(", {} times {}", significant(load / tension, 3), of_what) : "";
+  return fmt::format("breaks at {} N{}", significant(load, 3), times);
 }
 
 std::string with_stop(std::string sentence) {

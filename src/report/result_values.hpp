@@ -59,6 +59,10 @@ void add_notes(ordered_json& answer, std::span<const Warning> notes);
 /// neither.
 [[nodiscard]] std::string conductor_words(const ConductorEntry& conductor);
 
+/// What a cable "breaks at": `load` N, and how many times the `tension` that `of_what` names, where
+/// it has one; 0 N are a load that nobody knows.
+[[nodiscard]] std::string strength_words(double load, double tension, std::string_view of_what);
+
 /// A sentence that ends in a full stop, whether it did or not.
 [[nodiscard]] std::string with_stop(std::string sentence);
 
