@@ -111,11 +111,7 @@ HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, const FlightCondit
   };
   HiddenFlight hidden;
   hidden.seed = seed;
-  hidden.mass = uniform(1.5, 2.3);
-  hidden.front_area = uniform(0.010, 0.022);
-  hidden.top_area = uniform(0.012, 0.022);
-  hidden.linear = uniform(12, 20);
-  hidden.wind = uniform(-1.8, 1.8);
+  truth::draw_drone(hidden, random);
   condition.set(hidden);
   if (row.field == nullptr) return hidden;
   const double sign = row.either_sign && uniform(0, 1) < 0.5 ? -1 : 1;

@@ -353,6 +353,11 @@ std::string json_text(const Json& json) { return json.dump(2) + "\n"; }
 
 std::string json_line(const Json& json) { return json.dump(); }
 
+Json result_json(const ResultValue& value) {
+  if (const auto* word = std::get_if<std::string>(&value)) return *word;
+  return value.index() == 0 ? Json(nullptr) : Json(std::get<double>(value));
+}
+
 std::string child_pointer(std::string_view pointer, std::string_view key) {
   return (Json::json_pointer(std::string(pointer)) / std::string(key)).to_string();
 }

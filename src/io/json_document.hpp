@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tethercalc/io/input_error.hpp"
+#include "tethercalc/study/results.hpp"
 
 namespace tethercalc {
 
@@ -44,6 +45,9 @@ std::string json_text(const nlohmann::ordered_json& json);
 
 /// The same on one line.
 std::string json_line(const nlohmann::ordered_json& json);
+
+/// A number or a word; null where the result does not exist.
+nlohmann::ordered_json result_json(const ResultValue& value);
 
 /// `pointer` with one more key, escaped as RFC 6901 asks.
 std::string child_pointer(std::string_view pointer, std::string_view key);

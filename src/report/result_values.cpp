@@ -39,11 +39,6 @@ ordered_json number_or_null(const std::optional<double>& value) {
   return value ? number_or_null(*value) : ordered_json(nullptr);
 }
 
-ordered_json result_json(const ResultValue& value) {
-  if (const auto* word = std::get_if<std::string>(&value)) return *word;
-  return value.index() == 0 ? ordered_json(nullptr) : ordered_json(std::get<double>(value));
-}
-
 ordered_json operating_point_json(const OperatingPoint& point) {
   ordered_json out = ordered_json::object();
   for (const OperatingPointField& field : operating_point_fields()) {

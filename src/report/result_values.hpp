@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/json_document.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/model/warning.hpp"
 #include "tethercalc/study/results.hpp"
@@ -20,9 +21,6 @@ using nlohmann::ordered_json;
 /// The number, or null where it does not exist: JSON knows neither NaN nor infinity.
 [[nodiscard]] ordered_json number_or_null(double value);
 [[nodiscard]] ordered_json number_or_null(const std::optional<double>& value);
-
-/// A number or a word; null where the result does not exist.
-[[nodiscard]] ordered_json result_json(const ResultValue& value);
 
 /// A list of what `of` makes of each of `values`.
 template <typename Values, typename Of>

@@ -16,25 +16,14 @@ namespace {
 
 constexpr double short_flight = 300;  // s, to keep the suite quick
 
-HiddenFlight drawn_flight(std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto uniform = [&random](double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(random);
-  };
-  HiddenFlight hidden;
-  hidden.seed = seed;
-  hidden.duration = short_flight;
-  hidden.mass = uniform(1.5, 2.3);
-  hidden.front_area = uniform(0.010, 0.022);
-  hidden.top_area = uniform(0.012, 0.022);
-  hidden.linear = uniform(12, 20);
-  hidden.wind = uniform(-1.8, 1.8);
-  return hidden;
-}
-
 /// Another one in each run.
-HiddenFlight fresh_flight(std::uint64_t draw) {
-  return drawn_flight(1'000'003ULL * test::run_seed() + draw);
+HiddenFlight drawn_flight(std::uint64_t draw) {
+  HiddenFlight hidden;
+  hidden.seed = 1'000'003ULL * test::run_seed() + draw;
+  std::mt19937_64 random(hidden.seed);
+  truth::draw_drone(hidden, random);
+  hidden.duration = short_flight;
+  return hidden;
 }
 
 bool names_first(const Diagnosis& d, const std::string& effect) {
@@ -103,7 +92,7 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
     std::uint64_t seed = 40;
     for (const double strength : c.strengths) {
       for (int repeat = 0; repeat < repeats; ++repeat) {
-        HiddenFlight hidden = fresh_flight(++seed);
+        HiddenFlight hidden = drawn_flight(++seed);
         hidden.*(c.field) = strength;
         const Diagnosis d = diagnosed(hidden);
         INFO(c.effect << " " << strength << " seed " << seed);
@@ -168,7 +157,7 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
 
 TEST_CASE("the moment of a step in the wind is told") {
   int told = 0;
-  constexpr int flights = 5;
+  constexpr int flights = test::draws(12);
   for (std::uint64_t seed = 1; seed <= flights; ++seed) {
     HiddenFlight hidden = drawn_flight(1600 + seed);
     hidden.wind_step = 3;
@@ -179,7 +168,8 @@ TEST_CASE("the moment of a step in the wind is told") {
     const double truth = 10 + 0.6 * hidden.duration;
     told += moment.ci95_lower <= truth && truth <= moment.ci95_upper ? 1 : 0;
   }
-  CHECK(told >= flights - 2);
+  // Seen: 37 of 40. Five of 12 miss by a chance of one in 600, all of 3 of one in 2000.
+  CHECK(told >= flights - (flights > 3 ? 4 : 2));
 }
 
 TEST_CASE("a pull over ground keeps its size and its side while the drone turns") {
@@ -284,7 +274,7 @@ TEST_CASE("nothing hidden, nothing found") {
   int structure = 0;
   constexpr int flights = test::draws(200);
   for (int i = 0; i < flights; ++i) {
-    const Diagnosis d = diagnosed(fresh_flight(2000 + static_cast<std::uint64_t>(i)));
+    const Diagnosis d = diagnosed(drawn_flight(2000 + static_cast<std::uint64_t>(i)));
     alarms += d.findings.empty() ? 0 : 1;
     structure += d.unexplained.detected ? 1 : 0;
   }
@@ -324,7 +314,7 @@ TEST_CASE("two effects at once are both found") {
     for (std::size_t b = a + 1; b < cases().size(); ++b) {
       ++seed;
       if (seed % 4 >= test::draws(4)) continue;
-      HiddenFlight hidden = fresh_flight(seed);
+      HiddenFlight hidden = drawn_flight(seed);
       hidden.duration = 540;
       hidden.*(cases()[a].field) = cases()[a].strengths[1];
       hidden.*(cases()[b].field) = cases()[b].strengths[1];
@@ -395,7 +385,7 @@ TEST_CASE("what no catalogue knows is detected on its channel and not named") {
   int names = 0;
   for (const auto& [channel, effect] : unknown) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      HiddenFlight hidden = fresh_flight(1300 + 10 * static_cast<std::uint64_t>(flights) + seed);
+      HiddenFlight hidden = drawn_flight(1300 + 10 * static_cast<std::uint64_t>(flights) + seed);
       hidden.*(effect.first) = effect.second;
       hidden.roll_std = 3;
       const Diagnosis d = diagnosed(hidden);

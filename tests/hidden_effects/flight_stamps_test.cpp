@@ -12,15 +12,11 @@ using truth::HiddenFlight;
 namespace {
 
 HiddenFlight drawn_flight(int draw) {
-  test::Random random(1'000'003U * test::run_seed() + static_cast<unsigned>(draw));
   HiddenFlight hidden;
   hidden.seed = 1'000'003ULL * test::run_seed() + static_cast<std::uint64_t>(draw);
+  std::mt19937_64 random(hidden.seed);
+  truth::draw_drone(hidden, random);
   hidden.duration = 300;
-  hidden.mass = random.uniform(1.5, 2.3);
-  hidden.front_area = random.uniform(0.010, 0.022);
-  hidden.top_area = random.uniform(0.012, 0.022);
-  hidden.linear = random.uniform(12, 20);
-  hidden.wind = random.uniform(-1.8, 1.8);
   return hidden;
 }
 

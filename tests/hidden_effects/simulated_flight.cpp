@@ -199,6 +199,14 @@ void record(const HiddenFlight& h, FlightLog& log) {
 
 }  // namespace
 
+void draw_drone(HiddenFlight& hidden, std::mt19937_64& random) {
+  hidden.mass = uniform(random, 1.5, 2.3);
+  hidden.front_area = uniform(random, 0.010, 0.022);
+  hidden.top_area = uniform(random, 0.012, 0.022);
+  hidden.linear = uniform(random, 12, 20);
+  hidden.wind = uniform(random, -1.8, 1.8);
+}
+
 FlightLog fly(const HiddenFlight& h, Flown* flown) {
   Random random(h.seed);
   FlightLog log;

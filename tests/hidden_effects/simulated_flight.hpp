@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "tethercalc/identify/observations.hpp"
@@ -108,6 +109,9 @@ struct Flown {
   std::vector<double> airspeed;       ///< m/s
   std::vector<double> specific_lift;  ///< m/s², thrust over mass
 };
+
+/// Mass, drag and headwind of another drone on another day.
+void draw_drone(HiddenFlight& hidden, std::mt19937_64& random);
 
 /// From take-off to landing. Where `flown` is given it is filled, too.
 [[nodiscard]] FlightLog fly(const HiddenFlight& hidden, Flown* flown = nullptr);
