@@ -376,8 +376,7 @@ Record::Record(const SelectionProblem& problem)
   for (const ParameterGroup& group : problem.groups) {
     first_.push_back(parameters_.size());
     for (const ModelParameter& p : group.parameters) {
-      if (!(p.lower <= p.neutral && p.neutral <= p.upper && p.lower <= p.start &&
-            p.start <= p.upper && p.scale > 0)) {
+      if (!(p.neutral <= p.upper && p.lower <= p.start && p.start <= p.upper && p.scale > 0)) {
         throw std::invalid_argument("a parameter of \"" + group.id +
                                     "\" has its neutral or first value outside its bounds");
       }

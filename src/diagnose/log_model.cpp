@@ -22,8 +22,12 @@ namespace {
 ModelParameter in_SI(const EffectParameter& p, const Design& design) {
   ModelParameter m;
   m.neutral = p.in_design != nullptr ? p.in_design(design) : p.neutral * p.unit_SI;
-  m.lower = std::min(m.neutral, p.lower * p.unit_SI);
-  m.upper = std::max(m.neutral, p.upper * p.unit_SI);
+  m.lower = p.lower * p.unit_SI;
+  m.upper = p.upper * p.unit_SI;
+  if (p.in_design != nullptr) {
+    m.lower = std::min(m.neutral, m.lower);
+    m.upper = std::max(m.neutral, m.upper);
+  }
   m.scale = p.scale * p.unit_SI;
   m.start = std::clamp(m.neutral + p.start * p.unit_SI, m.lower, m.upper);
   return m;

@@ -197,6 +197,9 @@ class PowerLogModel : public LogModel {
     problem.predict = [this](std::span<const double> values, std::span<double> out) {
       predict(values, out);
     };
+    problem.left_of_readings = [this](std::span<const double> values) {
+      return left_of_readings(values);
+    };
   }
 
   /// The base model with every effect that is not neutral, or those that act on one comparison.
@@ -239,6 +242,24 @@ class PowerLogModel : public LogModel {
   }
 
  private:
+  /// Of each stage's usable samples, over their noise.
+  [[nodiscard]] std::vector<double> left_of_readings(std::span<const double> values) const {
+    std::vector<double> left;
+    std::vector<double> standardised(residuals_.samples());
+    for (std::size_t k = 0; k < residuals_.stages().size(); ++k) {
+      const PowerStage& stage = residuals_.stages()[k];
+      residuals_.standardised(k, model(values, stage.stage), standardised);
+      double sum = 0;
+      for (std::size_t i = 0; i < standardised.size(); ++i) {
+        if (stage.usable[i] && std::isfinite(standardised[i])) {
+          sum += standardised[i] * standardised[i];
+        }
+      }
+      left.push_back(std::sqrt(sum));
+    }
+    return left;
+  }
+
   /// Minus the whitened residual of every row. A stage whose effects have the values of the last
   /// call is not computed again: slopes move one parameter at a time.
   void predict(std::span<const double> values, std::span<double> out) {

@@ -144,7 +144,8 @@ std::vector<Effect> power_effects() {
        .mechanism = "The whole cable is in the circuit at every height: what is not in the air is "
                     "on the drum, with resistance but without airborne mass.",
        .stage = Stage::tether,
-       .parameters = {{"spooled_length_m", "m", 1, 0, 0, 1000, 10, "tether.spooled_length_m"}},
+       // Any drum at all puts the whole cable into the circuit.
+       .parameters = {{"spooled_length_m", "m", 1, 0, 1e-3, 1000, 10, "tether.spooled_length_m"}},
        .to_separate = to_separate_tether,
        .change = "R = 2(L + s)ρ/A at every height, L the design length",
        .channel = "supply_current",

@@ -17,8 +17,10 @@ namespace tethercalc {
 /// A parameter of the model, in the unit the model takes it in.
 struct ModelParameter {
   double neutral = 0;  ///< the value that leaves the effect out
-  double lower = 0;    ///< bounds of the search; the neutral value lies within
-  double upper = 0;    ///< not below `lower`
+  /// Bounds of the search; the neutral value lies within, or below where the effect begins with a
+  /// leap, of which slopes know nothing.
+  double lower = 0;
+  double upper = 0;  ///< not below `lower`
   double scale = 1;  ///< > 0, a change of it that matters: start of the search and step for slopes
   double start = 0;  ///< first value tried once freed; any value within the bounds
   bool shape_only = false;  ///< without effect while the others of its group are neutral (a time
@@ -88,6 +90,11 @@ struct SelectionProblem {
   /// Block of each row: 0 … block count − 1, contiguous stretches of time, the same stretch for
   /// every instrument, each several correlation times long. −1 leaves a row out of everything.
   std::vector<int> block{};
+
+  /// Where rows are differences of readings, from which the memory of their noise was taken, they
+  /// hardly see what lasts: the root mean square of what each instrument's readings themselves are
+  /// off, in any unit. Of no name may it make that clearly larger. Empty: rows are readings.
+  std::function<std::vector<double>(std::span<const double>)> left_of_readings{};
 
   std::vector<UnnamedRegressor> unnamed{};  ///< shapes to look for in what is left
 

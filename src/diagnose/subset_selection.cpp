@@ -28,6 +28,10 @@ constexpr std::size_t beam = 4;         ///< subsets of one size that are tried 
 /// linear, which it nearly is.
 constexpr std::size_t tried_sets = 12;
 
+/// A name may leave so many times as much of the readings themselves: slow noise of a dozen
+/// correlation times lets a true one leave a little more by chance.
+constexpr double most_left = 1.25;
+
 struct Model {
   Groups named;  ///< sorted
   Groups shapes;
@@ -144,6 +148,21 @@ class SubsetSearch {
   }
 
  private:
+  /// Whether the names leave clearly more of the readings than all but one of them do.
+  [[nodiscard]] bool misfits(const Groups& named, const std::vector<double>& values) const {
+    if (!problem_.left_of_readings) return false;
+    const std::vector<double> left = problem_.left_of_readings(values);
+    bool more = false;
+    for (const std::size_t g : named) {
+      const auto fewer = left_by_.find(without_group(named, g));
+      if (fewer == left_by_.end()) continue;
+      for (std::size_t k = 0; k < left.size(); ++k) more |= left[k] > most_left * fewer->second[k];
+    }
+    left_by_.emplace(named, left);
+    return more;
+  }
+
+  /// Its length is infinite where it misfits.
   [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near,
                             FitUse use = FitUse::search) const {
     Freed freed;
@@ -152,7 +171,8 @@ class SubsetSearch {
     std::sort(freed.groups.begin(), freed.groups.end());
     freed.unnamed = shapes;
     Model result{named, shapes, fit_blocks(record_, freed, near, use), 0};
-    result.length = result.fit.squared_error() + shape_price_ * static_cast<double>(shapes.size());
+    if (shapes.empty() && misfits(named, result.fit.values)) result.length = infinity;
+    result.length += result.fit.squared_error() + shape_price_ * static_cast<double>(shapes.size());
     for (const std::size_t g : named) {
       result.length += name_price_ + 2 * std::log(chances(problem_.groups[g]));
     }
@@ -367,6 +387,9 @@ class SubsetSearch {
       for (const std::size_t g : more) named = with_group(named, g);
       return model(named, best_.shapes, &best_.fit, use).fit;
     });
+    for (Selection::Open& open : result.open) {
+      open.suspected &= !misfits(with_group(best_.named, open.group), open.freed.values);
+    }
     const BlockFit named =
         best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit, FitUse::report).fit;
     result.base = model_fit(record_, base_.fit);
@@ -393,6 +416,7 @@ class SubsetSearch {
   Model best_;
   std::vector<Selection::Aliased> aliased_;
   Groups doubted_;  ///< names that were left out although they gain what is asked
+  mutable std::map<Groups, std::vector<double>> left_by_;  ///< of the readings, by sets of names
 };
 
 }  // namespace

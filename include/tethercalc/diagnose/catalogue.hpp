@@ -48,7 +48,7 @@ struct EffectParameter {
   std::string unit{};  ///< as printed: "deg"; "1" for a plain number
   double unit_SI = 1;  ///< one such unit in SI
   double neutral = 0;  ///< in `unit`, as are the next three
-  double lower = 0;    ///< physical bound
+  double lower = 0;    ///< physical bound; above neutral where the effect begins with a leap
   double upper = 0;    ///< physical bound
   double scale = 1;    ///< a change that matters
   std::string
