@@ -235,7 +235,13 @@ class SubsetSearch {
       std::sort(level.begin(), level.end(),
                 [](const Model& a, const Model& b) { return a.length < b.length; });
       if (level.empty() || !(level.front().length < best_.length)) break;
-      consider(level.front());
+      // Names that are not those found so far and one more may mimic what fewer explain.
+      const Groups fewer = best_.named;
+      for (const Model& more : level) {
+        const bool adds =
+            std::includes(more.named.begin(), more.named.end(), fewer.begin(), fewer.end());
+        consider(more, adds ? 0 : rival_excess);
+      }
       if (level.size() > beam) level.erase(level.begin() + beam, level.end());
     }
   }
