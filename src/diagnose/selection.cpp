@@ -181,6 +181,13 @@ class Search {
     return fisher_tail(t2 / numerator * denominator / degrees, numerator, denominator);
   }
 
+  /// Of a gain of nothing, by Student's test.
+  [[nodiscard]] double chance_of(const Gain& gain, std::size_t g) const {
+    return gain.percent > 0
+               ? 2 * student_tail(gain.percent / gain.se, degrees_of_freedom(record_, g))
+               : 1;
+  }
+
   /// Whether the group lowers the held-out error of the named part alone, too. A name that helps
   /// only beside an unnamed shape mends the shape, not the model.
   [[nodiscard]] bool earns_without_shapes(std::size_t g) const {
@@ -194,8 +201,10 @@ class Search {
     const std::size_t tested = candidates().size() + (contains(selected_, g) ? 1 : 0);
     Trial trial;
     trial.group = g;
-    trial.p_value = p_value(g, without, with);
     const Gain gained = gain_between(without, with);
+    // Two tests, of what it is and of what it does to blocks that it has not seen: where one block
+    // holds most of what the record knows of a size, all blocks may still gain alike.
+    trial.p_value = std::min(1.0, 2 * std::min(p_value(g, without, with), chance_of(gained, g)));
     trial.worth_a_name =
         earns_a_name(record_, g, gained,
                      options_.least_gain_percent *
