@@ -654,7 +654,7 @@ class Planning {
       const MatrixXd there = group_slopes(rows, {rivals[r]}, instead);
       slopes.resize(rows.rows(), there.cols() + 1);
       slopes << there, change_by(joint, rows, rivals[r], instead);
-      q.rivals.push_back({joint.name(rivals[r]), next, slopes.cols()});
+      q.rivals.push_back({name_in(joint, rivals[r]), next, slopes.cols()});
       next += slopes.cols();
     }
     const MatrixXd all = side_by_side(columns);
@@ -713,6 +713,13 @@ class Planning {
       ++column;
     }
     return values;
+  }
+
+  /// The group as a person calls it; the flight that is planned has no number yet.
+  [[nodiscard]] std::string name_in(const FlightModel& joint, std::size_t group) const {
+    return joint.flight_of(group) > logged_.size()
+               ? "what the next flight has of " + joint.effect(group).id
+               : joint.name(group);
   }
 
   /// By how much the group changes the prediction, as large as it is in `values`.
@@ -777,7 +784,7 @@ std::vector<FinerBase> finer_base(const FlightDiagnosisOptions& options,
 std::string why_not(const Question& question, const Standing& standing) {
   if (standing.gain < 1 && standing.gain <= standing.rival) {
     return fmt::format(
-        "as small as the log has it, it would lower the held-out error of both flights by {:.1f} % "
+        "as small as the log has it, it would lower the held-out error of all flights by {:.1f} % "
         "at most, too little to be sure of the {:g} % that a name takes",
         standing.gain_percent, question.least_gain_percent);
   }

@@ -202,8 +202,9 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
                    n, interval);
     if (delay == 0) return;
     notes.push_back({WarningKind::log_lag,
-                     fmt::format("{} lagged {:.1f} s {} the {}; the channels were shifted back",
-                                 names, std::abs(delay), delay > 0 ? "behind" : "ahead of",
+                     fmt::format("{} {} {:.1f} s {} the {}; the channels were shifted back", names,
+                                 delay > 0 ? "lagged" : "ran", std::abs(delay),
+                                 delay > 0 ? "behind" : "ahead of",
                                  has_supply ? "supply current" : "power at the bus")});
     log = shifted(delay);
   };

@@ -148,6 +148,8 @@ class Story {
       unexplained();
       design();
       ruled_out();
+    } else {
+      paragraph(fmt::format("This {} log is too short to judge anything by.", to_string(d_.kind)));
     }
     not_tested();
     notes();
@@ -168,7 +170,12 @@ class Story {
       const double gain =
           100 * (1 - d_.extended.holdout_rmse / std::max(d_.base.holdout_rmse, 1e-300));
       std::vector<std::string> titles;
-      for (const Finding& f : d_.findings) titles.push_back(within_sentence(title_of(f)));
+      for (const Finding& f : d_.findings) {
+        titles.push_back(within_sentence(title_of(f)));
+        if (f.indistinguishable_from.empty()) continue;
+        titles.back() += fmt::format(
+            " (or {})", in_words(fmt::format("{}", fmt::join(f.indistinguishable_from, " or "))));
+      }
       const std::string found = fmt::format("Found: {}.", fmt::join(titles, "; "));
       text = fmt::format("{} That explains {:.0f} % of the error of this {} log.",
                          style_.good(found), gain, to_string(d_.kind));

@@ -106,7 +106,8 @@ std::string next_flight_text(const NextFlight& flight, const std::string& file,
     for (const Decision& d : flight.decides) effects.push_back(decided(d));
     out += wrapped(fmt::format(
         "{:.1f} minutes of manoeuvres are {}to settle: {}. The mission is written to {}.",
-        flight.duration / 60, flight.shortest ? "the fewest that are expected " : "expected ",
+        flight.duration / 60,
+        flight.shortest ? "the fewest that are expected " : "expected (fewer may do) ",
         fmt::join(effects, "; "), file));
     TextTable table({word_column("manoeuvre"), "times", "s"});
     for (const auto& [manoeuvre, times] : counted(flight)) {

@@ -78,6 +78,7 @@ TEST_CASE("a log too short has no error to report and says so without a NaN") {
   CHECK(diagnosis_json(d, nullptr)["base"]["holdout_rmse"].is_null());
   const std::string text = diagnosis_text(d, {});
   CHECK(text.find("nan") == std::string::npos);
+  CHECK(text.starts_with("This flight log is too short to judge anything by."));
   CHECK(text.find("too short") != std::string::npos);
 }
 
@@ -102,6 +103,8 @@ TEST_CASE("the story opens with what was found, in words within a sentence") {
     return text.substr(0, text.find(" It has"));
   };
   d.findings[0].title = "Steady wind";
+  CHECK(opening().starts_with("Found: steady wind (or pitch trim). That explains "));
+  d.findings[0].indistinguishable_from.clear();
   CHECK(opening().starts_with("Found: steady wind. That explains "));
   d.findings[0].flight = 2;
   d.findings.push_back(d.findings[0]);
