@@ -204,7 +204,8 @@ TEST_CASE("the examples of hypotheses hold of the published flight as they say")
 
 TEST_CASE("structure of the published flight that comes back as an effect displaces no drag") {
   const auto file = test::reference_file("data/x500-flight.csv");
-  if (!file) return;
+  if (!file || test::stride() > 1)
+    return;  // two minutes under a sanitizer, of code tried elsewhere
   const auto names = [](const nlohmann::ordered_json& d) {
     std::set<std::string> found;
     for (const auto& f : d["findings"]) found.insert(f["effect"].get<std::string>());
