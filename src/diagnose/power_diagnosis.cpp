@@ -517,9 +517,12 @@ void size_up(const LogModel& view, const Selection& selection, Unexplained& told
   const double size = strongest.size * selection.unnamed.coefficients.front();
   told.size = std::abs(size);
   told.size_unit = strongest.unit;
-  told.shape =
-      fmt::format("{}, by {:+.2g} {}; no effect of the catalogue does, so it stays unnamed",
-                  strongest.shape, size, strongest.unit);
+  // The cable's resistance follows the height, and an error of that which lasts is no noise.
+  const bool as_misread = strongest.channel == "height_m" && strongest.unit == "ohm";
+  told.shape = fmt::format(
+      "{}, by {:+.2g} {}; no effect of the catalogue does, so it stays unnamed{}", strongest.shape,
+      size, strongest.unit,
+      as_misread ? "; a height that is misread for a minute at a time leaves the same" : "");
 }
 
 /// Mean predicted over mean measured, of the samples that are predicted.
