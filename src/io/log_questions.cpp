@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -19,9 +20,26 @@
 namespace tethercalc {
 namespace {
 
-/// Adds a channel of a log to those of others; whether it is the same as one of them.
+/// Whether a stretch of `part`, of those at its begin, its end and between, is in `whole`, too.
+bool has_stretch_of(const std::vector<double>& whole, const std::vector<double>& part) {
+  constexpr std::size_t stretch = 50;  // samples: noise of as many digits never comes twice
+  constexpr std::size_t stretches = 5;
+  if (part.size() < stretch) return part == whole;
+  for (std::size_t k = 0; k < stretches; ++k) {
+    const auto first =
+        part.begin() + static_cast<std::ptrdiff_t>((part.size() - stretch) * k / (stretches - 1));
+    const auto last = first + stretch;
+    const bool changes = std::adjacent_find(first, last, std::not_equal_to<>()) != last;
+    if (changes && std::search(whole.begin(), whole.end(), first, last) != whole.end()) return true;
+  }
+  return false;
+}
+
+/// Adds a channel of a log to those of others; whether it has a part of one of them.
 bool repeats_another(std::vector<double> channel, std::vector<std::vector<double>>& others) {
-  const bool repeats = std::find(others.begin(), others.end(), channel) != others.end();
+  const bool repeats = std::any_of(others.begin(), others.end(), [&](const auto& other) {
+    return channel == other || has_stretch_of(other, channel) || has_stretch_of(channel, other);
+  });
   others.push_back(std::move(channel));
   return repeats;
 }
@@ -30,7 +48,8 @@ void refuse_repeated(const std::string& name, const FlightLog& log,
                      std::vector<std::vector<double>>& pitches) {
   if (!repeats_another(log.pitch, pitches)) return;
   throw InputError(name,
-                   "is the same flight as another of these logs; counted twice it would seem to "
+                   "is the same flight as another of these logs, or a part of it; counted twice it "
+                   "would seem to "
                    "tell more than it does");
 }
 

@@ -625,3 +625,16 @@ TEST_CASE("the published fit comes out of the published log, DataFlash or CSV") 
     }
   }
 }
+
+TEST_CASE("a flight given once more, whole or in part, is refused") {
+  const TemporaryFolder folder;
+  const std::string text = file_text(example);
+  const std::size_t middle = text.find('\n', text.size() / 2) + 1;
+  const std::string second_half = folder.path() / "second-half.csv";
+  write_file(second_half, text.substr(0, text.find('\n') + 1) + text.substr(middle));
+  for (const std::string& again : {example, second_half}) {
+    const Ran run = drag({example, again}, {"--mass-g", "1550"});
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("is the same flight as another of these logs, or a part of it"));
+  }
+}
