@@ -144,7 +144,7 @@ def evaluate(spec: Spec, area_mm2: Areas = None) -> Answer:
 
     `table` has an entry a cross-section, whose `hover` and `forward` have the numbers of an
     OperatingPoint; `thermal` the temperatures in °C where a heat balance is asked for;
-    `voltage_class` the class of the supply's voltage.
+    `cable` tension, strength and, of a solved tether, how it hangs, likewise; `voltage_class` the class of the supply's voltage.
     """
     return _core._evaluate(spec, _areas(area_mm2))
 

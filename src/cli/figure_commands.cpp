@@ -15,6 +15,7 @@
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/io/log_readers.hpp"
 #include "tethercalc/io/rule_books.hpp"
+#include "tethercalc/report/design_report.hpp"
 #include "tethercalc/report/report_page.hpp"
 #include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/rules_report.hpp"
@@ -42,6 +43,7 @@ struct Drawn {
 
 Drawn optimum(const PlotOptions& options) {
   const DesignFile file = titled_spec(options);
+  remark_warnings("plot optimum", spec_warnings(file));
   const OptimumStudy study = study_optimum(file.design, wire_sizes());
   return {optimum_figure(file.name, study, area_curve(study)),
           study.result.feasible ? done : answer_is_no};
@@ -269,6 +271,7 @@ int run_rules(const SpecOptions& spec, const std::string& rules, const Output& o
   problems.succeeds([&] { file = read_spec(spec); });
   problems.succeeds([&] { book = rule_book(rules); });
   problems.throw_if_any();
+  remark_warnings("rules", spec_warnings(file));
   const RuleStudy study = study_rules({file.design, ruled_area(optimum_of(file.design))}, book);
   emit(
       output, [&] { return rules_text(file.name, study, style_for(output)); },

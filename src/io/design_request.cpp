@@ -17,15 +17,17 @@ namespace tethercalc {
 namespace {
 
 /// Refuses more combinations of choices than can be searched, and choices in conflict with each
-/// other or with the spec, whatever the ranges.
+/// other or with the spec: anywhere in a range, or in all of a range of the supply's, whose
+/// conflicts make a design infeasible, which the search leaves.
 void check_choices(const std::vector<SweepAxis>& free, const DesignFile& file) {
   std::vector<SweepAxis> at_lo = free;
   std::vector<SweepAxis> at_hi = free;
   double combinations = 1;
   for (std::size_t i = 0; i < free.size(); ++i) {
     if (const auto* range = std::get_if<Uniform>(&free[i].values)) {
-      at_lo[i].values = std::vector{range->lo};
-      at_hi[i].values = std::vector{range->hi};
+      const bool left = free[i].name.starts_with("supply.");
+      at_lo[i].values = left ? std::vector{range->lo} : std::vector{range->lo, range->hi};
+      at_hi[i].values = left ? std::vector{range->hi} : std::vector{range->lo, range->hi};
     } else {
       combinations *= static_cast<double>(value_count(free[i]).value());
     }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
@@ -12,6 +13,7 @@
 #include "io/closest_name.hpp"
 #include "io/json_document.hpp"
 #include "model/constants.hpp"
+#include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -584,6 +586,26 @@ void set_word(Design& design, const SpecField& field, std::size_t index) {
   with_word(design, field, [&]<class Value>(Value& value) { value = static_cast<Value>(index); });
 }
 
+bool may_conflict(std::string_view path) {
+  // All that `find_conflicts` looks at; of what is meant with these names no field else is.
+  constexpr std::array looked_at{"supply.",
+                                 "tether.length_m",
+                                 "tether.insulation.",
+                                 "tether.cover.width_mm",
+                                 "tether.cross_section_mm2",
+                                 "tether.drum.",
+                                 "tether.strength_member.",
+                                 "tether.model",
+                                 "tether.drag_by_reynolds_number",
+                                 "flight.horizontal_offset_m",
+                                 "flight.station_height_m",
+                                 "flight.wind_profile",
+                                 "flight.wind_reference_height_m",
+                                 "flight.roughness_length_m"};
+  return std::ranges::any_of(looked_at,
+                             [&](std::string_view start) { return path.starts_with(start); });
+}
+
 std::vector<FieldConflict> find_conflicts(const Design& design) {
   std::vector<FieldConflict> conflicts;
   const Converter& converter = design.supply.converter;
@@ -627,6 +649,16 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
   if ((drum.core_diameter > 0) != (drum.width > 0)) {
     conflicts.push_back({drum.width > 0 ? "/tether/drum/core_diameter_mm" : "/tether/drum/width_mm",
                          "a wound package has both a core's diameter and a width; give this too"});
+  }
+  const Tether& tether = design.tether;
+  const double turn = wound_side(tether, conductor_radius(tether.cross_section.value_or(0)),
+                                 insulation_wall(tether.insulation, design.supply.voltage));
+  if (drum.width > 0 && drum.width < turn) {
+    conflicts.push_back(
+        {"/tether/drum/width_mm",
+         fmt::format(
+             "the {:.4g} mm between the flanges hold no turn of a tether that takes {:.4g} mm",
+             drum.width / unit::millimetre, turn / unit::millimetre)});
   }
   const Insulation& insulation = design.tether.insulation;
   if (insulation.dielectric_safety_factor > 0 && !(insulation.breakdown_strength > 0)) {

@@ -319,10 +319,7 @@ std::vector<double> ends_of(const SweepAxis& axis) {
 SweepSpace conflict_space(const SweepSpace& space, bool ends_only) {
   std::vector<SweepAxis> axes;
   for (const SweepAxis& axis : space.axes()) {
-    // What `find_conflicts` compares with other fields.
-    const bool can_conflict =
-        axis.name.starts_with("supply.") || axis.name.starts_with("tether.insulation.");
-    if (!can_conflict) continue;
+    if (!may_conflict(axis.name)) continue;
     axes.push_back(axis);
     if (ends_only) axes.back().values = ends_of(axis);
   }
@@ -389,10 +386,13 @@ std::vector<SweepAxis> read_axes(std::span<const std::string> texts, const Desig
 
 void check_sweep_rows(const SweepSpace& space, const DesignFile& base, const std::string& option) {
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-  // Where the ends of the axes, each with each, are free of conflicts, so is all between them.
-  const auto at_ends = conflicts_in(conflict_space(space, true), base.design, all, all);
+  // Few draws of many axes are looked through sooner than the ends, each with each.
+  const SweepSpace ends = conflict_space(space, true);
+  const bool by_draws = space.sample() && ends.rows() > space.rows();
+  std::map<std::string, std::string> at_ends;
+  if (!by_draws) at_ends = conflicts_in(ends, base.design, all, all);
   std::size_t fields = at_ends.size();
-  if (!normal_ends_are_allowed(space, base.design)) fields = all;
+  if (by_draws || !normal_ends_are_allowed(space, base.design)) fields = all;
   if (fields == 0) return;
   // An end is a row of the sweep, but no draw of a sample. The first row is told where it comes
   // soon.

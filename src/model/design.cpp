@@ -44,11 +44,12 @@ std::optional<UnscaledMotors> unscaled_motors(const Design& design) {
 
 double wind_at_drone(const Design& design) {
   const Flight& flight = design.flight;
-  if (!flight.wind_reference_height || flight.headwind == 0) return flight.headwind;
+  if (flight.headwind == 0) return 0;
   MovingAir air;
   air.profile = flight.wind_profile;
   air.station_height = flight.station_height;
-  air.reference_height = *flight.wind_reference_height;
+  air.reference_height =
+      flight.wind_reference_height.value_or(flight.station_height + design.tether.length);
   air.exponent = flight.wind_exponent;
   air.roughness_length = flight.roughness_length;
   return flight.headwind * wind_share(air, design.tether.length);

@@ -11,6 +11,9 @@ namespace {
 
 using std::numbers::pi;
 
+/// Side of the square that two wires side by side take of a square pattern, over the radius of one.
+constexpr double around_two = 2 * std::numbers::sqrt2;
+
 /// A quantity and its derivative by the conductors' radius.
 struct Slope {
   double value = 0;
@@ -60,17 +63,21 @@ bool is_cooling_known(const Drum& drum) {
   return is_package_known(drum) || drum_derating(drum).has_value();
 }
 
+double wound_side(const Tether& tether, double radius, double wall) {
+  return around_two * (radius + wall) + strength_member_data(tether.strength_member).diameter +
+         tether.cover_width;
+}
+
 DrumPackage drum_package(const Tether& tether, double radius, double wall, double length) {
   const Drum& drum = tether.drum;
   const Slope r{radius, 1};
   const double inner = 0.5 * drum.core_diameter;
-  const Slope side =
-      std::sqrt(8.0) * (r + Slope{wall, 0}) +
-      Slope{strength_member_data(tether.strength_member).diameter + tether.cover_width, 0};
+  const Slope side{wound_side(tether, radius, wall), around_two};
   const Slope volume = length * (side * side);
   // One layer of turns side by side, where they do not reach from flange to flange.
   Slope width = (length / pi) * (side / (Slope{2 * inner, 0} + side));
-  if (width.value > drum.width) width = {drum.width, 0};
+  const Slope room = drum.width > side.value ? Slope{drum.width, 0} : side;
+  if (width.value > room.value) width = room;
   const Slope ring = (1 / pi) * (volume / width);  // o² − i²
   const Slope outer = square_root(Slope{inner * inner, 0} + ring);
   const Slope surface = 2 * pi * (outer * width) + 2 * pi * ring;

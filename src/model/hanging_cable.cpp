@@ -56,6 +56,11 @@ std::array<Vector3, 2> across(const Vector3& t) {
 /// taken as a straight line to it.
 constexpr double linear_below = 0.01;
 
+/// Whether the wind is that at a height where there is none.
+bool is_still(const MovingAir& air) {
+  return air.profile == WindProfile::logarithmic && !(air.reference_height > air.roughness_length);
+}
+
 /// Heights in m over the station at which the slope of the wind's profile jumps.
 std::array<double, 2> corner_heights(const MovingAir& air) {
   if (air.profile == WindProfile::power_law)
@@ -74,7 +79,7 @@ double wind_share_slope(const MovingAir& air, double height) {
                  ? wind_share(air, height) / over_ground
                  : air.exponent * wind_share(air, height) / over_ground;
     case WindProfile::logarithmic:
-      return over_ground > air.roughness_length
+      return over_ground > air.roughness_length && !is_still(air)
                  ? 1 / (over_ground * std::log(air.reference_height / air.roughness_length))
                  : 0;
   }
@@ -213,7 +218,7 @@ double wind_share(const MovingAir& air, double height) {
                  : std::max(over_ground / (linear_below * air.reference_height), 0.0) *
                        std::pow(linear_below, air.exponent);
     case WindProfile::logarithmic:
-      return over_ground > air.roughness_length
+      return over_ground > air.roughness_length && !is_still(air)
                  ? std::log(over_ground / air.roughness_length) /
                        std::log(air.reference_height / air.roughness_length)
                  : 0;
@@ -1074,19 +1079,22 @@ void check(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
   check(paid_out.length.value_or(1) > 0, "a cable has a length");
   check(paid_out.winch_tension.value_or(1) > 0, "a winch that decides the length pulls");
   check(norm(drone) > 0, "the drone is not at the station");
-  if (air.profile == WindProfile::logarithmic) {
-    check(air.roughness_length > 0 && air.reference_height > air.roughness_length,
-          "0 < roughness length < reference height");
-  }
+  check(air.profile != WindProfile::logarithmic || air.roughness_length > 0,
+        "a logarithmic wind profile has a roughness length");
   check(air.profile == WindProfile::uniform || air.reference_height > 0,
         "a wind profile has a reference height above ground");
 }
 
 }  // namespace
 
-CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& air, const PaidOut& paid_out,
-                                const Vector3& drone) {
-  check(cable, air, paid_out, drone);
+CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
+                                const PaidOut& paid_out, const Vector3& drone) {
+  check(cable, moving, paid_out, drone);
+  MovingAir air = moving;
+  if (is_still(air)) {
+    air.wind = {};
+    air.profile = WindProfile::uniform;
+  }
   const Problem before = last_ ? problem() : Problem();
   const bool alike = last_ && paid_out.length.has_value() == paid_out_.length.has_value() &&
                      air.profile == air_.profile &&

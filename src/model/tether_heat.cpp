@@ -1,5 +1,6 @@
 #include "tethercalc/model/tether_heat.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/constants.hpp"
@@ -32,15 +33,21 @@ Surroundings around_airborne(const SteadyFlight& flight, double width) {
 /// before.
 bool is_packed(const Drum& drum) { return is_package_known(drum) && !drum.derating; }
 
-/// A conductor on the drum that is laid out as `in_air` is.
-ConductorHeat wound_up(const SteadyFlight& flight, const ConductorHeat& in_air, double radius) {
+/// m on the drum: the less, the cooler. A winch leaves more or less there by the cable's radius.
+double least_wound(const SteadyFlight& flight, double radius, double other) {
+  const TetherInFlight& tether = flight.tether();
+  return std::min(tether.on_drum_with(radius), tether.on_drum_with(other));
+}
+
+/// A conductor of which `length` m lie on the drum, and which is laid out as `in_air` is.
+ConductorHeat wound_up(const SteadyFlight& flight, const ConductorHeat& in_air, double radius,
+                       double length) {
   const Tether& tether = flight.design().tether;
   Surroundings around = around_airborne(flight, 0);
   around.wind = 0;
   around.inclination.reset();
   if (is_packed(tether.drum)) {
-    return in_air.wound(around,
-                        drum_package(tether, radius, flight.wall(), flight.state().on_drum));
+    return in_air.wound(around, drum_package(tether, radius, flight.wall(), length));
   }
   const double derating = drum_derating(tether.drum).value_or(1);
   around.cooling = derating * derating;
@@ -53,10 +60,13 @@ TetherHeat::TetherHeat(const SteadyFlight& flight, double radius, double sunlit_
     : flight_(flight),
       radius_(radius),
       measured_(flight.design().tether.heating.rise_per_loss > 0),
-      wound_(flight.state().on_drum > 0 && is_cooling_known(flight.design().tether.drum)),
+      wound_(least_wound(flight, radius, sunlit_radius) > 0 &&
+             is_cooling_known(flight.design().tether.drum)),
       in_air_(flight.design().tether, radius, flight.wall(),
               around_airborne(flight, (sunlit_radius + flight.wall()) / (radius + flight.wall()))),
-      on_drum_(wound_ ? wound_up(flight, in_air_, radius) : in_air_),
+      on_drum_(wound_
+                   ? wound_up(flight, in_air_, radius, least_wound(flight, radius, sunlit_radius))
+                   : in_air_),
       at_zero_(flight.tether().resistance(radius, 0, 0)),
       per_kelvin_in_air_(flight.tether().resistance(radius, 1, 0) - at_zero_),
       per_kelvin_on_drum_(flight.tether().resistance(radius, 0, 1) - at_zero_) {}

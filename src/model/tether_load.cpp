@@ -319,6 +319,10 @@ double cable_there_is(const FlightState& state) {
 
 }  // namespace
 
+double left_on_drum(const FlightState& state, double in_air) {
+  return std::max(0.0, state.on_drum - (in_air - state.deployed));
+}
+
 PaidOut paid_out_to(const Tether& tether, double height, double offset) {
   if (tether.winch_pull > 0) return {.length = {}, .winch_tension = tether.winch_pull};
   return {.length = (1 + tether.slack) * std::hypot(height, offset), .winch_tension = {}};
@@ -378,7 +382,7 @@ double TetherInFlight::radius_of_tension(double tension) const {
 }
 
 double TetherInFlight::on_drum(double in_air) const {
-  return std::max(0.0, straight_.on_drum_ - (in_air - straight_.deployed_));
+  return left_on_drum({.deployed = straight_.deployed_, .on_drum = straight_.on_drum_}, in_air);
 }
 
 double TetherInFlight::circuit_share(double radius) const {

@@ -18,6 +18,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "drag_estimated",
                                                                    "drum_cooling_unknown",
                                                                    "drum_package_unknown",
+                                                                   "drum_package_unused",
                                                                    "tether_inclination_unknown",
                                                                    "rated_temperature_unknown",
                                                                    "tether_touches_ground",

@@ -500,21 +500,34 @@ Warning motor_mass_warning() {
           "fits"};
 }
 
-std::vector<Warning> cable_warnings(const Design& design) {
+std::vector<Warning> cable_warnings(const Design& design, std::span<const AreaPoints> flown) {
   std::vector<Warning> warnings;
   const Tether& tether = design.tether;
+  double on_drum = flown.empty() ? tether.spooled_length : 0;
+  for (const AreaPoints& row : flown) {
+    for (const Condition condition : {Condition::hover, Condition::forward}) {
+      on_drum = std::max(
+          on_drum, left_on_drum(flight_state(design, condition), row.in(condition).tether_length));
+    }
+  }
+  if (on_drum > 0 && tether.heating.rise_per_loss > 0 && is_package_known(tether.drum)) {
+    warnings.push_back(
+        {WarningKind::drum_package_unused,
+         "the measured rise (tether.heating.rise_K_m_per_W) is taken on the drum too, so that what "
+         "tether.drum says of the package counts for nothing"});
+  }
   if (!tether.ambient_temperature_C) return warnings;
-  if (tether.spooled_length > 0 && !is_cooling_known(tether.drum)) {
+  if (on_drum > 0 && !is_cooling_known(tether.drum)) {
     warnings.push_back(
         {WarningKind::drum_cooling_unknown,
          fmt::format("{} m lie on a drum of which neither layers nor derating are stated: the "
                      "wound part is the hot one, and its temperature is not known "
                      "(tether.drum.core_diameter_mm and width_mm, tether.drum.layers or "
                      "tether.drum.derating)",
-                     significant(tether.spooled_length, 3))});
+                     significant(on_drum, 3))});
   }
   const bool by_layers = tether.drum.layers > 0 && !tether.drum.derating;
-  if (tether.spooled_length > 0 && by_layers && !is_package_known(tether.drum)) {
+  if (on_drum > 0 && by_layers && !is_package_known(tether.drum)) {
     warnings.push_back({WarningKind::drum_package_unknown,
                         "the drum's temperature is by its layers alone, with factors of thick "
                         "cables: of a thin one the wound part may get several times as much hotter "
@@ -568,7 +581,9 @@ std::optional<Warning> inclination_warning(const Design& design, const Operating
 std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPoints> table,
                                   const std::optional<GroundContact>& ground) {
   std::vector<Warning> warnings = spec_warnings(file);
-  for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+  for (Warning& warning : cable_warnings(file.design, table)) {
+    warnings.push_back(std::move(warning));
+  }
   for (const AreaPoints& row : table) {
     if (auto steep = inclination_warning(file.design, row.hover)) {
       warnings.push_back(std::move(*steep));

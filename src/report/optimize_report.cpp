@@ -282,7 +282,8 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
   for (const Condition condition : {Condition::hover, Condition::forward}) {
     out += operating_table(file.design, condition, study.table).text(style);
   }
-  if (file.design.tether.ambient_temperature_C) {
+  const Tether& tether = file.design.tether;
+  if (tether.ambient_temperature_C || tether.model == TetherModel::solved) {
     for (const AreaPoints& row : study.table) {
       out += "\n" + style.bold(area_words(row.area)) + "\n";
       for (const std::string& sentence : cable_sentences(file.design, row)) {
@@ -303,10 +304,13 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
 ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study) {
   const ordered_json thermal =
       json_list(study.table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
+  const ordered_json cables =
+      json_list(study.table, [&](const AreaPoints& row) { return cable_json(file.design, row); });
   ordered_json out{
       {"name", file.name},
       {"table", table_json(study.table)},
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
+      {"cable", cables},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
   add_estimates(out, file.design);
   add_warnings(out, all_warnings(file, study.table, study.ground));
@@ -360,6 +364,10 @@ namespace {
 std::vector<Warning> comparison_warnings(const DesignFile& file,
                                          std::span<const MotorOptimum> ranking) {
   std::vector<Warning> warnings{motor_mass_warning()};
+  std::vector<AreaPoints> flown;
+  for (const MotorOptimum& entry : ranking) {
+    if (entry.result.feasible) flown.push_back(entry.result);
+  }
   if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
   for (const MotorOptimum& entry : ranking) {
     if (auto density = density_warning(entry.design)) {
@@ -367,7 +375,9 @@ std::vector<Warning> comparison_warnings(const DesignFile& file,
       break;
     }
   }
-  for (Warning& warning : cable_warnings(file.design)) warnings.push_back(std::move(warning));
+  for (Warning& warning : cable_warnings(file.design, flown)) {
+    warnings.push_back(std::move(warning));
+  }
   return warnings;
 }
 

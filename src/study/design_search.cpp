@@ -87,6 +87,8 @@ double lower_bound(Design design, const PointQuantity& objective) {
   tether.spooled_length = 0;
   tether.winch_pull = 0;
   tether.model = TetherModel::straight;  // weighs nothing at this length
+  // A wind that is known at the drone stays, however low.
+  if (!design.flight.wind_reference_height) design.flight.wind_profile = WindProfile::uniform;
   const OperatingPoint bare = evaluate(design, 1e-9, condition);
   constexpr double rounding = 1e-6;
   if (std::isfinite(bare.drone_power)) return bare.drone_power * (1 - rounding);

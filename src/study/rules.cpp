@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "tethercalc/model/tether_load.hpp"
 #include "tethercalc/study/optimum.hpp"
 
 namespace tethercalc {
@@ -66,8 +68,28 @@ RuleValue strength_over_weight(const RuleRequest& request) {
           "with and without the weight of the tether that the drone lifts"};
 }
 
-RuleValue cable_length(const Tether& tether) {
-  return {tether.length, tether.length + tether.spooled_length,
+/// m that are out in the condition that takes more; NaN where the cable's weight decides that and
+/// is unknown, or it cannot hang.
+double cable_in_air(const RuleRequest& request) {
+  const Design& design = request.design;
+  const Tether& tether = design.tether;
+  if (tether.model == TetherModel::straight) return tether.length;
+  const PaidOut paid_out = paid_out_to(tether, tether.length, design.flight.horizontal_offset);
+  if (paid_out.length) return *paid_out.length;
+  if (!request.area) return std::nan("");
+  const AreaPoints flown = evaluate_areas(design, std::span(&*request.area, 1)).front();
+  return std::max(flown.hover.tether_length, flown.forward.tether_length);
+}
+
+RuleValue cable_length(const RuleRequest& request) {
+  const Tether& tether = request.design.tether;
+  const double in_air = cable_in_air(request);
+  if (std::isnan(in_air)) {
+    return missing(
+        "how much of the tether the winch's pull leaves out is unknown: no cross-section "
+        "is stated or found with which it hangs");
+  }
+  return {in_air, std::max(in_air, tether.length + tether.spooled_length),
           "the cable in the air, and all of it with what is on the drum"};
 }
 
@@ -153,9 +175,11 @@ RuleValue rule_value(const RuleRequest& request, RuleFigure figure) {
     case RuleFigure::mass_without_tether:
       return mass ? one(mass->drone) : missing(no_mass);
     case RuleFigure::tether_length:
-      return cable_length(design.tether);
-    case RuleFigure::attainable_height:
-      return one(cable_length(design.tether).hi);
+      return cable_length(request);
+    case RuleFigure::attainable_height: {
+      const RuleValue cable = cable_length(request);
+      return one(cable.hi, cable.because);
+    }
     case RuleFigure::flight_height:
       return one(design.tether.length + design.flight.station_height);
     case RuleFigure::strength_over_weight:

@@ -106,6 +106,51 @@ TEST_CASE("evaluate returns the table of both conditions, null where a quantity 
   CHECK_THAT(csv.out, Contains(",,"));
 }
 
+TEST_CASE("evaluate tells the same of a cable as optimize does") {
+  const std::vector<std::string> solved{"--set", "tether.model=solved", "--format", "json"};
+  const auto told = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), solved.begin(), solved.end());
+    return json::parse(run_tethercalc(arguments).out);
+  };
+  const json best = told({"optimize", published});
+  const std::string area = best["optimum"]["cross_section_mm2"].dump();
+  const json given = told({"evaluate", published, "--area-mm2", area + ",2"});
+  REQUIRE(given["cable"].size() == 2);
+  for (const char* condition : {"hover", "forward"}) {
+    for (const char* key : {"paid_out_m", "tension_N"}) {
+      const auto hanging = [&](const json& cable) {
+        return cable["hanging"][condition][key].get<double>();
+      };
+      CHECK(hanging(given["cable"][0]) == Approx(hanging(best["cable"])).epsilon(1e-4));
+      CHECK(hanging(given["cable"][1]) > 0);
+    }
+  }
+  CHECK_THAT(run_tethercalc({"evaluate", published, "--area-mm2", "1.5", "--set",
+                             "tether.model=solved", "--set", "tether.slack_percent=20"})
+                 .out,
+             Contains("36.00 m are paid out in hover"));
+}
+
+TEST_CASE("what is told to lie on the drum is what lies there") {
+  const auto told = [](const std::string& slack, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"evaluate",   published,
+                                       "--area-mm2", "1.5",
+                                       "--set",      "tether.model=solved",
+                                       "--set",      "tether.ambient_temperature_C=25",
+                                       "--set",      "tether.spooled_length_m=30",
+                                       "--set",      "tether.slack_percent=" + slack};
+    for (const std::string& one : more) arguments.insert(arguments.end(), {"--set", one});
+    return run_tethercalc(arguments).out;
+  };
+  CHECK_THAT(told("50", {}), Contains("15.0 m lie on a drum"));
+  CHECK_THAT(told("100", {}), !Contains("lie on a drum"));
+  const std::vector<std::string> measured{"tether.drum.core_diameter_mm=100",
+                                          "tether.drum.width_mm=60",
+                                          "tether.heating.rise_K_m_per_W=5"};
+  CHECK_THAT(told("50", measured), Contains("package counts for nothing"));
+  CHECK_THAT(told("100", measured), !Contains("counts for nothing"));
+}
+
 TEST_CASE("evaluate takes the cable of the spec where no area is given") {
   const Ran without = run_tethercalc({"evaluate", published});
   CHECK(without.exit_code == 2);
@@ -347,6 +392,15 @@ TEST_CASE("air that the motors' curve was not measured in is told, or the curve 
                  Contains("18 % less at most") && Contains("drone.motor_air_density_kg_m3"));
   CHECK_THAT(run_tethercalc({"optimize", published, "--set", "flight.air_density_kg_m3=1.0"}).out,
              Contains("Note: the motors' curve counts as it was measured"));
+  const TemporaryFolder folder;
+  for (std::vector<std::string> line : std::vector<std::vector<std::string>>{
+           {"plot", "optimum", published, "--output", (folder.path() / "optimum.svg").string()},
+           {"rules", published, "--rules", "eu-c3"}}) {
+    CHECK(run_tethercalc(line).err.empty());
+    line.insert(line.end(), {"--set", "flight.air_density_kg_m3=1.0"});
+    CHECK_THAT(run_tethercalc(line).err,
+               Contains(line.front()) && Contains("not in air of 1.000 kg/m³"));
+  }
 
   const json scaled = told({"flight.air_density_kg_m3=1.0", "drone.motor_air_density_kg_m3=1.293"});
   CHECK(scaled["warnings"].empty());

@@ -301,6 +301,17 @@ TEST_CASE("a choice that conflicts with the spec is refused, not flown without w
                           "tether.insulation.dielectric_safety_factor=3"});
   CHECK(run.exit_code == 2);
   CHECK_THAT(run.err, Contains("--free: asks for a wall by the voltage"));
+  const Ran aside = design({"--free", "flight.horizontal_offset_m=0..20"});
+  CHECK(aside.exit_code == 2);
+  CHECK_THAT(aside.err, Contains("--free: a straight tether hangs down from the drone"));
+  for (const char* roughness :
+       {"flight.roughness_length_m=5,8", "flight.roughness_length_m=1..8"}) {
+    const Ran rough =
+        design({"--free", roughness, "--set", "flight.wind_profile=logarithmic", "--set",
+                "flight.wind_reference_height_m=2", "--set", "flight.headwind_m_s=4"});
+    CHECK(rough.exit_code == 2);
+    CHECK_THAT(rough.err, Contains("m is not less than the 2 m over ground"));
+  }
 }
 
 TEST_CASE("a mistyped study is refused with everything that is wrong") {

@@ -89,8 +89,9 @@ void settle(Design& design, const Design& base) {
     design.tether.drag_by_reynolds_number = base.tether.drag_by_reynolds_number;
     design.flight.horizontal_offset = base.flight.horizontal_offset;
     design.flight.roughness_length = base.flight.roughness_length;
-    const Drum& drum = design.tether.drum;
-    if ((drum.core_diameter > 0) != (drum.width > 0)) design.tether.drum = base.tether.drum;
+    for (const FieldConflict& conflict : conflicts) {
+      if (conflict.pointer.starts_with("/tether/drum/")) design.tether.drum = base.tether.drum;
+    }
   }
 }
 

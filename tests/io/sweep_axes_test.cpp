@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "support/random_designs.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/io/sweep_axes.hpp"
@@ -168,5 +169,72 @@ TEST_CASE("every pair of fields in conflict anywhere in a sweep is told at once"
     CHECK_THAT(error.what(), Contains("supply gives only 20 V"));
     CHECK_THAT(error.what(), Contains("breakdown strength"));
     CHECK(error.problems().size() == 2);
+  }
+}
+
+TEST_CASE("whatever fields are in conflict, a sweep looks at all of them") {
+  test::each_random(300, [](test::Random& random) {
+    Design design = random.chance(0.5) ? test::random_extreme_design(random)
+                                       : test::random_hanging_design(random);
+    if (random.chance(0.3)) design.tether.model = TetherModel::straight;
+    if (random.chance(0.3)) design.tether.drum.core_diameter = random.magnitude(0.01, 1);
+    if (random.chance(0.5)) design.tether.drum.width = random.magnitude(1e-4, 1);
+    if (random.chance(0.5)) design.tether.cross_section = random.magnitude(1e-8, 1e-4);
+    if (random.chance(0.3)) design.flight.roughness_length = 10;
+    const auto told = [](const Design& asked) {
+      std::vector<std::string> messages;
+      for (const FieldConflict& one : find_conflicts(asked)) messages.push_back(one.message);
+      return messages;
+    };
+    const std::vector<std::string> before = told(design);
+    for (const SpecField& field : spec_fields()) {
+      if (may_conflict(dot_path(field.pointer))) continue;
+      INFO(field.pointer);
+      if (is_numeric(field)) {
+        for (const double end : {field.range.min, field.range.max}) {
+          Design changed = design;
+          if (!field.range.contains(end)) continue;
+          set_field(changed, field, end);
+          CHECK(told(changed) == before);
+        }
+      }
+      for (std::size_t word = 0; word < field_words(field.kind).size(); ++word) {
+        Design changed = design;
+        set_word(changed, field, word);
+        CHECK(told(changed) == before);
+      }
+    }
+  });
+}
+
+TEST_CASE("a sweep is refused where one of its rows alone would be, and for the same reason") {
+  struct Refused {
+    std::vector<std::string> fixed;
+    std::vector<std::string> varied;
+    std::string because;
+  };
+  const std::vector<Refused> all{
+      {{}, {"flight.horizontal_offset_m=1,20"}, "give tether.model solved"},
+      {{}, {"flight.horizontal_offset_m=0:20:0.001"}, "give tether.model solved"},
+      {{"tether.model=solved", "flight.horizontal_offset_m=5"},
+       {"tether.model=all"},
+       "give tether.model solved"},
+      {{}, {"tether.drag_by_reynolds_number=all"}, "give tether.model solved"},
+      {{}, {"tether.drum.width_mm=0,20"}, "both a core's diameter and a width"},
+      {{"tether.model=solved", "flight.wind_reference_height_m=2"},
+       {"flight.wind_profile=all", "flight.roughness_length_m=0.03,2"},
+       "2 m is not less than the 2 m over ground"},
+      {{"flight.roughness_length_m=5"},
+       {"tether.length_m=30,4", "flight.wind_profile=logarithmic"},
+       "5 m is not less than the 4 m over ground"},
+      {{"tether.drum.core_diameter_mm=100", "tether.drum.width_mm=100"},
+       {"tether.drum.width_mm=100,1"},
+       "hold no turn"}};
+  for (const auto& [fixed, varied, because] : all) {
+    INFO(varied.front());
+    const DesignFile file = parse_design(starting_spec(), "start.json", {}, fixed);
+    CHECK_THROWS_WITH(read_sweep_space(varied, file), Contains(because));
+    CHECK_THROWS_WITH(read_sweep_space(varied, file, SampleRequest{.draws = 100}),
+                      Contains(because));
   }
 }

@@ -607,3 +607,43 @@ TEST_CASE(
     CHECK((more.inside_C - at.inside_C) / step == Approx(at.inside_per_surface).epsilon(1e-4));
   });
 }
+
+TEST_CASE("only what a solved tether leaves on the drum is as warm as its package") {
+  Design design = test::published_design();
+  design.tether = wound_tether();
+  design.tether.length = 30;
+  design.tether.spooled_length = 30;
+  design.tether.model = TetherModel::solved;
+  const auto on_drum = [](const Design& asked) {
+    return evaluate(asked, 1.5e-6, Condition::hover).drum_temperature;
+  };
+  Design shorter = design;
+  shorter.tether.model = TetherModel::straight;
+  for (const double slack : {0.1, 0.5}) {
+    design.tether.slack = slack;
+    const SteadyFlight flight(design, Condition::hover);
+    const double left = 30 - slack * 30;
+    CHECK(flight.tether().on_drum_with(0.7e-3) == Approx(left));
+    shorter.tether.spooled_length = left;
+    const SteadyFlight straight(shorter, Condition::hover);
+    CHECK(*TetherHeat(flight, 0.7e-3).temperatures(3)->on_drum ==
+          Approx(*TetherHeat(straight, 0.7e-3).temperatures(3)->on_drum));
+  }
+  CHECK(on_drum(design) > 30);
+  design.tether.slack = 1;
+  CHECK(std::isnan(on_drum(design)));
+  CHECK(std::isfinite(evaluate(design, 1.5e-6, Condition::hover).conductor_temperature));
+}
+
+TEST_CASE("flanges closer than the tether make no cooler package than one as wide as it") {
+  Tether tether = wound_tether();
+  const double wall = tether.insulation.thickness;
+  tether.drum.width = wound_side(tether, 0.7e-3, wall);
+  const DrumPackage one_wide = drum_package(tether, 0.7e-3, wall, 30);
+  for (const double width : {1e-5, 1e-3}) {
+    tether.drum.width = width;
+    const DrumPackage package = drum_package(tether, 0.7e-3, wall, 30);
+    CHECK(package.surface == one_wide.surface);
+    CHECK(package.thermal_resistance == one_wide.thermal_resistance);
+  }
+}

@@ -423,3 +423,22 @@ TEST_CASE("what is no cable is refused") {
   air.roughness_length = 0;
   CHECK_THROWS_AS(solver.solve({.weight = 1}, air, of_length(11), up), std::invalid_argument);
 }
+
+TEST_CASE("a wind that is known below the roughness length moves nothing") {
+  MovingAir air;
+  air.profile = WindProfile::logarithmic;
+  air.wind = {-8, 0, 0};
+  air.roughness_length = 0.5;
+  const Cable cable{.weight = 0.3, .diameter = 4e-3};
+  for (const double reference : {0.1, 0.5}) {
+    air.reference_height = reference;
+    CHECK(wind_share(air, reference) == 0);
+    CableSolver solver;
+    CableSolver in_still_air;
+    const Vector3 drone{0.1, 0, reference};
+    REQUIRE(solver.solve(cable, air, of_length(0.8), drone) == CableOutcome::hangs);
+    REQUIRE(in_still_air.solve(cable, {}, of_length(0.8), drone) == CableOutcome::hangs);
+    CHECK(solver.result().on_drone == in_still_air.result().on_drone);
+    CHECK(solver.result().tension_at_station == in_still_air.result().tension_at_station);
+  }
+}

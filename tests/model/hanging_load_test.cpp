@@ -178,3 +178,27 @@ TEST_CASE("a thicker conductor of a solved tether pulls more, but where wind and
   CHECK(less <= 8);
   CHECK(far_less <= 2);
 }
+
+TEST_CASE("a drone below the roughness length flies, and its tether hangs as in still air") {
+  Tether tether;
+  tether.model = TetherModel::solved;
+  tether.conductor.density = 2700;
+  tether.length = 30;
+  Flight flight;
+  flight.wind_profile = WindProfile::logarithmic;
+  flight.roughness_length = 1;
+  for (const double slack : {0.01, 0.3}) {
+    tether.slack = slack;
+    for (const double aside : {0.0, 0.2}) {
+      flight.horizontal_offset = aside;
+      const TetherInFlight windy(tether, 0, {.airspeed = 9, .deployed = 0.5}, flight);
+      const TetherInFlight still(tether, 0, {.airspeed = 0, .deployed = 0.5}, flight);
+      for (const double radius : {1e-4, 6e-4, 2e-3}) {
+        const TetherLoad load = windy.load(radius);
+        const TetherLoad expected = still.load(radius);
+        CHECK(load.down == Approx(expected.down).epsilon(1e-6));
+        CHECK(load.along == Approx(expected.along).epsilon(1e-6).margin(1e-6 * expected.down));
+      }
+    }
+  }
+}

@@ -66,6 +66,33 @@ TEST_CASE("the rated temperature binds where it is named, and nothing cheaper ke
   }
 }
 
+TEST_CASE("of what a winch leaves on the drum the rating is kept, and nothing cheaper keeps it") {
+  Design design = warm_design();
+  design.requirements.buffer_battery = true;
+  design.tether.model = TetherModel::solved;
+  design.tether.winch_pull = 3;
+  design.tether.drum.core_diameter = 0.05;
+  design.tether.drum.width = 0.05;
+  design.supply.voltage = 120;
+  int bound_by_heat = 0;
+  for (const double spooled : {4.0, 8.0, 16.0}) {
+    design.tether.spooled_length = spooled;
+    const Optimization result = optimize(design);
+    REQUIRE(result.feasible);
+    if (result.limited_by == Limit::conductor_temperature) ++bound_by_heat;
+    for (double area = 0.3e-6; area < 3e-6; area *= 1.03) {
+      const OperatingPoint hover = evaluate(design, area, Condition::hover);
+      const OperatingPoint forward = evaluate(design, area, Condition::forward);
+      const bool keeps =
+          (hover.headroom >= 1) && (forward.headroom >= 1) &&
+          !(std::max(hover.conductor_temperature, forward.conductor_temperature) > 70) &&
+          !(hover.drum_temperature > 70) && !(forward.drum_temperature > 70);
+      if (keeps) CHECK(forward.total_power >= result.forward.total_power * (1 - 1e-6));
+    }
+  }
+  CHECK(bound_by_heat > 0);
+}
+
 TEST_CASE("a tether that cannot bear its tension is refused, and a strength member helps") {
   Design design = test::published_design();  // aluminium of unknown strength
   design.requirements.strength_safety_factor = 5;

@@ -136,3 +136,20 @@ TEST_CASE("height unwinds the drum: the circuit stays as long, and ends with the
   REQUIRE(end);
   CHECK(end->value <= 50);
 }
+
+TEST_CASE("below the roughness length a drone hovers in still air, where an envelope starts") {
+  Design design = test::published_design();
+  design.tether.cross_section = 1.5e-6;
+  design.flight.wind_profile = WindProfile::logarithmic;
+  design.flight.roughness_length = 0.3;
+  design.flight.headwind = 5;
+  for (const TetherModel model : {TetherModel::straight, TetherModel::solved}) {
+    design.tether.model = model;
+    CHECK(wind_at_drone(design) == 5);
+    CHECK(wind_at_drone(at_reach(design, Reach::height, 0.2)) == 0);
+    const auto highest = greatest_reach(design, Reach::height);
+    REQUIRE(highest);
+    CHECK(highest->value > 20);
+    CHECK(envelope_curve(design, Reach::payload, Reach::height, 3).size() == 3);
+  }
+}

@@ -136,3 +136,29 @@ TEST_CASE("heights are those of the flight over ground and of all the cable over
   CHECK(rule_value({design, one_mm2}, RuleFigure::flight_height).hi == 100);
   CHECK(rule_value({design, one_mm2}, RuleFigure::attainable_height).lo == 125);
 }
+
+TEST_CASE("the length of a tether that sags or stands aside is what is paid out") {
+  Design design = starting_design();
+  design.tether.length = 30;
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.2;
+  design.flight.horizontal_offset = 40;
+  for (const std::optional<double> area : {std::optional(one_mm2), std::optional<double>()}) {
+    const RuleValue length = rule_value({design, area}, RuleFigure::tether_length);
+    CHECK(length.lo == Approx(60));
+    CHECK(length.hi == Approx(60));
+  }
+  design.tether.spooled_length = 45;
+  CHECK(rule_value({design, one_mm2}, RuleFigure::tether_length).hi == 75);
+  CHECK(rule_value({design, one_mm2}, RuleFigure::attainable_height).hi == 75);
+
+  design.tether.winch_pull = 4;
+  const std::vector<double> areas{one_mm2};
+  const AreaPoints flown = evaluate_areas(design, areas).front();
+  CHECK(rule_value({design, one_mm2}, RuleFigure::tether_length).lo ==
+        std::max(flown.hover.tether_length, flown.forward.tether_length));
+  const RuleCheck unknown = held({design, std::nullopt},
+                                 asks(RuleFigure::attainable_height, RuleComparison::at_most, 50));
+  CHECK(unknown.verdict == RuleVerdict::unknown);
+  CHECK(!unknown.because.empty());
+}

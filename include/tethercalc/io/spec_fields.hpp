@@ -128,9 +128,14 @@ struct FieldConflict {
   std::string message;       ///< a sentence with both values
 };
 
-/// Conflicts between the fields of a design: a converter that cuts off at or above the supply
-/// voltage, and an efficiency curve that would draw less power at a higher load.
+/// Conflicts between the fields of a design, such as a converter that cuts off at or above the
+/// supply voltage, or a station far aside of a drone whose tether hangs straight down. Whoever puts
+/// numbers into designs asks here. Where the ends of ranges, each with each, are free of conflicts,
+/// so is all between them.
 [[nodiscard]] std::vector<FieldConflict> find_conflicts(const Design& design);
+
+/// Whether `find_conflicts` looks at the field with this dot path.
+[[nodiscard]] bool may_conflict(std::string_view path);
 
 /// A JSON Schema (draft 2020-12) of design specs. It allows what the reader allows, except for what
 /// a schema cannot see: other files, library names, conflicts between fields, the order of the

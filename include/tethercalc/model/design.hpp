@@ -105,7 +105,7 @@ struct UnscaledMotors {
 [[nodiscard]] std::optional<UnscaledMotors> unscaled_motors(const Design& design);
 
 /// Wind at the drone in m/s, `tether.length` over its station: `headwind`, or what the profile
-/// makes of it from the reference height to there.
+/// makes of it from the reference height to there; none below the roughness length.
 [[nodiscard]] double wind_at_drone(const Design& design);
 
 /// Airspeed in m/s in `condition`.

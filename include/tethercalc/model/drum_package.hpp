@@ -11,7 +11,7 @@ namespace tethercalc {
 ///
 /// Geometry: the tether takes a square of side a = √8·(r + s) plus the width of a strength
 /// member and a cover, as wires do that lie in a square pattern; a length L fills L·a², in layers
-/// between core and outer radius, one layer at least.
+/// between core and outer radius, one layer at least. Flanges closer than a hold one turn a layer.
 ///
 /// Heat inside: made evenly, led off to the outside and to the faces at the flanges, none to the
 /// core. Alone, the way outwards leaves the turns at the core q‴/(4k)·(r_o² − r_i² −
@@ -42,6 +42,10 @@ struct DrumPackage {
 
 /// Whether anything is known of how the wound part is cooled: a derating, a package or layers.
 [[nodiscard]] bool is_cooling_known(const Drum& drum);
+
+/// m, the side of the square that `tether` takes in its package, and the least width of a drum that
+/// holds it, with conductors of `radius` m (≥ 0) in walls of `wall` m.
+[[nodiscard]] double wound_side(const Tether& tether, double radius, double wall);
 
 /// `length` m (> 0) of `tether` with conductors of `radius` m in walls of `wall` m, on its drum.
 [[nodiscard]] DrumPackage drum_package(const Tether& tether, double radius, double wall,

@@ -56,7 +56,8 @@ enum class WindProfile {
 };
 
 /// The air that a cable hangs in. Below the ground and, with a logarithmic profile, below the
-/// roughness length, a wind that grows with height is still.
+/// roughness length, a wind that grows with height is still; all of it is where the reference
+/// height lies there.
 struct MovingAir {
   double density = standard_air_density;       ///< kg/m³
   double viscosity = 1.81e-5;                  ///< Pa·s; of air at 20 °C, 6 % less at −5 °C

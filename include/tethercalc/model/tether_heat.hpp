@@ -44,8 +44,9 @@ struct TetherHeatState {
 /// this.
 class TetherHeat {
  public:
-  /// `radius` in m of the conductors. All but the sun makes a thicker cable cooler at the same
-  /// current; for bounds the sun shines on one of `sunlit_radius`.
+  /// `radius` in m of the conductors. All but the sun, and a winch that leaves more on the drum,
+  /// makes a thicker cable cooler at the same current; for bounds the sun shines on one of
+  /// `sunlit_radius`, and no more is on the drum than with that one.
   TetherHeat(const SteadyFlight& flight, double radius, double sunlit_radius);
 
   /// On the cable itself.

@@ -126,6 +126,10 @@ class StraightTether {
 /// the winch's pull leaves out, or the distance and `slack`.
 [[nodiscard]] PaidOut paid_out_to(const Tether& tether, double height, double offset);
 
+/// m on the drum while `in_air` m are out, where a straight tether would leave `state.on_drum`:
+/// what more hangs in the air is taken from there. 0 where `in_air` is not finite.
+[[nodiscard]] double left_on_drum(const FlightState& state, double in_air);
+
 /// All that decides how a tether hangs, but for its conductor's radius r.
 struct HangingSituation {
   std::array<double, 3> weight{};   ///< N/m: weight[0] + weight[1]·r + weight[2]·r²
@@ -313,6 +317,10 @@ class TetherInFlight {
     if (!hanging_ || hanging_->fixed_length()) return 0;
     const HangingLoad::AtRadius& at = hanging_->at(radius);
     return at.slope.length * radius / at.value.length;
+  }
+  /// m on the drum (`left_on_drum`).
+  [[nodiscard]] double on_drum_with(double radius) const {
+    return hanging_ ? on_drum(hanging_length(radius)) : straight_.on_drum_;
   }
   /// Ω of plugs and slip rings.
   [[nodiscard]] double contact_resistance() const { return straight_.contact_resistance(); }

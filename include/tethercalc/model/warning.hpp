@@ -22,6 +22,7 @@ enum class WarningKind {
   drag_estimated,              ///< drag of a drone that never flew
   drum_cooling_unknown,        ///< cable on a drum that nothing is known of
   drum_package_unknown,        ///< a drum whose cooling is known by its layers alone
+  drum_package_unused,         ///< a drum's package beside a measured heating
   tether_inclination_unknown,  ///< a tether near its rating that may hang steeply
   rated_temperature_unknown,   ///< insulation that no heat limits
   tether_touches_ground,       ///< a solved tether that hangs below its station
@@ -62,7 +63,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 50;
+inline constexpr std::size_t warning_kind_count = 51;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.

@@ -56,15 +56,18 @@ namespace tethercalc {
 [[nodiscard]] nlohmann::ordered_json thermal_json(const Design& design, const AreaPoints& points);
 
 /// {`tension_N` (the greater of both conditions), `breaking_load_N` (null where unknown),
-/// `required_safety_factor`, `wall_mm`, `breakdown_voltage_V` (null where unknown)}.
+/// `required_safety_factor`, `wall_mm`, `breakdown_voltage_V` (null where unknown), of a solved
+/// tether `hanging` {`hover`, `forward` {`paid_out_m`, `tension_N`}}}.
 [[nodiscard]] nlohmann::ordered_json cable_json(const Design& design, const AreaPoints& points);
 
 /// Sentences on heat, strength and voltage at one cross-section, without line breaks.
 [[nodiscard]] std::vector<std::string> cable_sentences(const Design& design,
                                                        const AreaPoints& points);
 
-/// What the heat balance of this design does not know and the user should.
-[[nodiscard]] std::vector<Warning> cable_warnings(const Design& design);
+/// What the heat balance of this design does not know or does not use, and the user should know;
+/// `flown` are the cross-sections in question, empty for any.
+[[nodiscard]] std::vector<Warning> cable_warnings(const Design& design,
+                                                  std::span<const AreaPoints> flown);
 
 /// That the density of the air does not reach the motor's curve, and what that comes to; nothing
 /// where `unscaled_motors` finds nothing to tell.
@@ -138,7 +141,8 @@ struct Answer {
 /// A table a condition, and what keeps an area from being usable.
 [[nodiscard]] std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
                                         const TextStyle& style);
-/// The key `table` of `evaluate`.
+/// The keys `table`, `thermal` and `cable` of `evaluate`, lists with an entry an area (`thermal`
+/// null without a heat balance): the objects of `optimize`.
 [[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
                                                    const EvaluationStudy& study);
 /// A header and two rows an area, hover first.
