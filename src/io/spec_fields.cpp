@@ -584,6 +584,11 @@ void set_word(Design& design, const SpecField& field, std::size_t index) {
   with_word(design, field, [&]<class Value>(Value& value) { value = static_cast<Value>(index); });
 }
 
+std::string roughness_conflict(double roughness_length, double known_at) {
+  return fmt::format("{} m is not less than the {} m over ground at which the wind is known",
+                     roughness_length, known_at);
+}
+
 std::vector<FieldConflict> find_conflicts(const Design& design) {
   std::vector<FieldConflict> conflicts;
   const Converter& converter = design.supply.converter;
@@ -650,9 +655,7 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
                                    flight.station_height + design.tether.length);
     if (!(flight.roughness_length < lowest)) {
       conflicts.push_back(
-          {"/flight/roughness_length_m",
-           fmt::format("{} m is not less than the {} m over ground at which the wind is known",
-                       flight.roughness_length, lowest)});
+          {"/flight/roughness_length_m", roughness_conflict(flight.roughness_length, lowest)});
     }
   }
   try {

@@ -85,7 +85,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     }
     out += table.text(style);
   }
-  for (const Warning& warning : all_warnings(file)) {
+  for (const Warning& warning : all_warnings(file, {}, {}, study.side)) {
     out += "\n" + style.subdued(wrapped("Note: " + warning.sentence));
   }
   return out;
@@ -118,7 +118,7 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
       {"greatest", greatest},
       {"curves", curves}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file));
+  add_warnings(out, all_warnings(file, {}, {}, study.side));
   return out;
 }
 

@@ -297,7 +297,7 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
     }
   }
   if (out.back() != '\n') out += "\n";
-  return out + notes_text(all_warnings(file, study.table, study.ground), style);
+  return out + notes_text(all_warnings(file, study.table, study.ground, study.side), style);
 }
 
 ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study) {
@@ -309,7 +309,7 @@ ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study)
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file, study.table, study.ground));
+  add_warnings(out, all_warnings(file, study.table, study.ground, study.side));
   return out;
 }
 

@@ -156,6 +156,7 @@ EnvelopeStudy study_envelope(const Design& design) {
   for (const auto& [of, against] : curves) {
     study.curves.push_back({of, against, envelope_curve(design, of, against)});
   }
+  study.side = worst_side(design, *design.tether.cross_section);
   return study;
 }
 

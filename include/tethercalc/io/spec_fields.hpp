@@ -128,6 +128,10 @@ struct FieldConflict {
   std::string message;       ///< a sentence with both values
 };
 
+/// Why a logarithmic wind profile has no wind: its roughness length is not less than the least of
+/// the heights over ground, both in m, at which the wind is known.
+[[nodiscard]] std::string roughness_conflict(double roughness_length, double known_at);
+
 /// Conflicts between the fields of a design: a converter that cuts off at or above the supply
 /// voltage, and an efficiency curve that would draw less power at a higher load.
 [[nodiscard]] std::vector<FieldConflict> find_conflicts(const Design& design);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
 
@@ -81,6 +82,7 @@ struct EnvelopeStudy {
   /// Payload and wind against height, payload against wind; of a solved tether also the offset
   /// against height and wind.
   std::vector<EnvelopeCurve> curves;
+  std::optional<WorstSide> side;  ///< of the design itself
 
   /// Whether the cable flies at all.
   [[nodiscard]] bool any() const;
