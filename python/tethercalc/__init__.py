@@ -228,10 +228,11 @@ def shape(
 
     The drone is `height_m` above the station and `offset_m` aside; the cable is as long as it
     takes and `slack_percent` more, or `length_m`, or pulled by the winch with `winch_tension_N`.
-    The wind is `wind_m_s` at `reference_height_m` and blows from `wind_from_deg`, clockwise from
-    above, 0 being where the drone stands aside. `profile` ("uniform", "power-law" or
-    "logarithmic") says how it grows with height, with `exponent` or `roughness_m`, the station
-    being `station_height_m` over ground. `stiffness_N` is axial, force per strain.
+    The wind is `wind_m_s` at `reference_height_m`, or at the drone, and blows from
+    `wind_from_deg`, clockwise from above, 0 being where the drone stands aside. `profile`
+    ("uniform", "power-law" or "logarithmic") says how it grows with height, with `exponent` or
+    `roughness_m`, the station being `station_height_m` over ground. `stiffness_N` is axial, force
+    per strain.
 
     `outcome` is "hangs" or says why there is no such cable. `length_m` is its length, `T_drone_N`
     and `T_anchor_N` the pulls at its ends, `F_on_drone_N` the force by axis (aside, to its left,

@@ -231,7 +231,7 @@ class Command {
                 "flight.wind_profile)")
         .option("--reference-height M", shape.reference_height,
                 "m over ground at which --wind blows, with a profile (default: "
-                "flight.wind_reference_height_m, or 10)")
+                "flight.wind_reference_height_m, or at the drone)")
         .option("--exponent X", shape.exponent, "Of the power law (default: flight.wind_exponent)")
         .option("--roughness M", shape.roughness_length,
                 "m, of the logarithmic profile (default: flight.roughness_length_m)")
@@ -472,7 +472,10 @@ class CommandLine {
         .output(output_)
         .examples({"tethercalc envelope my.json --area-mm2 1.1"});
     add("shape", "How the cable hangs between station and drone, and what that does to the drone",
-        [this] { return run_shape(shape_, output_); })
+        [this] {
+          shape_.given = given_to("shape");
+          return run_shape(shape_, output_);
+        })
         .optional_argument("SPEC", shape_.spec.file, "Design spec (JSON), - for standard input")
         .repeatable("--set PATH=VALUE", shape_.spec.overrides,
                     "Change a field of the spec: path=value")
@@ -579,12 +582,19 @@ class CommandLine {
                    "tethercalc log flight.bin --csv XKF1 --output xkf1.csv"});
   }
 
+  /// Names of all options that the command was given.
+  std::vector<std::string> given_to(const char* command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app_.get_subcommand(command)->get_options()) {
+      if (option->count() > 0) names.push_back(option->get_name());
+    }
+    return names;
+  }
+
   void add_pictures() {
     add("plot", "A figure of a result",
         [this] {
-          for (const CLI::Option* option : app_.get_subcommand("plot")->get_options()) {
-            if (option->count() > 0) plot_.given.push_back(option->get_name());
-          }
+          plot_.given = given_to("plot");
           return run_plot(plot_, output_);
         })
         .argument("KIND", plot_.kind, plot_kinds_help())

@@ -106,7 +106,8 @@ int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_
 /// The cable of a spec, or cables of a file of cases.
 struct ShapeOptions : CableOptions {
   SpecOptions spec;
-  std::string cases_file;  ///< empty: the spec's cable
+  std::string cases_file;          ///< empty: the spec's cable
+  std::vector<std::string> given;  ///< names of all options that were given
 };
 
 /// How the cable hangs; exit code 1 where it cannot, or would lie on the ground.

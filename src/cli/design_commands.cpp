@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -137,7 +138,7 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
   emit(
       output, [&] { return evaluate_text(file, answer, style_for(output)); },
       [&] { return evaluate_json(file, answer); }, [&] { return evaluate_csv(answer.table); });
-  point_to_explanations({}, all_warnings(file, answer.table, answer.ground), output);
+  point_to_explanations({}, all_warnings(file, answer.table, answer.ground, answer.side), output);
   return done;
 }
 
@@ -175,7 +176,7 @@ int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_
   for (const ReachResult& result : answer.greatest) {
     if (result.end && result.end->bounded) codes.emplace_back(limit_name(result.end->limit));
   }
-  point_to_explanations(std::move(codes), all_warnings(file), output);
+  point_to_explanations(std::move(codes), all_warnings(file, {}, {}, answer.side), output);
   return answer.any() ? done : answer_is_no;
 }
 
@@ -195,9 +196,20 @@ int run_cable_cases(const ShapeOptions& options, const Output& output) {
 
 int run_shape(const ShapeOptions& options, const Output& output) {
   if (!options.cases_file.empty()) {
+    Problems problems;
     if (!options.spec.file.empty()) {
-      throw InputError("--cases", "takes the place of the spec; give one of them");
+      problems.add("--cases", "takes the place of the spec; give one of them");
     }
+    constexpr std::array<std::string_view, 4> kept{"--cases", "--output", "--color", "--quiet"};
+    for (const std::string& name : options.given) {
+      if (std::ranges::find(kept, name) != kept.end() || !name.starts_with("--")) continue;
+      if (name != "--format") {
+        problems.add(name, "says nothing beside --cases, whose file has the whole cable");
+      } else if (output.format != Format::json) {
+        problems.add(name, "has to be json beside --cases, whose answer has no other form");
+      }
+    }
+    problems.throw_if_any();
     return run_cable_cases(options, output);
   }
   if (options.spec.file.empty()) throw InputError("SPEC", "is needed, or --cases FILE");

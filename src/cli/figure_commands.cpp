@@ -121,6 +121,9 @@ Drawn shape(const PlotOptions& options) {
   for (const ShapeRequest& request : asked.requests) {
     studies.push_back(study_cable_shape(asked.file.design, asked.area, request));
   }
+  for (const std::string& sentence : undrawn_sentences(asked.requests, studies)) {
+    remark("plot shape: not drawn " + sentence + "\n");
+  }
   try {
     return {shape_figure(heading(options, asked.file.name), asked.requests, studies)};
   } catch (const std::invalid_argument& error) {

@@ -40,7 +40,7 @@ double wind_of(HangingSituation situation, double radius, double ratio) {
   return std::sqrt(ratio / drag_over_weight(situation, radius).value);
 }
 
-constexpr HangingLoad::Parts no_load{infinity, infinity, infinity, infinity, infinity};
+constexpr HangingLoad::Parts no_load{infinity, infinity, infinity, infinity, 0, infinity};
 
 HangingLoad::Parts solved_itself(const HangingSituation& situation, double radius) {
   return HangingLoad(situation, ConductorsAsked::one).at(radius).value;
@@ -214,9 +214,13 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   }
   const double load = own_load(situation, radius).value;
   const double length =
-      situation.paid_out.length.value_or(std::max(1.0, values[4]) * distance_to(situation));
+      situation.paid_out.length.value_or(std::max(1.0, values.back()) * distance_to(situation));
   if (length > situation.cable_there_is) return no_load;
-  return {std::max(0.0, values[0]) * load, values[1] * load, values[2] * load, values[3] * load,
+  return {std::max(0.0, values[0]) * load,
+          values[1] * load,
+          values[2] * load,
+          values[3] * load,
+          0,
           length};
 }
 

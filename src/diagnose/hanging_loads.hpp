@@ -28,7 +28,7 @@ class HangingLoads {
   /// length follows with the tension's root.
   [[nodiscard]] HangingLoad::Parts by_length(HangingSituation situation, double radius);
 
-  static constexpr std::size_t part_count = 5;
+  static constexpr std::size_t part_count = 6;
   using Values = std::array<double, part_count>;  ///< over the cable's own load, or the distance
   using Place = std::array<int, 3>;
   /// A cable of the grid, and the loads about the places that it is the first corner of.

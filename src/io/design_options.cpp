@@ -96,14 +96,17 @@ std::vector<PaidOut> parsed_paid_out(const CableOptions& options, const Design& 
     problems.succeeds([&] { check_range("--length", *options.length, 1e-3, 1e6, "m"); });
     return {{.length = options.length, .winch_tension = {}}};
   }
-  if (options.winch_tension == 0) {
-    problems.add("--winch-tension",
-                 "a winch that does not pull decides no length; --slack or --length does");
-  }
   FieldOptions fields(design, problems);
   Tether tether = design.tether;
-  tether.winch_pull =
-      fields.number("--winch-tension", options.winch_tension, "tether.winch_pull_N").value();
+  if (options.winch_tension && !(*options.winch_tension > 0)) {
+    problems.add("--winch-tension",
+                 fmt::format("has to be more than 0 N, found {}; --slack or --length decides how "
+                             "much cable is out without a winch",
+                             *options.winch_tension));
+  } else {
+    tether.winch_pull =
+        fields.number("--winch-tension", options.winch_tension, "tether.winch_pull_N").value();
+  }
   if (!options.slacks_percent.empty()) tether.winch_pull = 0;
   std::vector<PaidOut> out;
   for (const double slack :
@@ -126,15 +129,15 @@ std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Des
       fields.number("--station-height", options.station_height, "flight.station_height_m").value();
   request.profile =
       static_cast<WindProfile>(fields.word("--profile", options.profile, "flight.wind_profile"));
-  request.reference_height =
-      fields
-          .number("--reference-height", options.reference_height, "flight.wind_reference_height_m")
-          .value_or(request.reference_height);
+  request.reference_height = fields.number("--reference-height", options.reference_height,
+                                           "flight.wind_reference_height_m");
   request.exponent = fields.number("--exponent", options.exponent, "flight.wind_exponent").value();
   request.roughness_length =
       fields.number("--roughness", options.roughness_length, "flight.roughness_length_m").value();
-  if (request.roughness_length >= request.reference_height) {
-    problems.add("--roughness", "has to be less than --reference-height");
+  const double known_at =
+      request.reference_height.value_or(request.station_height + request.height);
+  if (request.profile == WindProfile::logarithmic && !(request.roughness_length < known_at)) {
+    problems.add("--roughness", roughness_conflict(request.roughness_length, known_at));
   }
   request.axial_stiffness =
       fields.number("--stiffness", options.axial_stiffness, "tether.axial_stiffness_N");

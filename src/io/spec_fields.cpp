@@ -606,6 +606,11 @@ bool may_conflict(std::string_view path) {
                              [&](std::string_view start) { return path.starts_with(start); });
 }
 
+std::string roughness_conflict(double roughness_length, double known_at) {
+  return fmt::format("{} m is not less than the {} m over ground at which the wind is known",
+                     roughness_length, known_at);
+}
+
 std::vector<FieldConflict> find_conflicts(const Design& design) {
   std::vector<FieldConflict> conflicts;
   const Converter& converter = design.supply.converter;
@@ -682,9 +687,7 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
                                    flight.station_height + design.tether.length);
     if (!(flight.roughness_length < lowest)) {
       conflicts.push_back(
-          {"/flight/roughness_length_m",
-           fmt::format("{} m is not less than the {} m over ground at which the wind is known",
-                       flight.roughness_length, lowest)});
+          {"/flight/roughness_length_m", roughness_conflict(flight.roughness_length, lowest)});
     }
   }
   try {

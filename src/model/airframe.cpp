@@ -28,9 +28,22 @@ double limited(double t, double limit) {
   return t <= limit * (1 + rounding) ? t : infinity;
 }
 
+/// Of a cable that pulls harder into the wind than the airframe drags with it, which leaves a small
+/// tilt to step towards.
+double pulled_tan_pitch(const ForceBalance& balance) {
+  const AirframeDrag drag{.front_area = balance.front_area, .top_area = balance.top_area};
+  double tangent = 0;
+  for (int i = 0; i < 50; ++i) {
+    const double push = balance.area_force_factor * effective_area(drag, tangent);
+    tangent = (push + balance.tether_drag) / balance.weight;
+  }
+  return tangent;
+}
+
 }  // namespace
 
 double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit, double guess) {
+  if (balance.tether_drag < 0) return pulled_tan_pitch(balance);
   const double front = balance.area_force_factor * balance.front_area;
   const double top = balance.area_force_factor * balance.top_area;
   if (front + balance.tether_drag == 0) {

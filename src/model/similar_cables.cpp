@@ -24,8 +24,9 @@ double weight_slope_at(const HangingSituation& situation, double radius) {
 
 /// N/m², of the wind at its reference height on a width.
 double pressure_on(const HangingSituation& situation) {
-  const double speed = situation.air.wind.x;
-  return 0.5 * situation.air.density * situation.drag_coefficient * speed * speed;
+  const Vector3& wind = situation.air.wind;
+  return 0.5 * situation.air.density * situation.drag_coefficient *
+         (wind.x * wind.x + wind.y * wind.y);
 }
 
 /// Cable beyond the height, over that; 0 for a drone aside or in motion.
@@ -66,8 +67,8 @@ DragOverWeight drag_over_weight(const HangingSituation& situation, double radius
           (per_width * situation.width[1] - value * weight_slope_at(situation, radius)) / weight};
 }
 
-CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver, double radius,
-                          LoadShares& shares) {
+HangingOutcome solve_hanging(const HangingSituation& situation, CableSolver& solver,
+                             double radius) {
   const PaidOut& paid_out = situation.paid_out;
   const Cable cable{.weight = weight_at(situation, radius),
                     .diameter = situation.width[0] + situation.width[1] * radius,
@@ -77,25 +78,47 @@ CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver
   const Vector3 drone{situation.offset, 0, situation.height};
   // The wind swings a fold above its station aside by half of drag over weight. With a fiftieth of
   // its slack it stays a fold, and no solution is needed; with three times its slack nearly so.
-  const double drag = drag_across(cable, situation.air, situation.air.wind.x);
+  const Vector3& wind = situation.air.wind;
+  const double speed = std::hypot(wind.x, wind.y);
+  const double drag = drag_across(cable, situation.air, speed);
   const double slack = slack_above_station(situation);
   const auto swings_less_than = [&](double slacks) { return drag < slacks * slack * cable.weight; };
   const bool folded = swings_less_than(folded_below);
-  CableOutcome outcome = CableOutcome::not_found;
-  if (!folded) outcome = solver.solve(cable, situation.air, paid_out, drone);
+  HangingOutcome out;
+  if (!folded) out.outcome = solver.solve(cable, situation.air, paid_out, drone);
   double drag_of_fold = 0;
-  if (folded || (outcome == CableOutcome::not_found && swings_less_than(3))) {
+  if (folded || (out.outcome == CableOutcome::not_found && swings_less_than(3))) {
     drag_of_fold = drag * situation.height;
     MovingAir still = situation.air;
     still.wind = {};
-    outcome = solver.solve(cable, still, paid_out, drone);
+    out.outcome = solver.solve(cable, still, paid_out, drone);
   }
+  if (out.outcome != CableOutcome::hangs) return out;
+  out.cable = solver.result();
+  if (drag_of_fold > 0) {
+    out.cable.on_drone.x += drag_of_fold * wind.x / speed;
+    out.cable.on_drone.y += drag_of_fold * wind.y / speed;
+  }
+  if (out.cable.length > situation.cable_there_is) out.outcome = CableOutcome::too_short;
+  return out;
+}
+
+CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver, double radius,
+                          LoadShares& shares) {
+  const auto [outcome, hangs] = solve_hanging(situation, solver, radius);
   if (outcome != CableOutcome::hangs) return outcome;
-  const HangingCable hangs = solver.result();
-  if (hangs.length > situation.cable_there_is) return CableOutcome::too_short;
   const double load = own_load(situation, radius).value;
-  shares = {std::max(0.0, drag_of_fold - hangs.on_drone.x) / load, -hangs.on_drone.z / load,
-            hangs.tension_at_drone / load, hangs.tension_at_station / load, hangs.length};
+  const Vector3& pull = hangs.on_drone;
+  const Vector3& wind = situation.air.wind;
+  double along = std::max(0.0, -pull.x);
+  double across = 0;
+  if (const double speed = std::hypot(wind.x, wind.y); wind.y != 0 || wind.x > 0) {
+    along = (pull.x * wind.x + pull.y * wind.y) / speed;
+    across = (pull.x * wind.y - pull.y * wind.x) / speed;
+  }
+  shares = {
+      along / load,  -pull.z / load, hangs.tension_at_drone / load, hangs.tension_at_station / load,
+      across / load, hangs.length};
   return outcome;
 }
 
@@ -255,7 +278,7 @@ SimilarCables::At SimilarCables::on(const Piece& piece, double share) const {
     at.value[i] = piece.value[0][i] + x * now[i] - before[i];
     at.slope[i] = piece.slope[0][i] + x * now[forces + i] - before[forces + i];
   }
-  at.value[forces] = *normal_.paid_out.length;
+  at.value.back() = *normal_.paid_out.length;
   return at;
 }
 

@@ -11,8 +11,8 @@
 namespace tethercalc {
 
 /// A load over the cable's own (`own_load`): against the wind, down, tension at the drone, tension
-/// at the ground; and m of cable in the air.
-using LoadShares = std::array<double, 5>;
+/// at the ground, across the wind; and m of cable in the air.
+using LoadShares = std::array<double, 6>;
 
 /// Of a solver whose loads are remembered.
 constexpr int most_steps_for_load = 4000;
@@ -65,7 +65,7 @@ class SimilarCables {
 
  private:
   static constexpr std::size_t degree = 8;
-  /// Forces, without the length.
+  /// Forces, without the one across, of which there is none, and the length.
   static constexpr std::size_t forces = 4;
   using Forces = std::array<double, forces>;
   using Series = std::array<Forces, degree + 1>;

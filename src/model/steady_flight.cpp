@@ -195,7 +195,10 @@ double SteadyFlight::radius_between(double limit, double light, double heavy) co
 }
 
 double SteadyFlight::tan_pitch(double radius, double weight, double tan_limit, double guess) const {
-  return tan_pitch_against(tether_.drag(radius), weight, tan_limit, guess);
+  const double against = tan_pitch_against(tether_.drag(radius), weight, tan_limit, guess);
+  if (state_.wind_from == 0 || !(weight < std::numeric_limits<double>::infinity())) return against;
+  const double tangent = std::hypot(against, tether_.across(radius) / weight);
+  return tangent <= tan_limit ? tangent : std::numeric_limits<double>::infinity();
 }
 
 double SteadyFlight::tan_pitch_against(double tether_drag, double weight, double tan_limit,

@@ -258,7 +258,7 @@ HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
   if (!shares) shares = between_nodes(radius);
   if (!shares) {
     constexpr double none = std::numeric_limits<double>::infinity();
-    return {{none, none, none, none, none}, {}};
+    return {{none, none, none, none, none, none}, {}};
   }
   Values& value = shares->value;
   Values& slope = shares->slope;
@@ -271,8 +271,8 @@ HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
     value.back() = *situation_.paid_out.length;
     slope.back() = 0;
   }
-  return {{value[0], value[1], value[2], value[3], value[4]},
-          {slope[0], slope[1], slope[2], slope[3], slope[4]}};
+  return {{value[0], value[1], value[2], value[3], value[4], value[5]},
+          {slope[0], slope[1], slope[2], slope[3], slope[4], slope[5]}};
 }
 
 // --- TetherInFlight ---
@@ -296,17 +296,23 @@ std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situatio
   return load;
 }
 
-/// The air as the cable meets it, x from the station to the drone, which stands upwind. The drone's
-/// own motion counts as wind, which loads the cable more than following the drone would.
+/// The air as the cable meets it, x from the station to the drone. The drone's own motion counts as
+/// wind, which loads the cable more than following the drone would.
 MovingAir air_about(const FlightState& state, const Flight& flight) {
   MovingAir air;
   air.density = flight.air_density;
-  air.wind = {-std::abs(state.airspeed), 0, 0};
+  const double speed = std::abs(state.airspeed);
+  air.wind = {-speed, 0, 0};
+  if (state.wind_from != 0) {
+    air.wind = {-speed * std::cos(state.wind_from), speed * std::sin(state.wind_from), 0};
+  }
   air.profile = flight.wind_profile;
   air.station_height = flight.station_height;
   air.reference_height = flight.station_height + state.deployed;
   air.exponent = flight.wind_exponent;
   air.roughness_length = flight.roughness_length;
+  // No profile begins below the roughness: up to there what the drone meets, mostly still air.
+  if (air.reference_height <= air.roughness_length) air.profile = WindProfile::uniform;
   return air;
 }
 
@@ -345,6 +351,11 @@ HangingSituation hanging_situation(const Tether& tether, double wall, const Flig
           .height = state.deployed};
 }
 
+HangingSituation hanging_situation(const Design& design, const FlightState& state) {
+  const double wall = insulation_wall(design.tether.insulation, design.supply.voltage);
+  return hanging_situation(design.tether, wall, state, design.flight);
+}
+
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,
                                const Flight& flight, ConductorsAsked asked)
     : straight_(tether, wall, state, flight.air_density, flight.gravity), asked_(asked) {
@@ -362,8 +373,13 @@ void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
 TetherLoad TetherInFlight::load(double radius) const {
   if (!hanging_) return straight_.load(radius);
   const HangingLoad::Parts& parts = hanging_->at(radius).value;
-  return {parts.along,          parts.down,  parts.tension_at_drone, parts.tension_at_ground,
-          hanging_mass(radius), parts.length};
+  return {parts.along,
+          parts.down,
+          parts.tension_at_drone,
+          parts.tension_at_ground,
+          hanging_mass(radius),
+          parts.length,
+          parts.across};
 }
 
 double TetherInFlight::hanging_mass(double radius) const {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "report/figure_data.hpp"
+#include "tethercalc/report/cable_report.hpp"
 #include "tethercalc/report/result_figures.hpp"
 #include "tethercalc/report/text_table.hpp"
 
@@ -83,17 +84,28 @@ plot::Panel view(const std::vector<Drawn>& drawn, double Vector3::*member, bool 
 
 }  // namespace
 
+std::vector<std::string> undrawn_sentences(std::span<const ShapeRequest> requests,
+                                           std::span<const ShapeStudy> studies) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < studies.size(); ++k) {
+    if (studies[k].outcome == CableOutcome::hangs) continue;
+    out.push_back("at " + words_of(requests, requests[k]) + ": " +
+                  no_shape_sentence(studies[k], requests[k]));
+  }
+  return out;
+}
+
 Figure shape_figure(const std::string& name, std::span<const ShapeRequest> requests,
                     std::span<const ShapeStudy> studies) {
   std::vector<Drawn> drawn;
-  std::string left_out;
   for (std::size_t k = 0; k < studies.size(); ++k) {
-    const std::string words = words_of(requests, requests[k]);
     if (studies[k].outcome == CableOutcome::hangs) {
-      drawn.push_back({words, &studies[k]});
-    } else {
-      left_out += " There is no shape at " + words + ".";
+      drawn.push_back({words_of(requests, requests[k]), &studies[k]});
     }
+  }
+  std::string left_out;
+  for (const std::string& sentence : undrawn_sentences(requests, studies)) {
+    left_out += " There is no shape " + sentence;
   }
   if (drawn.empty()) throw std::invalid_argument("none of the cables asked for has a shape");
 

@@ -19,22 +19,6 @@ std::string_view outcome_name(CableOutcome outcome) {
   return cable_outcome_names()[static_cast<std::size_t>(outcome)];
 }
 
-std::string no_shape_sentence(const ShapeStudy& study, const ShapeRequest& request) {
-  const double distance = std::hypot(study.drone.x, study.drone.z);
-  switch (study.outcome) {
-    case CableOutcome::too_short:
-      return fmt::format("The cable is too short: {} m do not reach a drone {} m away.",
-                         significant(*request.paid_out.length, 4), significant(distance, 4));
-    case CableOutcome::tension_too_low:
-      return fmt::format(
-          "{} N at the winch cannot hold the cable up to the drone: whatever is paid "
-          "out, it pulls harder.",
-          significant(*request.paid_out.winch_tension, 3));
-    default:
-      return "No equilibrium of this cable was found, so that nothing is said about its shape.";
-  }
-}
-
 ordered_json vector_json(const Vector3& v) { return {v.x, v.y, v.z}; }
 
 std::vector<CablePoint> stations_of(const CableShape& shape) {
@@ -108,6 +92,27 @@ std::span<const std::string_view> cable_outcome_names() {
   return names;
 }
 
+std::string no_shape_sentence(const ShapeStudy& study, const ShapeRequest& request) {
+  const double distance = std::hypot(study.drone.x, study.drone.z);
+  switch (study.outcome) {
+    case CableOutcome::too_short:
+      if (study.loads.length > study.cable_there_is) {
+        return fmt::format("The cable is too short: {} m are needed, and there are {} m.",
+                           significant(study.loads.length, 4),
+                           significant(study.cable_there_is, 4));
+      }
+      return fmt::format("The cable is too short: {} m do not reach a drone {} m away.",
+                         significant(*request.paid_out.length, 4), significant(distance, 4));
+    case CableOutcome::tension_too_low:
+      return fmt::format(
+          "{} N at the winch cannot hold the cable up to the drone: whatever is paid "
+          "out, it pulls harder.",
+          significant(*request.paid_out.winch_tension, 3));
+    default:
+      return "No equilibrium of this cable was found, so that nothing is said about its shape.";
+  }
+}
+
 std::string cable_shape_text(const DesignFile& file, double area, const ShapeRequest& request,
                              const ShapeStudy& study, const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n\n";
@@ -143,6 +148,12 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   add_hover(hovers, "straight", study.straight);
   out += TitledTable{"The drone holding its place", hovers}.text(style);
   out += wrapped(difference_sentence(study));
+  const double allowed = file.design.requirements.max_pitch;
+  if (std::max(study.solved.pitch, study.straight.pitch) > allowed) {
+    out += style.bad(wrapped(
+        fmt::format("No flight is allowed a tilt of more than {}° (requirements.max_pitch_deg).",
+                    significant(allowed / unit::degree, 3))));
+  }
   for (const Warning& warning : spec_warnings(file)) out += wrapped("Note: " + warning.sentence);
   TextTable stations({"along\nm", "x\nm", "y\nm", "height\nm", "tension\nN"});
   for (const CablePoint& p : stations_of(study.shape)) {

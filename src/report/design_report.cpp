@@ -157,7 +157,8 @@ std::vector<Warning> design_warnings(const DesignFile& file, const DesignStudy& 
                        significant(*percent, 3))});
     }
   }
-  std::vector<Warning> warnings = all_warnings(found, only(study.answer.best), study.ground);
+  std::vector<Warning> warnings =
+      all_warnings(found, only(study.answer.best), study.ground, study.side);
   if (motor_chosen) warnings.push_back(motor_mass_warning());
   return warnings;
 }

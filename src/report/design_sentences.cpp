@@ -13,6 +13,7 @@
 #include "report/result_values.hpp"
 #include "tethercalc/model/conductor_heat.hpp"
 #include "tethercalc/model/drum_package.hpp"
+#include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc {
 namespace {
@@ -64,21 +65,43 @@ constexpr LimitWords all_limits[] = {
      "No cross-section works: a supply of {voltage} V is outside the converter's range.",
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"},
-    {"Limited by the tether: any thicker, and no way is found for it to hang up to the drone in "
-     "{where}{with_cable}.",
-     "No cross-section works: no way is found for the tether to hang up to the drone in "
-     "{where}{with_cable}.",
-     "The tether's way up to the drone",
+    {"Limited by the tether: any thicker, and ",
+     "No cross-section works: with 1 mm², a usual size, ", "The tether's way up to the drone",
      "no way is found for the tether to hang up to the drone in {where}{with_cable}",
      "tether not found to hang"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
-/// How much cable there is, where a drum holds the rest.
+/// How much cable there is, where a drum holds the rest, and what a winch pulls.
 std::string cable_words(const Tether& tether) {
-  if (tether.spooled_length == 0) return "";
-  return fmt::format(" with the {} m of cable there are",
-                     significant(tether.length + tether.spooled_length, 3));
+  std::string words;
+  if (tether.spooled_length > 0) {
+    words = fmt::format(" with the {} m of cable there are",
+                        significant(tether.length + tether.spooled_length, 3));
+  }
+  if (hangs_on_winch(tether)) {
+    words += fmt::format(" at the winch's {} N", significant(tether.winch_pull, 3));
+  }
+  return words;
+}
+
+/// Why a tether with conductors of `area` m² does not hang up to its drone.
+std::string no_way_words(const Design& design, double area, Condition condition) {
+  const Tether& tether = design.tether;
+  const HangingSituation situation = hanging_situation(design, flight_state(design, condition));
+  CableSolver solver;
+  const auto [outcome, cable] = solve_hanging(situation, solver, conductor_radius(area));
+  const std::string up = "up to the drone in " + condition_words(condition);
+  if (outcome == CableOutcome::tension_too_low) {
+    return fmt::format("the winch's {} N cannot hold the tether {}",
+                       significant(tether.winch_pull, 3), up);
+  }
+  if (outcome == CableOutcome::too_short && cable.length > 0) {
+    return fmt::format("{} m of cable are needed {}, and there are {} m",
+                       significant(cable.length, 4), up,
+                       significant(tether.length + tether.spooled_length, 4));
+  }
+  return "no way is found for the tether to hang " + up + cable_words(tether);
 }
 
 /// `words` with the design's numbers in place of their names.
@@ -244,6 +267,9 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
                        condition_words(where));
   }
   std::string sentence = filled_in(limit_words(result.limited_by).of_optimum, design, where);
+  if (result.limited_by == Limit::tether_shape) {
+    sentence += no_way_words(design, 1.01 * result.area, where) + ".";
+  }
   const MinimumPower& least = result.minimum_power;
   if (least.power > 0) {
     sentence += fmt::format(" Power alone would ask for {} mm² ({} W in {}).",
@@ -296,7 +322,7 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
     case Demand::tether_strength:
       return "too weak for its tension";
     case Demand::tether_shape:
-      return "no way found for it to hang up to the drone in " + where + cable_words(design.tether);
+      return no_way_words(design, points.area, missed.condition);
     case Demand::converter_rating:
       break;
   }
@@ -323,7 +349,11 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
 std::string refusal_sentence(const Design& design, const Refusal& refusal) {
   const Condition where = refusal.condition;
   if (const char* words = limit_words(refusal.limit).of_refusal; *words != '\0') {
-    return filled_in(words, design, where);
+    std::string sentence = filled_in(words, design, where);
+    if (refusal.limit == Limit::tether_shape) {
+      sentence += no_way_words(design, 1 * unit::square_millimetre, where) + ".";
+    }
+    return sentence;
   }
   const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
@@ -558,6 +588,20 @@ Warning ground_warning(const GroundContact& ground) {
                       condition_words(ground.condition), fixed(ground.below_station, 2))};
 }
 
+Warning side_warning(const WorstSide& side) {
+  const std::string takes =
+      std::isnan(side.power)
+          ? " cannot be flown"
+          : fmt::format(" takes {} W instead of {} W and has a headroom of {} instead of {}",
+                        fixed(side.power, 1), fixed(side.upwind_power, 1), fixed(side.headroom, 2),
+                        fixed(side.upwind_headroom, 2));
+  return {
+      WarningKind::offset_is_upwind,
+      fmt::format("the drone is taken to stand upwind of its station, the favourable side: "
+                  "with the wind from {}° instead (tethercalc shape --wind-from) {}{}",
+                  fixed(side.wind_from / unit::degree, 0), condition_words(side.condition), takes)};
+}
+
 std::optional<Warning> inclination_warning(const Design& design, const OperatingPoint& hover) {
   constexpr double greatest_ratio = 1.6;  // of the rises, vertical over across: docs/design.md
   const Tether& tether = design.tether;
@@ -579,7 +623,8 @@ std::optional<Warning> inclination_warning(const Design& design, const Operating
 }
 
 std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPoints> table,
-                                  const std::optional<GroundContact>& ground) {
+                                  const std::optional<GroundContact>& ground,
+                                  const std::optional<WorstSide>& side) {
   std::vector<Warning> warnings = spec_warnings(file);
   for (Warning& warning : cable_warnings(file.design, table)) {
     warnings.push_back(std::move(warning));
@@ -591,11 +636,13 @@ std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPo
     }
   }
   if (ground) warnings.push_back(ground_warning(*ground));
+  if (side) warnings.push_back(side_warning(*side));
   return warnings;
 }
 
 std::vector<Warning> optimum_warnings(const DesignFile& file, const OptimumStudy& study) {
-  return all_warnings(file, only(study.result), ground_contact(study.result.area, study.cable));
+  return all_warnings(file, only(study.result), ground_contact(study.result.area, study.cable),
+                      study.side);
 }
 
 }  // namespace tethercalc

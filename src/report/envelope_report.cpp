@@ -21,7 +21,7 @@ ReachWords words_of(Reach reach) {
                                 {"payload_g", "payload", "g", unit::gram, 0},
                                 {"headwind_m_s", "headwind", "m/s", 1, 2},
                                 {"airspeed_m_s", "airspeed", "m/s", 1, 2},
-                                {"offset_m", "distance aside", "m", 1, 1}};  // as in Reach
+                                {"offset_m", "distance upwind", "m", 1, 1}};  // as in Reach
   return all[static_cast<std::size_t>(reach)];
 }
 
@@ -32,12 +32,19 @@ std::string beyond_end(const Design& design, const ReachEnd& end) {
   return "nothing ends it within the search";
 }
 
+/// Whether less than that does not meet the demands somewhere.
+bool begins_later(Reach reach, const ReachEnd& end) { return end.from > search_start(reach); }
+
 std::string sentence_of(const Design& design, const ReachResult& result) {
   const ReachWords words = words_of(result.reach);
   if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
-  return fmt::format("Greatest {}: {} {}; beyond it {}.", words.noun,
-                     fixed(result.end->value / words.si_factor, words.decimals), words.unit,
-                     beyond_end(design, *result.end));
+  const auto number = [&](double value) { return fixed(value / words.si_factor, words.decimals); };
+  const std::string from =
+      begins_later(result.reach, *result.end)
+          ? fmt::format(", from {} {} on", number(result.end->from), words.unit)
+          : "";
+  return fmt::format("Greatest {}: {} {}{}; beyond it {}.", words.noun, number(result.end->value),
+                     words.unit, from, beyond_end(design, *result.end));
 }
 
 /// What ends a reach; null where nothing does.
@@ -78,7 +85,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     }
     out += table.text(style);
   }
-  for (const Warning& warning : all_warnings(file)) {
+  for (const Warning& warning : all_warnings(file, {}, {}, study.side)) {
     out += "\n" + style.subdued(wrapped("Note: " + warning.sentence));
   }
   return out;
@@ -89,7 +96,10 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
   for (const ReachResult& result : study.greatest) {
     const ReachWords words = words_of(result.reach);
     ordered_json end = end_json(result.end, words.si_factor);
-    if (result.end) end["sentence"] = sentence_of(file.design, result);
+    if (result.end) {
+      if (begins_later(result.reach, *result.end)) end["from"] = result.end->from / words.si_factor;
+      end["sentence"] = sentence_of(file.design, result);
+    }
     greatest[words.key] = std::move(end);
   }
   const ordered_json curves = json_list(study.curves, [](const EnvelopeCurve& curve) {
@@ -108,7 +118,7 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
       {"greatest", greatest},
       {"curves", curves}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file));
+  add_warnings(out, all_warnings(file, {}, {}, study.side));
   return out;
 }
 

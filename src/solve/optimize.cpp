@@ -106,6 +106,16 @@ double edge_towards_minimum_power(const Optimization& result) {
   return area > result.minimum_power.area ? range->lo : range->hi;
 }
 
+/// Whether a solved tether hangs at `area` and no more with a slightly thicker conductor.
+bool hangs_just(const SteadyFlight& flight, double area) {
+  constexpr double thicker = 1 + 2e-3;  // edges are found to a sixth of a thousandth of the radius
+  const auto hangs = [&](double radius) {
+    return std::isfinite(flight.tether().load(radius).down);
+  };
+  const double radius = conductor_radius(area);
+  return flight.tether().is_solved() && hangs(radius) && !hangs(radius * thicker);
+}
+
 /// Names the edge of the feasible set that keeps the optimum from the minimum-power area.
 void name_limit(Optimization& result, const Flights& flights) {
   const Design& design = flights.hover.design();
@@ -126,6 +136,13 @@ void name_limit(Optimization& result, const Flights& flights) {
     result.limited_by = Limit::minimum_power;
     result.limiting_condition = design.requirements.power_at;
     return;
+  }
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    if (edge < result.minimum_power.area && hangs_just(flights.in(condition), edge)) {
+      result.limited_by = Limit::tether_shape;
+      result.limiting_condition = condition;
+      return;
+    }
   }
   const Margins margins = demand_margins(design, hover, forward);
   result.limited_by = limit_of(margins.worst().demand);
@@ -155,6 +172,7 @@ bool hangs_somewhere(const TetherInFlight& tether) {
 Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
   const bool solved = flight.tether().is_solved();
   if (solved && !(best.value > 0) && !hangs_somewhere(flight.tether())) return Limit::tether_shape;
+  if (best.value > 0 && hangs_just(flight, best.area)) return Limit::tether_shape;
   const SteadyFlight::Radii beyond =
       solved ? too_tilted_with_solved_tether(flight) : flight.beyond_pitch_limit();
   const bool tilts = beyond.lo < beyond.hi;

@@ -1,52 +1,74 @@
 #include "tethercalc/study/cable_shape.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "model/constants.hpp"
-#include "tethercalc/model/airframe.hpp"
-#include "tethercalc/model/power_line.hpp"
+#include "tethercalc/model/operating_point.hpp"
 #include "tethercalc/model/steady_flight.hpp"
+#include "tethercalc/study/envelope.hpp"
 
 namespace tethercalc {
 namespace {
 
 constexpr int pieces = 400;
 
-/// Tangent of the tilt into the wind; negative where the cable pulls harder against the wind than
-/// the airframe drags with it, which leaves a small tilt to step towards.
-double forward_tan_pitch(const ForceBalance& balance, const AirframeDrag& drag) {
-  if (balance.tether_drag >= 0) return equilibrium_tan_pitch(balance, infinity);
-  double tangent = 0;
-  for (int i = 0; i < 50; ++i) {
-    const double push = balance.area_force_factor * effective_area(drag, std::abs(tangent));
-    tangent = (push + balance.tether_drag) / balance.weight;
+/// The design with what is asked of its cable.
+Design asked_of(const Design& original, const ShapeRequest& request) {
+  Design design = at_reach(original, Reach::height, request.height);
+  Flight& flight = design.flight;
+  flight.horizontal_offset = request.offset;
+  flight.headwind = request.wind;
+  flight.station_height = request.station_height;
+  flight.wind_profile = request.profile;
+  flight.wind_reference_height = request.reference_height;
+  flight.wind_exponent = request.exponent;
+  flight.roughness_length = request.roughness_length;
+  Tether& tether = design.tether;
+  tether.axial_stiffness = request.axial_stiffness;
+  tether.winch_pull = request.paid_out.winch_tension.value_or(0);
+  if (request.paid_out.length) {
+    tether.slack = *request.paid_out.length / std::hypot(request.height, request.offset) - 1;
   }
-  return tangent;
+  return design;
 }
 
-/// The hover in which the cable pulls like this; what it weighs is in `down`.
-LoadedHover hover_under(const SteadyFlight& flight, double radius, double paid_out, double down,
-                        double against, double across) {
-  const Design& design = flight.design();
-  LoadedHover out{down, against, across};
-  const double bare = flight.takeoff_mass(radius) - flight.tether().mass(radius);
-  const double weight = bare * design.flight.gravity + down;
-  const AirframeDrag& drag = design.drone.drag;
-  const double drag_factor =
-      area_force_factor(drag, design.flight.air_density, flight.state().airspeed);
-  const double forward =
-      forward_tan_pitch({weight, drag_factor, against, drag.front_area, drag.top_area}, drag);
-  const double tangent = std::hypot(forward, across / weight);
-  out.pitch = std::atan(tangent);
-  out.thrust = flight.necessary_thrust(weight, tangent);
-  out.drone_power = flight.drone_power(out.thrust, flight.power_share(tangent).value);
-  FlightState laid_out = flight.state();
-  laid_out.deployed = paid_out;
-  const double resistance = SteadyFlight(design, laid_out).tether().resistance(radius);
-  out.total_power = out.drone_power < infinity
-                        ? supplied_power(design.supply.voltage, resistance, out.drone_power)
-                        : infinity;
+LoadedHover hover_by(TetherModel model, Design design, double area, const FlightState& state) {
+  design.tether.model = model;
+  // How far it tilts is the answer, whatever is allowed.
+  design.requirements.max_pitch = std::numbers::pi / 2;
+  const SteadyFlight flight(design, state, ConductorsAsked::one);
+  const TetherLoad load = flight.tether().load(conductor_radius(area));
+  const OperatingPoint point = evaluate(flight, area);
+  return {load.down,
+          load.along,
+          load.across,
+          std::abs(point.pitch),
+          point.necessary_thrust,
+          point.drone_power,
+          point.total_power};
+}
+
+/// The shape of the design's own cable in a state of its flight.
+ShapeStudy shape_in(const Design& design, double area, const FlightState& state) {
+  ShapeStudy out;
+  out.cable = cable_of(design, area);
+  out.cable.axial_stiffness = design.tether.axial_stiffness;
+  out.drone = {design.flight.horizontal_offset, 0, state.deployed};
+  out.breaking_load = breaking_load(design.tether, area);
+  const HangingSituation situation = hanging_situation(design, state);
+  out.air = situation.air;
+  out.cable_there_is = situation.cable_there_is;
+  CableSolver solver;
+  const HangingOutcome hanging = solve_hanging(situation, solver, conductor_radius(area));
+  out.outcome = hanging.outcome;
+  out.loads = hanging.cable;
+  if (out.outcome != CableOutcome::hangs) return out;
+  out.shape = solver.shape(pieces);
+  out.hangs_free = out.shape.lowest.position.z >= -design.flight.station_height - 1e-9;
+  out.solved = hover_by(TetherModel::solved, design, area, state);
+  out.straight = hover_by(TetherModel::straight, design, area, state);
   return out;
 }
 
@@ -67,44 +89,14 @@ Cable cable_of(const Design& design, double area) {
 }
 
 ShapeStudy study_cable_shape(const Design& original, double area, const ShapeRequest& request) {
-  // The cable is solved here; what it does to the drone is set beside a straight one.
-  Design design = original;
-  design.tether.model = TetherModel::straight;
-  ShapeStudy out;
-  out.cable = cable_of(design, area);
-  out.cable.axial_stiffness = request.axial_stiffness;
-  out.drone = {request.offset, 0, request.height};
-  out.air.density = design.flight.air_density;
-  out.air.profile = request.profile;
+  const Design design = asked_of(original, request);
+  FlightState state = flight_state(design, Condition::hover);
+  state.wind_from = request.wind_from;
+  ShapeStudy out = shape_in(design, area, state);
   out.air.wind = {-request.wind * std::cos(request.wind_from),
                   request.wind * std::sin(request.wind_from), 0};
-  out.air.station_height = request.station_height;
-  out.air.reference_height = request.reference_height;
-  out.air.exponent = request.exponent;
-  out.air.roughness_length = request.roughness_length;
-  out.breaking_load = breaking_load(design.tether, area);
-
-  CableSolver solver;
-  out.outcome = solver.solve(out.cable, out.air, request.paid_out, out.drone);
-  if (out.outcome != CableOutcome::hangs) return out;
-  out.loads = solver.result();
-  out.shape = solver.shape(pieces);
-  out.hangs_free = out.shape.lowest.position.z >= -request.station_height - 1e-9;
-
-  const double wind = request.wind * wind_share(out.air, request.height);
-  const double radius = conductor_radius(area);
-  const Vector3& pull = out.loads.on_drone;
-  const Vector3 with =
-      request.wind > 0 ? Vector3{out.air.wind.x / request.wind, out.air.wind.y / request.wind, 0}
-                       : Vector3{-1, 0, 0};
-  FlightState state = flight_state(design, Condition::hover);
-  state.airspeed = wind;
-  state.deployed = request.height;
-  const SteadyFlight flight(design, state);
-  out.solved = hover_under(flight, radius, out.loads.length, -pull.z,
-                           pull.x * with.x + pull.y * with.y, pull.x * with.y - pull.y * with.x);
-  const TetherLoad straight = flight.tether().load(radius);
-  out.straight = hover_under(flight, radius, request.height, straight.down, straight.along, 0);
+  out.air.profile = request.profile;
+  out.air.reference_height = request.reference_height.value_or(out.air.reference_height);
   return out;
 }
 
@@ -121,11 +113,10 @@ std::vector<FlownShape> shapes_in_flight(const Design& design, double area) {
         .wind = std::abs(state.airspeed),
         .station_height = flight.station_height,
         .profile = flight.wind_profile,
-        .reference_height = flight.station_height + state.deployed,
         .exponent = flight.wind_exponent,
         .roughness_length = flight.roughness_length,
         .axial_stiffness = design.tether.axial_stiffness};
-    shapes.push_back({condition, request, study_cable_shape(design, area, request)});
+    shapes.push_back({condition, request, shape_in(design, area, state)});
   }
   return shapes;
 }
@@ -140,6 +131,31 @@ std::optional<GroundContact> ground_contact(double area, std::span<const FlownSh
     }
   }
   return lowest;
+}
+
+std::optional<WorstSide> worst_side(const Design& design, double area) {
+  std::optional<WorstSide> worst;
+  if (design.flight.horizontal_offset == 0 || !(area > 0)) return worst;
+  for (const Condition condition : {Condition::hover, Condition::forward}) {
+    FlightState state = flight_state(design, condition);
+    if (worst || state.airspeed == 0) continue;
+    const auto flown = [&] {
+      return evaluate(SteadyFlight(design, state, ConductorsAsked::one), area);
+    };
+    const OperatingPoint upwind = flown();
+    if (std::isnan(upwind.total_power)) continue;
+    double most = 1;
+    for (int degrees = 30; degrees <= 180; degrees += 30) {  // left and right are alike
+      state.wind_from = degrees * unit::degree;
+      const OperatingPoint here = flown();
+      const double ratio = here.total_power / upwind.total_power;
+      if (ratio <= most || std::isinf(most)) continue;
+      most = std::isnan(ratio) ? infinity : ratio;
+      worst = {condition,        state.wind_from, upwind.total_power,
+               here.total_power, upwind.headroom, here.headroom};
+    }
+  }
+  return worst;
 }
 
 SolvedCase solve_cable_case(CableCase asked) {

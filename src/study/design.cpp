@@ -237,6 +237,7 @@ DesignStudy study_design(const DesignQuestion& question) {
   if (question.front) study.front = pareto_front(study.problem, *question.front, question.search);
   const Candidate& best = study.answer.best;
   study.ground = ground_contact(best.area, shapes_in_flight(best.design, best.area));
+  study.side = worst_side(best.design, best.area);
   return study;
 }
 

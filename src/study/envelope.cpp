@@ -1,6 +1,7 @@
 #include "tethercalc/study/envelope.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -20,9 +21,40 @@ bool holds_all_cable(const Tether& tether, double in_air) {
   return tether.spooled_length > 0 && in_air > (tether.length + tether.spooled_length) * nearly;
 }
 
-double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
+/// The field that is pushed; what is carried comes to the drone's mass.
+double& pushed_field(Design& design, Reach reach) {
+  double* const pushed[] = {&design.tether.length, &design.drone.mass, &design.flight.headwind,
+                            &design.flight.airspeed,
+                            &design.flight.horizontal_offset};  // in the order of Reach
+  return *pushed[static_cast<std::size_t>(reach)];
+}
+
+/// Values to look at, rising: over the whole range and, closer, about the design's own.
+std::vector<double> tried_values(Design design, Reach reach) {
+  const double start = search_start(reach);
+  const double end = search_end(design, reach);
+  const double own = reach == Reach::payload ? 0 : pushed_field(design, reach);
+  std::vector<double> values{own};
+  // Each step of a solved tether solves cables anew.
+  const int steps = design.tether.model == TetherModel::solved ? 50 : 400;
+  // Squared, so that steps are finer where most answers lie.
+  for (int step = 0; step <= steps; ++step) {
+    const double share = static_cast<double>(step) / steps;
+    values.push_back(start + (end - start) * share * share);
+  }
+  for (const double beside : {0.05, 0.1, 0.2}) {
+    values.push_back(own * (1 - beside));
+    values.push_back(own * (1 + beside));
+  }
+  std::erase_if(values, [&](double value) { return value < start || value > end; });
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
 
 }  // namespace
+
+double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
 
 std::vector<Reach> reaches_of(const Design& design) {
   std::vector<Reach> reaches{Reach::height, Reach::payload, Reach::headwind, Reach::airspeed};
@@ -43,10 +75,7 @@ double search_end(const Design& design, Reach reach) {
 }
 
 Design at_reach(Design design, Reach reach, double value) {
-  double* const pushed[] = {&design.tether.length, &design.drone.mass, &design.flight.headwind,
-                            &design.flight.airspeed,
-                            &design.flight.horizontal_offset};  // in the order of Reach
-  double& field = *pushed[static_cast<std::size_t>(reach)];
+  double& field = pushed_field(design, reach);
   Tether& tether = design.tether;
   if (reach == Reach::height && tether.spooled_length > 0) {
     tether.spooled_length = std::max(0.0, tether.length + tether.spooled_length - value);
@@ -56,39 +85,42 @@ Design at_reach(Design design, Reach reach, double value) {
 }
 
 std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
-  const double start = search_start(reach);
-  const double end = search_end(design, reach);
   const auto points = [&](double value) {
     const Design pushed = at_reach(design, reach, value);
     return evaluate_areas(pushed, std::span(&*pushed.tether.cross_section, 1), ConductorsAsked::one)
         .front();
   };
-  const auto margin = [&](double value) { return points(value).worst; };
-  // Each step of a solved tether solves cables anew.
-  const int steps = design.tether.model == TetherModel::solved ? 50 : 400;
-  // Squared, so that steps are finer where most answers lie.
-  const auto at_step = [&](int step) {
-    const double share = static_cast<double>(step) / steps;
-    return start + (end - start) * share * share;
+  const auto meets = [&](double value) { return points(value).worst.met(); };
+  /// Moves both ends of a step onto the edge between them.
+  const auto bisect = [&](double& good, double& bad) {
+    while (std::abs(bad - good) > 1e-9 * std::max(good, bad)) {
+      const double middle = 0.5 * (good + bad);
+      (points(middle).worst.value >= 0 ? good : bad) = middle;
+    }
   };
-  int last = steps;
-  while (last >= 0 && margin(at_step(last)).value < 0) --last;
-  if (last < 0) return std::nullopt;
-  if (last == steps) {
+  const std::vector<double> values = tried_values(design, reach);
+  std::size_t last = values.size();
+  while (last > 0 && !meets(values[last - 1])) --last;
+  if (last == 0) return std::nullopt;
+  std::size_t first = last - 1;
+  while (first > 0 && meets(values[first - 1])) --first;
+  double from = values[first];
+  if (first > 0) {
+    double bad = values[first - 1];
+    bisect(from, bad);
+  }
+  double good = values[last - 1];
+  if (last == values.size()) {
     const bool drum_is_empty = design.tether.spooled_length > 0 && is_length(reach);
-    return ReachEnd{end, false, Limit::available_power, Condition::hover, drum_is_empty};
+    return ReachEnd{good, from, false, Limit::available_power, Condition::hover, drum_is_empty};
   }
-  double good = at_step(last);
-  double bad = at_step(last + 1);
-  while (bad - good > 1e-9 * bad) {
-    const double middle = 0.5 * (good + bad);
-    (margin(middle).value >= 0 ? good : bad) = middle;
-  }
-  const DemandMargin missed = margin(bad);
+  double bad = values[last];
+  bisect(good, bad);
+  const DemandMargin missed = points(bad).worst;
   const bool drum_is_empty =
       missed.demand == Demand::tether_shape &&
       holds_all_cable(design.tether, points(good).in(missed.condition).tether_length);
-  return ReachEnd{good, true, limit_of(missed.demand), missed.condition, drum_is_empty};
+  return ReachEnd{good, from, true, limit_of(missed.demand), missed.condition, drum_is_empty};
 }
 
 std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach against,
@@ -124,6 +156,7 @@ EnvelopeStudy study_envelope(const Design& design) {
   for (const auto& [of, against] : curves) {
     study.curves.push_back({of, against, envelope_curve(design, of, against)});
   }
+  study.side = worst_side(design, *design.tether.cross_section);
   return study;
 }
 

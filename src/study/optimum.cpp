@@ -125,7 +125,11 @@ std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const dou
 }
 
 EvaluationStudy study_evaluation(const Design& design, std::span<const double> areas) {
-  EvaluationStudy study{evaluate_areas(design, areas), {}};
+  EvaluationStudy study{evaluate_areas(design, areas), {}, {}};
+  for (const double area : areas) {
+    study.side = worst_side(design, area);
+    if (study.side) break;
+  }
   for (const double area : areas) {
     study.ground = ground_contact(area, shapes_in_flight(design, area));
     if (study.ground) break;
@@ -169,11 +173,12 @@ DesignOptimum optimum_of(const Design& design) {
 }
 
 OptimumStudy study_optimum(const Design& design, std::span<const WireSize> sizes) {
-  OptimumStudy study{optimum_of(design), {}, {}, {}, {}};
+  OptimumStudy study{optimum_of(design), {}, {}, {}, {}, {}};
   study.table = evaluate_areas(design, table_areas(study));
   study.sizes = sizes_near(design, central_area(study), sizes);
   if (study.refusal) study.remedies = remedies(design);
   study.cable = shapes_in_flight(design, study.result.area);
+  study.side = worst_side(design, study.result.area);
   return study;
 }
 

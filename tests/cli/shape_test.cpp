@@ -131,7 +131,8 @@ TEST_CASE("bad numbers of a shape are told all at once") {
 TEST_CASE("a winch that does not pull is refused, not taken for slack") {
   const Ran none = shaped({"--winch-tension", "0"});
   CHECK(none.exit_code == 2);
-  CHECK(none.err.find("--winch-tension: a winch that does not pull") != std::string::npos);
+  CHECK_THAT(none.err, Contains("--winch-tension: has to be more than 0 N, found 0"));
+  CHECK_THAT(shaped({"--winch-tension", "-1"}).err, Contains("more than 0 N, found -1"));
 }
 
 TEST_CASE("bare cables of a file are answered under their ids, with the keys of exact solutions") {
@@ -170,4 +171,64 @@ TEST_CASE("a case that is none is refused with its line and its pointer") {
  "diameter": 0.1, "Cd": 1, "rho_kg_m3": 1}}]})");
   CHECK_THAT(bad, Catch::Contains("/cases/0/input/L_m") && Catch::Contains("-3"));
   CHECK_THAT(bad, Catch::Contains("diameter_m"));
+}
+
+TEST_CASE("a roughness that leaves no wind is refused with both lengths, as evaluate refuses it") {
+  const char* const conflict = "5 m is not less than the 3 m over ground";
+  CHECK_THAT(
+      shaped({"--profile", "logarithmic", "--roughness", "5", "--reference-height", "3"}).err,
+      Contains(std::string("--roughness: ") + conflict));
+  CHECK_THAT(
+      run_tethercalc({"evaluate", published, "--area-mm2", "1", "--set",
+                      "flight.wind_profile=logarithmic", "--set", "flight.roughness_length_m=5",
+                      "--set", "flight.wind_reference_height_m=3"})
+          .err,
+      Contains(conflict));
+}
+
+TEST_CASE("options that say nothing of bare cables are refused, all at once") {
+  const Ran run = run_tethercalc(
+      {"shape", "--cases", "none.json", "--wind", "5", "--set", "a=1", "--format", "csv"});
+  CHECK(run.exit_code == 2);
+  for (const char* option : {"--wind", "--set", "--format"}) {
+    CHECK_THAT(run.err, Contains(std::string(option) + ": "));
+  }
+}
+
+TEST_CASE("a tilt that is not allowed is said to be none") {
+  CHECK_THAT(shaped({"--wind", "16"}).out, Contains("(requirements.max_pitch_deg)"));
+  CHECK_THAT(shaped({"--wind", "5"}).out, !Contains("max_pitch_deg"));
+}
+
+TEST_CASE("cables that a figure leaves out are told, with why") {
+  const Ran run = run_tethercalc({"plot", "shape", published, "--area-mm2", "1.5",
+                                  "--winch-tension", "0.5", "--wind", "0,8", "--offset", "20"});
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("not drawn at 0 m/s: 0.500 N at the winch cannot hold"));
+}
+
+TEST_CASE("a winch that is too weak and a drum with too little cable are named by evaluate") {
+  const auto evaluated = [](std::vector<std::string> fields) {
+    std::vector<std::string> arguments{"evaluate", published, "--area-mm2",
+                                       "1.5",      "--set",   "tether.model=solved"};
+    for (const std::string& field : fields) arguments.insert(arguments.end(), {"--set", field});
+    return run_tethercalc(arguments).out;
+  };
+  CHECK_THAT(evaluated({"tether.winch_pull_N=0.5", "flight.horizontal_offset_m=20"}),
+             Contains("the winch's 0.500 N cannot hold the tether up to the drone in hover"));
+  CHECK_THAT(
+      evaluated({"tether.slack_percent=10", "tether.spooled_length_m=1"}),
+      Contains("33.00 m of cable are needed up to the drone in hover, and there are 31.00 m"));
+}
+
+TEST_CASE("a drone aside in wind is said to stand on the favourable side") {
+  for (const char* command : {"optimize", "evaluate", "envelope"}) {
+    INFO(command);
+    const Ran run =
+        run_tethercalc({command, published, "--set", "tether.model=solved", "--set",
+                        "tether.cross_section_mm2=1.5", "--set", "flight.horizontal_offset_m=10",
+                        "--set", "flight.headwind_m_s=3", "--format", "json"});
+    const auto codes = Json::parse(run.out).at("warning_codes");
+    CHECK(std::count(codes.begin(), codes.end(), "offset_is_upwind") == 1);
+  }
 }

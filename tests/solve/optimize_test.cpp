@@ -240,3 +240,18 @@ TEST_CASE("a bench of another density gives the optimum of the curve scaled befo
     CHECK(same);
   });
 }
+
+TEST_CASE("a winch that holds up only tethers too thin for the power is what limits") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.winch_pull = 0.5;
+  design.flight.horizontal_offset = 20;
+  const Optimization refused = optimize(design);
+  REQUIRE_FALSE(refused.feasible);
+  CHECK(refused.limited_by == Limit::tether_shape);
+  design.supply.voltage = 410;
+  const Optimization thin = optimize(design);
+  REQUIRE(thin.feasible);
+  CHECK(thin.limited_by == Limit::tether_shape);
+  CHECK(std::isnan(evaluate(design, 1.01 * thin.area, thin.limiting_condition).tether_length));
+}

@@ -21,6 +21,29 @@ ShapeStudy studied(const Design& design, ShapeRequest request, double slack) {
   return study_cable_shape(design, published_area, request);
 }
 
+/// The published design as its cable hangs.
+Design hung_design() {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.flight.airspeed = 0;
+  return design;
+}
+
+/// What `shape` is asked for to be in the design's own hover.
+ShapeRequest own_hover(const Design& design) {
+  const Flight& flight = design.flight;
+  return {.height = design.tether.length,
+          .offset = flight.horizontal_offset,
+          .paid_out = paid_out_to(design.tether, design.tether.length, flight.horizontal_offset),
+          .wind = flight.headwind,
+          .station_height = flight.station_height,
+          .profile = flight.wind_profile,
+          .reference_height = flight.wind_reference_height,
+          .exponent = flight.wind_exponent,
+          .roughness_length = flight.roughness_length,
+          .axial_stiffness = design.tether.axial_stiffness};
+}
+
 /// Weight that the motors hold beside the cable's pull, N.
 double bare_weight(const Design& design) { return design.drone.mass * design.flight.gravity; }
 
@@ -124,4 +147,100 @@ TEST_CASE("answers about a cable say where it would hang lowest below its statio
     CHECK(study.ground->area == first);
     CHECK(study.ground->below_station == deepest);
   });
+}
+
+TEST_CASE("a shape's hover is evaluate's, whatever drum, heat and wind there are") {
+  test::each_random(20, [](test::Random& random) {
+    Design design = hung_design();
+    design.tether.slack = random.uniform(0.002, 0.15);
+    if (random.chance(0.5)) design.tether.spooled_length = random.uniform(5, 60);
+    if (random.chance(0.3)) design.tether.winch_pull = random.uniform(2, 8);
+    if (random.chance(0.5)) {
+      design.tether.ambient_temperature_C = random.uniform(0, 50);
+      design.tether.sun = random.uniform(0, 1000);
+    }
+    design.flight.headwind = random.uniform(0, 7);
+    design.flight.horizontal_offset = random.chance(0.5) ? random.uniform(0, 15) : 0;
+    design.flight.wind_profile =
+        random.chance(0.5) ? WindProfile::logarithmic : WindProfile::uniform;
+    if (random.chance(0.5)) design.flight.wind_reference_height = 10;
+    const OperatingPoint hover = evaluate(design, published_area, Condition::hover);
+    const ShapeStudy study = study_cable_shape(design, published_area, own_hover(design));
+    REQUIRE((study.outcome == CableOutcome::hangs) == std::isfinite(hover.tether_length));
+    if (study.outcome != CableOutcome::hangs) return;
+    CHECK(study.solved.pitch == Approx(hover.pitch).epsilon(1e-5));
+    if (std::isnan(hover.total_power)) return;
+    CHECK(study.solved.total_power == Approx(hover.total_power).epsilon(1e-5));
+    Design straight = design;
+    straight.tether.model = TetherModel::straight;
+    const double power = evaluate(straight, published_area, Condition::hover).total_power;
+    if (!std::isnan(power)) CHECK(study.straight.total_power == Approx(power));
+  });
+}
+
+TEST_CASE("what a shape asks for in place of the spec is as if the spec said so") {
+  Design pulled = hung_design();
+  pulled.tether.winch_pull = 5;
+  const Design loose = hung_design();
+  ShapeRequest request{.height = 30, .paid_out = {.length = {}, .winch_tension = 5}, .wind = 3};
+  const auto straight = [&](const Design& design) {
+    return study_cable_shape(design, published_area, request).straight;
+  };
+  CHECK(straight(pulled).down == straight(loose).down);
+  const double taut = straight(loose).down;
+  request.paid_out = {.length = 30.6, .winch_tension = {}};
+  CHECK(straight(pulled).down == straight(loose).down);
+  CHECK(straight(loose).down == Approx(taut - 5));
+}
+
+TEST_CASE("a shape that takes more cable than there is has none, and tells how much it takes") {
+  Design design = hung_design();
+  design.tether.slack = 0.1;
+  design.tether.spooled_length = 1;
+  const ShapeStudy study = study_cable_shape(design, published_area, own_hover(design));
+  CHECK(study.outcome == CableOutcome::too_short);
+  CHECK(study.loads.length == Approx(33));
+  CHECK(study.cable_there_is == Approx(31));
+}
+
+TEST_CASE("below the roughness length a cable hangs as in still air") {
+  const Design design = hung_design();
+  ShapeRequest request{.height = 0.2,
+                       .paid_out = {.length = 0.21, .winch_tension = {}},
+                       .wind = 3,
+                       .profile = WindProfile::logarithmic,
+                       .reference_height = 10,
+                       .roughness_length = 0.5};
+  const ShapeStudy low = study_cable_shape(design, published_area, request);
+  request.wind = 0;
+  const ShapeStudy still = study_cable_shape(design, published_area, request);
+  REQUIRE(low.outcome == CableOutcome::hangs);
+  CHECK(low.solved.down == still.solved.down);
+  CHECK(low.solved.against == 0);
+}
+
+TEST_CASE("the worst side of a drone aside takes no less than any side that a shape shows") {
+  Design design = hung_design();
+  design.requirements.max_pitch = 60 * unit::degree;
+  design.tether.slack = 0.05;
+  CHECK_FALSE(worst_side(design, published_area));
+  design.flight.horizontal_offset = 15;
+  CHECK_FALSE(worst_side(design, published_area));  // no wind has no side
+  design.flight.headwind = 5;
+  const auto worst = worst_side(design, published_area);
+  REQUIRE(worst);
+  CHECK(worst->condition == Condition::hover);
+  CHECK(worst->power > worst->upwind_power);
+  ShapeRequest request = own_hover(design);
+  CHECK(study_cable_shape(design, published_area, request).solved.total_power ==
+        Approx(worst->upwind_power).epsilon(1e-5));
+  double most = 0;
+  for (int degrees = 0; degrees < 360; degrees += 30) {
+    request.wind_from = degrees * unit::degree;
+    most = std::max(most, study_cable_shape(design, published_area, request).solved.total_power);
+  }
+  CHECK(most == Approx(worst->power).epsilon(1e-5));
+  design.tether.model = TetherModel::straight;
+  design.flight.horizontal_offset = 0;
+  CHECK_FALSE(worst_side(design, published_area));
 }

@@ -153,3 +153,39 @@ TEST_CASE("below the roughness length a drone hovers in still air, where an enve
     CHECK(envelope_curve(design, Reach::payload, Reach::height, 3).size() == 3);
   }
 }
+
+TEST_CASE("a reach that the design itself flies is found, however narrow it is") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.cross_section = 1.5e-6;
+  design.tether.slack = 0.003;
+  design.flight.horizontal_offset = 20;
+  design.flight.airspeed = 0;
+  design.requirements.max_pitch = 15.2 * unit::degree;
+  design.requirements.thrust_headroom = 1.35;
+  const auto height = greatest_reach(design, Reach::height);
+  REQUIRE(flies(design) == height.has_value());
+  REQUIRE(height);
+  CHECK(height->from < 30);
+  CHECK(height->value > 30);
+  CHECK(flies(at_reach(design, Reach::height, height->from * 1.001)));
+  CHECK_FALSE(flies(at_reach(design, Reach::height, height->from * 0.999)));
+}
+
+TEST_CASE("a greatest reach below which the demands are missed says from where on they are met") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.cross_section = 1.5e-6;
+  design.tether.slack = 0.05;
+  design.flight.airspeed = 0;
+  design.flight.headwind = 10;
+  REQUIRE_FALSE(flies(design));
+  const ReachEnd aside = bounded_offset(design);
+  CHECK(aside.from > 0);
+  CHECK_FALSE(flies(at_reach(design, Reach::offset, aside.from * 0.999)));
+  for (const double share : {0.001, 0.25, 0.5, 0.75, 0.999}) {
+    CHECK(flies(at_reach(design, Reach::offset, std::lerp(aside.from, aside.value, share))));
+  }
+  design.flight.headwind = 2;
+  CHECK(bounded_offset(design).from == 0);
+}

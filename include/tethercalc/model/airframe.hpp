@@ -95,7 +95,7 @@ struct AirframeDragSlopes {
 struct ForceBalance {
   double weight = 0;             ///< N, > 0: drone and tether
   double area_force_factor = 0;  ///< N/m², ≥ 0, at this airspeed
-  double tether_drag = 0;        ///< N, ≥ 0, along the same direction
+  double tether_drag = 0;        ///< N along the same direction
   double front_area = 0;         ///< A_f, m², ≥ 0
   double top_area = 0;           ///< A_t, m², ≥ 0
 };
@@ -110,7 +110,8 @@ struct ForceBalance {
 /// exceeded the answer is +infinity: the drone would have to tilt further than allowed. (With
 /// neither front area nor tether drag, t = 0 is a second root; the answer is the other one, where
 /// it exists, as the limit of a small front area.) `guess` ≥ 0 only saves iterations. Relative
-/// error of t below 1e-14.
+/// error of t below 1e-14. A tether that pulls the other way, `tether_drag` < 0, may make t < 0:
+/// the drone leans away from the wind then; no limit is heeded.
 [[nodiscard]] double equilibrium_tan_pitch(const ForceBalance& balance, double tan_limit,
                                            double guess = 0);
 

@@ -47,8 +47,9 @@ struct Flight {
   double air_density = 1.293;         ///< kg/m³
   double gravity = standard_gravity;  ///< m/s²
 
-  /// m, ≥ 0, by which the drone stands aside of its station, upwind of it, where the cable pulls it
-  /// back most. For a solved tether; a straight one hangs down from the drone.
+  /// m, ≥ 0, by which the drone stands aside of its station, upwind of it: of all sides the
+  /// one that mostly takes the least power (`worst_side`). For a solved tether; a straight one
+  /// hangs down from the drone.
   double horizontal_offset = 0;
   double station_height = 0;  ///< m of the tether's lower end over ground, ≥ 0
 
@@ -121,6 +122,10 @@ struct FlightState {
   double on_drum = 0;
   /// °C of the air around the tether. Heats nothing where the design asks for no heat balance.
   double ambient_temperature_C = 20;
+  /// rad, clockwise seen from above, from where the air comes that it meets: 0 from where the drone
+  /// stands aside of its station, so that it blows from there over the station. For a solved tether
+  /// of one conductor (`ConductorsAsked::one`) in an operating point.
+  double wind_from = 0;
 };
 
 /// The state in which a design is judged in `condition`: the whole `tether.length` in the air,

@@ -23,6 +23,7 @@ struct TetherLoad {
   double tension_at_ground = 0;  ///< N
   double mass = 0;               ///< kg in the air
   double length = 0;             ///< m in the air
+  double across = 0;  ///< N at the drone, a quarter turn to the right of where the air goes
 
   /// N, what the cable has to stand.
   [[nodiscard]] double greatest_tension() const {
@@ -150,10 +151,25 @@ struct HangingSituation {
   auto operator<=>(const HangingSituation&) const = default;  ///< member by member
 };
 
-/// That of a tether in one state of a design's flight, with `wall` m of insulation; the drone
-/// stands upwind, and its own motion counts as wind.
+/// That of a tether in one state of a design's flight, with `wall` m of insulation; the drone's own
+/// motion counts as wind.
 [[nodiscard]] HangingSituation hanging_situation(const Tether& tether, double wall,
                                                  const FlightState& state, const Flight& flight);
+
+/// The same with the wall that the design's supply asks for.
+[[nodiscard]] HangingSituation hanging_situation(const Design& design, const FlightState& state);
+
+/// A cable as it hangs in such a situation, or why it does not.
+struct HangingOutcome {
+  CableOutcome outcome =
+      CableOutcome::not_found;  ///< `too_short` also where there is no more cable
+  HangingCable cable;           ///< of `hangs`, and of a cable of which there is not as much
+};
+
+/// Solves the cable with conductors of `radius` m, from the solver's last solution; only of `hangs`
+/// the solver has its shape.
+[[nodiscard]] HangingOutcome solve_hanging(const HangingSituation& situation, CableSolver& solver,
+                                           double radius);
 
 class SimilarCables;
 
@@ -185,10 +201,11 @@ class HangingLoad {
 
   /// The parts of a load, N, and m of cable in the air.
   struct Parts {
-    double along = 0;              ///< against the wind, ≥ 0
+    double along = 0;              ///< against the wind, ≥ 0 of a drone upwind
     double down = 0;               ///< at the drone
     double tension_at_drone = 0;   ///< N
     double tension_at_ground = 0;  ///< N
+    double across = 0;             ///< of a wind from aside, see `TetherLoad`
     double length = 0;             ///< m
   };
   /// A load and its derivative by the radius. +infinity and 0 where the cable cannot hang.
@@ -207,7 +224,7 @@ class HangingLoad {
   [[nodiscard]] const AtRadius& at(double radius) const;
 
  private:
-  static constexpr std::size_t part_count = 5;
+  static constexpr std::size_t part_count = 6;
   using Values = std::array<double, part_count>;
   struct Node {
     CableOutcome outcome = CableOutcome::not_found;
@@ -287,9 +304,13 @@ class TetherInFlight {
     return hanging_ ? hanging_->at(radius).slope.down
                     : straight_.mass_slope(radius) * straight_.gravity_;
   }
-  /// N at the drone against its motion through the air; ≥ 0.
+  /// N at the drone against its motion through the air; ≥ 0 of a drone upwind.
   [[nodiscard]] double drag(double radius) const {
     return hanging_ ? hanging_->at(radius).value.along : straight_.drag(radius);
+  }
+  /// N at the drone across that, to the right of where the air goes; 0 of a drone upwind.
+  [[nodiscard]] double across(double radius) const {
+    return hanging_ ? hanging_->at(radius).value.across : 0;
   }
   /// Its derivative by the radius, N/m.
   [[nodiscard]] double drag_slope(double radius) const {

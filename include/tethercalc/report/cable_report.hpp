@@ -16,6 +16,9 @@ namespace tethercalc {
 /// "hangs", "too_short", …: how answers name a `CableOutcome`, in its order.
 [[nodiscard]] std::span<const std::string_view> cable_outcome_names();
 
+/// Why a cable has no shape.
+[[nodiscard]] std::string no_shape_sentence(const ShapeStudy& study, const ShapeRequest& request);
+
 /// For people: loads, tensions, what the straight tether would say, the shape at eleven places,
 /// and notes. `area` in m².
 [[nodiscard]] std::string cable_shape_text(const DesignFile& file, double area,

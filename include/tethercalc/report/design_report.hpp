@@ -86,6 +86,9 @@ namespace tethercalc {
 /// That a solved tether would hang below its station, in which condition and how far.
 [[nodiscard]] Warning ground_warning(const GroundContact& ground);
 
+/// How much more another side of the station takes than the one that was judged.
+[[nodiscard]] Warning side_warning(const WorstSide& side);
+
 /// That a tether which hangs steeply gets hotter in still air than one that lies across, which is
 /// what was computed, where that might take it beyond its rating; nothing where
 /// `tether.inclination_deg` is stated.
@@ -93,10 +96,11 @@ namespace tethercalc {
                                                          const OperatingPoint& hover);
 
 /// `spec_warnings`, then `cable_warnings`, then the first `inclination_warning` of the
-/// cross-sections in a table and the `ground_warning` of one.
+/// cross-sections in a table, and the `ground_warning` and `side_warning` of one.
 [[nodiscard]] std::vector<Warning> all_warnings(const DesignFile& file,
                                                 std::span<const AreaPoints> table = {},
-                                                const std::optional<GroundContact>& ground = {});
+                                                const std::optional<GroundContact>& ground = {},
+                                                const std::optional<WorstSide>& side = {});
 
 /// All of an optimum.
 [[nodiscard]] std::vector<Warning> optimum_warnings(const DesignFile& file,

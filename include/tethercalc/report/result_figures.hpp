@@ -26,6 +26,10 @@ namespace tethercalc {
 /// thrust in the condition in which power is judged (plus).
 [[nodiscard]] Figure motors_figure(const DesignFile& file, std::span<const MotorOptimum> ranking);
 
+/// "at 8 m/s: …" of each cable without a shape, with why.
+[[nodiscard]] std::vector<std::string> undrawn_sentences(std::span<const ShapeRequest> requests,
+                                                         std::span<const ShapeStudy> studies);
+
 /// The cable as it hangs, from the side and, where a wind presses it aside, from above, to scale,
 /// one line a request (as `studies`, at most 35). Those without a shape are left out and named in
 /// the description. Throws std::invalid_argument where none has one.

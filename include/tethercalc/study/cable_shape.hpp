@@ -12,31 +12,32 @@
 
 namespace tethercalc {
 
-/// Where the drone hovers and in which air.
+/// Where the drone hovers and in which air: what of the design is asked for otherwise.
 struct ShapeRequest {
-  double height = 0;     ///< m of the drone over the station, > 0
-  double offset = 0;     ///< m aside, ≥ 0: x points there
+  double height = 0;  ///< m of the drone over the station, > 0; unwinds the drum where there is one
+  double offset = 0;  ///< m aside, ≥ 0: x points there
   PaidOut paid_out{};    ///< a length in m, or a winch's tension in N
   double wind = 0;       ///< m/s, ≥ 0, at the drone, or at the profile's reference height
   double wind_from = 0;  ///< rad, clockwise seen from above: 0 from where the drone stands aside,
                          ///< so that it blows from there over the station
   double station_height = 0;                   ///< m of the cable's lower end over ground, ≥ 0
   WindProfile profile = WindProfile::uniform;  ///< of the wind
-  double reference_height = 10;                ///< m over ground, of the wind with a profile
+  std::optional<double> reference_height{};    ///< m over ground, of `wind`; nothing: at the drone
   double exponent = 1.0 / 7;                   ///< of the power law
   double roughness_length = 0.03;              ///< m, of the logarithmic profile
   std::optional<double> axial_stiffness{};     ///< N, EA; nothing: the cable does not stretch
 };
 
-/// What a load of the cable makes of the drone's hover.
+/// What a load of the cable makes of the drone's hover. NaN where motors or line have the power
+/// not.
 struct LoadedHover {
   double down = 0;         ///< N, pull of the cable downwards
   double against = 0;      ///< N, pull with the wind, which the drone leans against
   double across = 0;       ///< N, pull across the wind
-  double pitch = 0;        ///< rad, tilt
+  double pitch = 0;        ///< rad, tilt, which no limit holds
   double thrust = 0;       ///< N of one motor
-  double drone_power = 0;  ///< W at the converter's input; +infinity: the motors have it not
-  double total_power = 0;  ///< W of the ground supply; +infinity or NaN: it cannot be delivered
+  double drone_power = 0;  ///< W at the converter's input
+  double total_power = 0;  ///< W of the ground supply
 };
 
 /// How a cable hangs. Of `loads`, `shape` and `hangs_free` only after `CableOutcome::hangs`.
@@ -45,21 +46,22 @@ struct ShapeStudy {
   MovingAir air;                                   ///< as asked for
   Vector3 drone;                                   ///< m
   CableOutcome outcome = CableOutcome::not_found;  ///< whether there is a shape
-  HangingCable loads;                              ///< forces and tensions
-  CableShape shape;                                ///< in 400 pieces
-  bool hangs_free = true;                          ///< no point lies below the ground
-  double breaking_load = 0;                        ///< N; 0: unknown
-  LoadedHover solved;                              ///< with this cable
-  LoadedHover straight;  ///< with the tether straight below the drone and all its drag on it
+  HangingCable loads;                              ///< forces and tensions; of a cable of which
+                                                   ///< there is not as much, its length
+  double cable_there_is = 0;  ///< m in the air and on the drum; +infinity: as much as it takes
+  CableShape shape;           ///< in 400 pieces
+  bool hangs_free = true;     ///< no point lies below the ground
+  double breaking_load = 0;   ///< N; 0: unknown
+  LoadedHover solved;         ///< with this cable
+  LoadedHover straight;       ///< with the same tether by the straight model
 };
 
 /// The design's tether with a conductor of `area` m² as a bare cable: the weight of both conductors
 /// with insulation and strength member, and the mean width that `projection_factor` makes of them.
 [[nodiscard]] Cable cable_of(const Design& design, double area);
 
-/// Solves the cable, and the drone that hovers on it in the wind of its own height. The resistance
-/// of the loop is that of the length paid out and `tether.spooled_length`, at
-/// `conductor_temperature_C`. `area` in m².
+/// Solves the cable, and the drone that hovers on it in the wind of its own height: what `evaluate`
+/// has of the design with what is asked, whatever its tilt. `area` in m².
 /// @throws std::invalid_argument as `CableSolver::solve`.
 [[nodiscard]] ShapeStudy study_cable_shape(const Design& design, double area,
                                            const ShapeRequest& request);
@@ -86,6 +88,22 @@ struct GroundContact {
 /// the ground in any of them.
 [[nodiscard]] std::optional<GroundContact> ground_contact(double area,
                                                           std::span<const FlownShape> shapes);
+
+/// What a drone aside of its station takes where the wind is hardest on it, beside what it takes
+/// upwind of the station, where every design is judged. NaN: it is not flown there.
+struct WorstSide {
+  Condition condition = Condition::hover;  ///< hover where wind blows
+  double wind_from = 0;                    ///< rad, as `FlightState` has it
+  double upwind_power = 0;                 ///< W of the ground supply
+  double power = 0;                        ///< the same on the worst side
+  double upwind_headroom = 0;              ///< available over necessary thrust
+  double headroom = 0;                     ///< the same on the worst side
+};
+
+/// That, of wind from every 30 degrees, with a conductor of `area` m². Nothing without a solved
+/// tether, a drone aside and wind, where it is not flown upwind either, and where that is the
+/// worst.
+[[nodiscard]] std::optional<WorstSide> worst_side(const Design& design, double area);
 
 /// A cable between (0, 0, 0) and its drone, by itself: solvers are held against each other by it.
 struct CableCase {

@@ -136,6 +136,7 @@ struct DesignStudy {
   std::vector<ShadowPrice> prices;  ///< what binds first; empty where infeasible
   std::vector<FrontPoint> front;    ///< by falling second quantity; empty where none was asked for
   std::optional<GroundContact> ground;  ///< of the best design's cable
+  std::optional<WorstSide> side;        ///< of the best design
 };
 
 /// Searches the design and prices what holds it. A cross-section that is neither given nor free is

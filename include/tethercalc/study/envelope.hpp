@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tethercalc/solve/optimize.hpp"
+#include "tethercalc/study/cable_shape.hpp"
 
 namespace tethercalc {
 
@@ -29,6 +30,8 @@ enum class Reach {
 /// The end of one reach.
 struct ReachEnd {
   double value = 0;      ///< SI, the greatest that meets all that is required
+  double from = 0;       ///< SI, the least above which all up to it do; 0.1 m of height, else 0,
+                         ///< where the search begins
   bool bounded = false;  ///< false: even the end of the search does, and nothing limits it
   Limit limit = Limit::available_power;    ///< what is missed just beyond
   Condition condition = Condition::hover;  ///< where
@@ -39,11 +42,14 @@ struct ReachEnd {
 /// cable is as long as it flies high.
 [[nodiscard]] Design at_reach(Design design, Reach reach, double value);
 
+/// Where the search begins.
+[[nodiscard]] double search_start(Reach reach);
+
 /// The greatest value at which the cable (`tether.cross_section`, which must be set) meets all that
 /// `optimize` demands of one: headroom, tilt and, where asked for, heat, strength and the
 /// converter's rating. Nothing where none does. The range is looked through at 400 values (50
-/// of a solved tether) before the edge is bisected to 1e-9 relative, so that feasible ranges
-/// narrower than their distance may be missed.
+/// of a solved tether) and about the design's own before its edges are bisected to 1e-9 relative,
+/// so that feasible ranges narrower than their distance may be missed.
 [[nodiscard]] std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach);
 
 /// One point of a curve of one reach against another.
@@ -76,6 +82,7 @@ struct EnvelopeStudy {
   /// Payload and wind against height, payload against wind; of a solved tether also the offset
   /// against height and wind.
   std::vector<EnvelopeCurve> curves;
+  std::optional<WorstSide> side;  ///< of the design itself
 
   /// Whether the cable flies at all.
   [[nodiscard]] bool any() const;

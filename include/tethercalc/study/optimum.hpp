@@ -24,6 +24,7 @@ namespace tethercalc {
 struct EvaluationStudy {
   std::vector<AreaPoints> table;        ///< in the order in which they were asked for
   std::optional<GroundContact> ground;  ///< of the first that lies on the ground
+  std::optional<WorstSide> side;        ///< of the first that is flown
 };
 
 /// Evaluates the design at each of `areas` (m², > 0).
@@ -82,6 +83,7 @@ struct OptimumStudy : DesignOptimum {
   std::vector<AreaPoints> table;  ///< by rising area; holds optimum, minimum and feasible edges
   std::vector<Remedy> remedies;   ///< for an infeasible design
   std::vector<FlownShape> cable;  ///< how the optimum hangs, see `shapes_in_flight`
+  std::optional<WorstSide> side;  ///< of the optimum
 };
 
 /// Optimises the design; `sizes` (rising) are those that can be bought.
