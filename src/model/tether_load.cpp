@@ -311,8 +311,6 @@ MovingAir air_about(const FlightState& state, const Flight& flight) {
   air.reference_height = flight.station_height + state.deployed;
   air.exponent = flight.wind_exponent;
   air.roughness_length = flight.roughness_length;
-  // No profile begins below the roughness: up to there what the drone meets, mostly still air.
-  if (air.reference_height <= air.roughness_length) air.profile = WindProfile::uniform;
   return air;
 }
 
