@@ -96,15 +96,17 @@ void detect(const HiddenEffect& effect, int logs, Detection& count) {
 
 void check_detection(std::size_t first, std::size_t last) {
   Detection count;
+  const int draws = std::max(2, test::draws(12));  // the least and the greatest size
   int logs = 0;
   for (std::size_t e = first; e < last; e += test::stride()) {
-    detect(hidden_effects()[e], test::draws(12), count);
-    logs += test::draws(12);
+    detect(hidden_effects()[e], draws, count);
+    logs += draws;
   }
   INFO(count.failures);
   CHECK(3 * count.worth >= logs - 1);
-  CHECK(count.named >= 0.9 * count.worth);
-  CHECK(count.covered >= 0.83 * count.fitted);
+  // Of a few logs one may miss.
+  CHECK(count.named >= 0.9 * count.worth - 1);
+  CHECK(count.covered >= 0.83 * count.fitted - 1);
 }
 
 /// Pairs of which one can always be described as a change of the other.
@@ -143,7 +145,7 @@ void check_pairs(std::size_t remainder) {
     }
   }
   INFO(failures);
-  CHECK(found >= 0.8 * pairs);
+  CHECK(found >= 0.8 * pairs - 1);
 }
 
 /// Of a hundred 5 %; of few logs one may be.
