@@ -138,7 +138,7 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
   emit(
       output, [&] { return evaluate_text(file, answer, style_for(output)); },
       [&] { return evaluate_json(file, answer); }, [&] { return evaluate_csv(answer.table); });
-  point_to_explanations({}, all_warnings(file, answer.table, answer.ground, answer.side), output);
+  point_to_explanations({}, evaluation_warnings(file, answer), output);
   return done;
 }
 
@@ -176,7 +176,7 @@ int run_envelope(const SpecOptions& spec, const std::vector<std::string>& areas_
   for (const ReachResult& result : answer.greatest) {
     if (result.end && result.end->bounded) codes.emplace_back(limit_name(result.end->limit));
   }
-  point_to_explanations(std::move(codes), all_warnings(file, {}, {}, answer.side), output);
+  point_to_explanations(std::move(codes), envelope_warnings(file, answer), output);
   return answer.any() ? done : answer_is_no;
 }
 

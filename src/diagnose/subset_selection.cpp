@@ -394,7 +394,8 @@ class SubsetSearch {
       return model(named, best_.shapes, &best_.fit, use).fit;
     });
     for (Selection::Open& open : result.open) {
-      open.suspected &= !misfits(with_group(best_.named, open.group), open.freed.values);
+      open.suspected =
+          open.suspected && !misfits(with_group(best_.named, open.group), open.freed.values);
     }
     const BlockFit named =
         best_.shapes.empty() ? best_.fit : model(best_.named, {}, &best_.fit, FitUse::report).fit;

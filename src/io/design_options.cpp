@@ -136,8 +136,8 @@ std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Des
       fields.number("--roughness", options.roughness_length, "flight.roughness_length_m").value();
   const double known_at =
       request.reference_height.value_or(request.station_height + request.height);
-  if (request.profile == WindProfile::logarithmic && !(request.roughness_length < known_at)) {
-    problems.add("--roughness", roughness_conflict(request.roughness_length, known_at));
+  if (const auto rough = roughness_conflict(request.profile, request.roughness_length, known_at)) {
+    problems.add("--roughness", *rough);
   }
   request.axial_stiffness =
       fields.number("--stiffness", options.axial_stiffness, "tether.axial_stiffness_N");

@@ -606,7 +606,9 @@ bool may_conflict(std::string_view path) {
                              [&](std::string_view start) { return path.starts_with(start); });
 }
 
-std::string roughness_conflict(double roughness_length, double known_at) {
+std::optional<std::string> roughness_conflict(WindProfile profile, double roughness_length,
+                                              double known_at) {
+  if (profile != WindProfile::logarithmic || roughness_length < known_at) return std::nullopt;
   return fmt::format("{} m is not less than the {} m over ground at which the wind is known",
                      roughness_length, known_at);
 }
@@ -682,13 +684,10 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
                          "the straight tether has one drag coefficient at all speeds; give "
                          "tether.model solved"});
   }
-  if (flight.wind_profile == WindProfile::logarithmic) {
-    const double lowest = std::min(flight.wind_reference_height.value_or(infinity),
-                                   flight.station_height + design.tether.length);
-    if (!(flight.roughness_length < lowest)) {
-      conflicts.push_back(
-          {"/flight/roughness_length_m", roughness_conflict(flight.roughness_length, lowest)});
-    }
+  const double lowest = std::min(flight.wind_reference_height.value_or(infinity),
+                                 flight.station_height + design.tether.length);
+  if (auto rough = roughness_conflict(flight.wind_profile, flight.roughness_length, lowest)) {
+    conflicts.push_back({"/flight/roughness_length_m", std::move(*rough)});
   }
   try {
     validate(converter);

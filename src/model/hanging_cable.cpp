@@ -207,6 +207,10 @@ bool integrate(const System& change, StateType& state, double end,
 
 }  // namespace
 
+Vector3 level_wind(double speed, double from) {
+  return {-speed * std::cos(from), speed * std::sin(from), 0};
+}
+
 double wind_share(const MovingAir& air, double height) {
   const double over_ground = height + air.station_height;
   switch (air.profile) {

@@ -301,11 +301,7 @@ std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situatio
 MovingAir air_about(const FlightState& state, const Flight& flight) {
   MovingAir air;
   air.density = flight.air_density;
-  const double speed = std::abs(state.airspeed);
-  air.wind = {-speed, 0, 0};
-  if (state.wind_from != 0) {
-    air.wind = {-speed * std::cos(state.wind_from), speed * std::sin(state.wind_from), 0};
-  }
+  air.wind = level_wind(std::abs(state.airspeed), state.wind_from);
   air.profile = flight.wind_profile;
   air.station_height = flight.station_height;
   air.reference_height = flight.station_height + state.deployed;
@@ -352,6 +348,13 @@ HangingSituation hanging_situation(const Tether& tether, double wall, const Flig
 HangingSituation hanging_situation(const Design& design, const FlightState& state) {
   const double wall = insulation_wall(design.tether.insulation, design.supply.voltage);
   return hanging_situation(design.tether, wall, state, design.flight);
+}
+
+NoWayUp no_way_up(const Design& design, double area, Condition condition) {
+  CableSolver solver;
+  const auto [outcome, cable] = solve_hanging(
+      hanging_situation(design, flight_state(design, condition)), solver, conductor_radius(area));
+  return {outcome, outcome == CableOutcome::too_short ? cable.length : 0};
 }
 
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,

@@ -65,10 +65,9 @@ constexpr LimitWords all_limits[] = {
      "No cross-section works: a supply of {voltage} V is outside the converter's range.",
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"},
-    {"Limited by the tether: any thicker, and ",
-     "No cross-section works: with 1 mm², a usual size, ", "The tether's way up to the drone",
-     "no way is found for the tether to hang up to the drone in {where}{with_cable}",
-     "tether not found to hang"}};
+    {"Limited by the tether: any thicker, and {no_way}.",
+     "No cross-section works: with 1 mm², a usual size, {no_way}.",
+     "The tether's way up to the drone", "{no_way}", "tether not found to hang"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
@@ -85,34 +84,33 @@ std::string cable_words(const Tether& tether) {
   return words;
 }
 
-/// Why a tether with conductors of `area` m² does not hang up to its drone.
-std::string no_way_words(const Design& design, double area, Condition condition) {
+/// Why a tether does not hang up to its drone.
+std::string no_way_words(const Design& design, const std::optional<NoWayUp>& no_way,
+                         Condition condition) {
   const Tether& tether = design.tether;
-  const HangingSituation situation = hanging_situation(design, flight_state(design, condition));
-  CableSolver solver;
-  const auto [outcome, cable] = solve_hanging(situation, solver, conductor_radius(area));
   const std::string up = "up to the drone in " + condition_words(condition);
-  if (outcome == CableOutcome::tension_too_low) {
+  if (no_way && no_way->outcome == CableOutcome::tension_too_low) {
     return fmt::format("the winch's {} N cannot hold the tether {}",
                        significant(tether.winch_pull, 3), up);
   }
-  if (outcome == CableOutcome::too_short && cable.length > 0) {
+  if (no_way && no_way->needed > 0) {
     return fmt::format("{} m of cable are needed {}, and there are {} m",
-                       significant(cable.length, 4), up,
+                       significant(no_way->needed, 4), up,
                        significant(tether.length + tether.spooled_length, 4));
   }
   return "no way is found for the tether to hang " + up + cable_words(tether);
 }
 
-/// `words` with the design's numbers in place of their names.
-std::string filled_in(const char* words, const Design& design, Condition condition) {
+/// `words` with the design's numbers, and what stands in the tether's way, in place of their names.
+std::string filled_in(const char* words, const Design& design, Condition condition,
+                      const std::optional<NoWayUp>& no_way = {}) {
   const Requirements& need = design.requirements;
   const Converter& converter = design.supply.converter;
   const double demanded = demanded_headroom(need, condition);
   const std::string where = condition_words(condition);
   return fmt::format(
       fmt::runtime(words), fmt::arg("where", where),
-      fmt::arg("with_cable", cable_words(design.tether)),
+      fmt::arg("no_way", no_way_words(design, no_way, condition)),
       fmt::arg("demand", headroom_words(demanded) + " in " + where),
       fmt::arg("headroom", fixed(demanded, 2)),
       fmt::arg("tilt", significant(need.max_pitch / unit::degree, 3)),
@@ -266,10 +264,8 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
                        unchecked_sentence(design).empty() ? "" : "that was checked ",
                        condition_words(where));
   }
-  std::string sentence = filled_in(limit_words(result.limited_by).of_optimum, design, where);
-  if (result.limited_by == Limit::tether_shape) {
-    sentence += no_way_words(design, 1.01 * result.area, where) + ".";
-  }
+  std::string sentence =
+      filled_in(limit_words(result.limited_by).of_optimum, design, where, result.no_way);
   const MinimumPower& least = result.minimum_power;
   if (least.power > 0) {
     sentence += fmt::format(" Power alone would ask for {} mm² ({} W in {}).",
@@ -322,7 +318,7 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
     case Demand::tether_strength:
       return "too weak for its tension";
     case Demand::tether_shape:
-      return no_way_words(design, points.area, missed.condition);
+      return no_way_words(design, points.no_way, missed.condition);
     case Demand::converter_rating:
       break;
   }
@@ -349,11 +345,7 @@ std::string refusal_words(const Design& design, const Refusal& refusal) {
 std::string refusal_sentence(const Design& design, const Refusal& refusal) {
   const Condition where = refusal.condition;
   if (const char* words = limit_words(refusal.limit).of_refusal; *words != '\0') {
-    std::string sentence = filled_in(words, design, where);
-    if (refusal.limit == Limit::tether_shape) {
-      sentence += no_way_words(design, 1 * unit::square_millimetre, where) + ".";
-    }
-    return sentence;
+    return filled_in(words, design, where, refusal.no_way);
   }
   const BestHeadroom& best = refusal.best;
   const double demanded = demanded_headroom(design.requirements, where);
@@ -638,6 +630,14 @@ std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPo
   if (ground) warnings.push_back(ground_warning(*ground));
   if (side) warnings.push_back(side_warning(*side));
   return warnings;
+}
+
+std::vector<Warning> evaluation_warnings(const DesignFile& file, const EvaluationStudy& study) {
+  return all_warnings(file, study.table, study.ground, study.side);
+}
+
+std::vector<Warning> envelope_warnings(const DesignFile& file, const EnvelopeStudy& study) {
+  return all_warnings(file, {}, {}, study.side);
 }
 
 std::vector<Warning> optimum_warnings(const DesignFile& file, const OptimumStudy& study) {

@@ -85,7 +85,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
     }
     out += table.text(style);
   }
-  for (const Warning& warning : all_warnings(file, {}, {}, study.side)) {
+  for (const Warning& warning : envelope_warnings(file, study)) {
     out += "\n" + style.subdued(wrapped("Note: " + warning.sentence));
   }
   return out;
@@ -118,7 +118,7 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
       {"greatest", greatest},
       {"curves", curves}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file, {}, {}, study.side));
+  add_warnings(out, envelope_warnings(file, study));
   return out;
 }
 

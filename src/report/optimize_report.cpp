@@ -298,7 +298,7 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
     }
   }
   if (out.back() != '\n') out += "\n";
-  return out + notes_text(all_warnings(file, study.table, study.ground, study.side), style);
+  return out + notes_text(evaluation_warnings(file, study), style);
 }
 
 ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study) {
@@ -313,7 +313,7 @@ ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study)
       {"cable", cables},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
   add_estimates(out, file.design);
-  add_warnings(out, all_warnings(file, study.table, study.ground, study.side));
+  add_warnings(out, evaluation_warnings(file, study));
   return out;
 }
 

@@ -93,8 +93,7 @@ ShapeStudy study_cable_shape(const Design& original, double area, const ShapeReq
   FlightState state = flight_state(design, Condition::hover);
   state.wind_from = request.wind_from;
   ShapeStudy out = shape_in(design, area, state);
-  out.air.wind = {-request.wind * std::cos(request.wind_from),
-                  request.wind * std::sin(request.wind_from), 0};
+  out.air.wind = level_wind(request.wind, request.wind_from);
   out.air.profile = request.profile;
   out.air.reference_height = request.reference_height.value_or(out.air.reference_height);
   return out;

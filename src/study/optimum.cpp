@@ -55,7 +55,7 @@ std::vector<SizePoints> sizes_near(const Design& design, double area,
                                    std::span<const WireSize> sizes) {
   std::vector<SizePoints> near;
   const auto add = [&](const std::string& name, double size) {
-    near.push_back({name, evaluate_areas(design, std::span(&size, 1)).front()});
+    near.push_back({name, evaluate_areas_to_tell(design, std::span(&size, 1)).front()});
   };
   if (std::isfinite(area)) {
     // The end of a short standard is no neighbour; it counts where no standard goes further.
@@ -124,8 +124,19 @@ std::vector<AreaPoints> evaluate_areas(const Design& design, std::span<const dou
   return table;
 }
 
+std::vector<AreaPoints> evaluate_areas_to_tell(const Design& design,
+                                               std::span<const double> areas) {
+  std::vector<AreaPoints> table = evaluate_areas(design, areas);
+  for (AreaPoints& points : table) {
+    const DemandMargin& missed = points.worst;
+    if (missed.met() || missed.demand != Demand::tether_shape) continue;
+    points.no_way = no_way_up(design, points.area, missed.condition);
+  }
+  return table;
+}
+
 EvaluationStudy study_evaluation(const Design& design, std::span<const double> areas) {
-  EvaluationStudy study{evaluate_areas(design, areas), {}, {}};
+  EvaluationStudy study{evaluate_areas_to_tell(design, areas), {}, {}};
   for (const double area : areas) {
     study.side = worst_side(design, area);
     if (study.side) break;
@@ -167,14 +178,23 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
 
 DesignOptimum optimum_of(const Design& design) {
   DesignOptimum optimum{design, optimize(design), {}, {}};
-  if (!optimum.result.feasible) optimum.refusal = refusal_of(design, optimum.result);
+  Optimization& result = optimum.result;
+  const Condition where = result.limiting_condition;
+  const bool no_way = result.limited_by == Limit::tether_shape;
+  if (!result.feasible) {
+    optimum.refusal = refusal_of(design, result);
+    if (no_way) optimum.refusal->no_way = no_way_up(design, 1 * unit::square_millimetre, where);
+  } else if (no_way) {
+    constexpr double thicker = 1.01;
+    result.no_way = no_way_up(design, thicker * result.area, where);
+  }
   optimum.best_headroom = best_headroom(design, design.requirements.headroom_at);
   return optimum;
 }
 
 OptimumStudy study_optimum(const Design& design, std::span<const WireSize> sizes) {
   OptimumStudy study{optimum_of(design), {}, {}, {}, {}, {}};
-  study.table = evaluate_areas(design, table_areas(study));
+  study.table = evaluate_areas_to_tell(design, table_areas(study));
   study.sizes = sizes_near(design, central_area(study), sizes);
   if (study.refusal) study.remedies = remedies(design);
   study.cable = shapes_in_flight(design, study.result.area);

@@ -12,7 +12,7 @@ SweepOutcome given_cable(const Design& design) {
   SweepOutcome outcome;
   outcome.given_area = true;
   const double area = design.tether.cross_section.value_or(nan);
-  outcome.points = evaluate_areas(design, std::span(&area, 1)).front();
+  outcome.points = evaluate_areas_to_tell(design, std::span(&area, 1)).front();
   const DemandMargin& worst = outcome.points.worst;
   outcome.feasible = worst.met();
   if (outcome.feasible) return outcome;

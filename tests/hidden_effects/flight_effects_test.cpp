@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 #include <set>
 
 #include "hidden_effects/diagnosed.hpp"
+#include "hidden_effects/drawn_flight.hpp"
 #include "support/random.hpp"
 
 using namespace tethercalc;
+using truth::drawn_flight;
 using truth::HiddenFlight;
 
 namespace {
-
-constexpr double short_flight = 300;  // s, to keep the suite quick
-
-/// Another one in each run.
-HiddenFlight drawn_flight(std::uint64_t draw) {
-  HiddenFlight hidden;
-  hidden.seed = 1'000'003ULL * test::run_seed() + draw;
-  std::mt19937_64 random(hidden.seed);
-  truth::draw_drone(hidden, random);
-  hidden.duration = short_flight;
-  return hidden;
-}
 
 bool names_first(const Diagnosis& d, const std::string& effect) {
   if (d.findings.empty()) return false;

@@ -4,21 +4,14 @@
 #include <string>
 
 #include "hidden_effects/diagnosed.hpp"
+#include "hidden_effects/drawn_flight.hpp"
 #include "support/random.hpp"
 
 using namespace tethercalc;
+using truth::drawn_flight;
 using truth::HiddenFlight;
 
 namespace {
-
-HiddenFlight drawn_flight(int draw) {
-  HiddenFlight hidden;
-  hidden.seed = 1'000'003ULL * test::run_seed() + static_cast<std::uint64_t>(draw);
-  std::mt19937_64 random(hidden.seed);
-  truth::draw_drone(hidden, random);
-  hidden.duration = 300;
-  return hidden;
-}
 
 struct Alarms {
   int names = 0;

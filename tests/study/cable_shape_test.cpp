@@ -21,14 +21,6 @@ ShapeStudy studied(const Design& design, ShapeRequest request, double slack) {
   return study_cable_shape(design, published_area, request);
 }
 
-/// The published design as its cable hangs.
-Design hung_design() {
-  Design design = test::published_design();
-  design.tether.model = TetherModel::solved;
-  design.flight.airspeed = 0;
-  return design;
-}
-
 /// What `shape` is asked for to be in the design's own hover.
 ShapeRequest own_hover(const Design& design) {
   const Flight& flight = design.flight;
@@ -151,7 +143,7 @@ TEST_CASE("answers about a cable say where it would hang lowest below its statio
 
 TEST_CASE("a shape's hover is evaluate's, whatever drum, heat and wind there are") {
   test::each_random(20, [](test::Random& random) {
-    Design design = hung_design();
+    Design design = test::published_hanging_design();
     design.tether.slack = random.uniform(0.002, 0.15);
     if (random.chance(0.5)) design.tether.spooled_length = random.uniform(5, 60);
     if (random.chance(0.3)) design.tether.winch_pull = random.uniform(2, 8);
@@ -179,9 +171,9 @@ TEST_CASE("a shape's hover is evaluate's, whatever drum, heat and wind there are
 }
 
 TEST_CASE("what a shape asks for in place of the spec is as if the spec said so") {
-  Design pulled = hung_design();
+  Design pulled = test::published_hanging_design();
   pulled.tether.winch_pull = 5;
-  const Design loose = hung_design();
+  const Design loose = test::published_hanging_design();
   ShapeRequest request{.height = 30, .paid_out = {.length = {}, .winch_tension = 5}, .wind = 3};
   const auto straight = [&](const Design& design) {
     return study_cable_shape(design, published_area, request).straight;
@@ -194,7 +186,7 @@ TEST_CASE("what a shape asks for in place of the spec is as if the spec said so"
 }
 
 TEST_CASE("a shape that takes more cable than there is has none, and tells how much it takes") {
-  Design design = hung_design();
+  Design design = test::published_hanging_design();
   design.tether.slack = 0.1;
   design.tether.spooled_length = 1;
   const ShapeStudy study = study_cable_shape(design, published_area, own_hover(design));
@@ -204,7 +196,7 @@ TEST_CASE("a shape that takes more cable than there is has none, and tells how m
 }
 
 TEST_CASE("below the roughness length a cable hangs as in still air") {
-  const Design design = hung_design();
+  const Design design = test::published_hanging_design();
   ShapeRequest request{.height = 0.2,
                        .paid_out = {.length = 0.21, .winch_tension = {}},
                        .wind = 3,
@@ -220,7 +212,7 @@ TEST_CASE("below the roughness length a cable hangs as in still air") {
 }
 
 TEST_CASE("the worst side of a drone aside takes no less than any side that a shape shows") {
-  Design design = hung_design();
+  Design design = test::published_hanging_design();
   design.requirements.max_pitch = 60 * unit::degree;
   design.tether.slack = 0.05;
   CHECK_FALSE(worst_side(design, published_area));

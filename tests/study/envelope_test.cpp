@@ -155,12 +155,10 @@ TEST_CASE("below the roughness length a drone hovers in still air, where an enve
 }
 
 TEST_CASE("a reach that the design itself flies is found, however narrow it is") {
-  Design design = test::published_design();
-  design.tether.model = TetherModel::solved;
+  Design design = test::published_hanging_design();
   design.tether.cross_section = 1.5e-6;
   design.tether.slack = 0.003;
   design.flight.horizontal_offset = 20;
-  design.flight.airspeed = 0;
   design.requirements.max_pitch = 15.2 * unit::degree;
   design.requirements.thrust_headroom = 1.35;
   const auto height = greatest_reach(design, Reach::height);
@@ -173,11 +171,9 @@ TEST_CASE("a reach that the design itself flies is found, however narrow it is")
 }
 
 TEST_CASE("a greatest reach below which the demands are missed says from where on they are met") {
-  Design design = test::published_design();
-  design.tether.model = TetherModel::solved;
+  Design design = test::published_hanging_design();
   design.tether.cross_section = 1.5e-6;
   design.tether.slack = 0.05;
-  design.flight.airspeed = 0;
   design.flight.headwind = 10;
   REQUIRE_FALSE(flies(design));
   const ReachEnd aside = bounded_offset(design);

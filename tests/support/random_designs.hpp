@@ -44,6 +44,14 @@ inline Design published_design() {
   return d;
 }
 
+/// The same that flies to stay where it is, on its cable as that hangs.
+inline Design published_hanging_design() {
+  Design d = published_design();
+  d.tether.model = TetherModel::solved;
+  d.flight.airspeed = 0;
+  return d;
+}
+
 /// A motor curve whose pieces all follow P = c·T^1.4 but for `roughness`, the share by which its
 /// steps are off: 0 is convex, 0.9 has kinks of every kind.
 inline MotorCurve random_motor(Random& random, double roughness) {

@@ -128,9 +128,11 @@ struct FieldConflict {
   std::string message;       ///< a sentence with both values
 };
 
-/// Why a logarithmic wind profile has no wind: its roughness length is not less than the least of
-/// the heights over ground, both in m, at which the wind is known.
-[[nodiscard]] std::string roughness_conflict(double roughness_length, double known_at);
+/// Why a wind profile has no wind: it is logarithmic, and its roughness length is not less than the
+/// least of the heights over ground, both in m, at which the wind is known. Nothing where it has.
+[[nodiscard]] std::optional<std::string> roughness_conflict(WindProfile profile,
+                                                            double roughness_length,
+                                                            double known_at);
 
 /// Conflicts between the fields of a design, such as a converter that cuts off at or above the
 /// supply voltage, or a station far aside of a drone whose tether hangs straight down. Whoever puts

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "tethercalc/model/operating_point.hpp"
+#include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc {
 
@@ -80,6 +82,8 @@ struct AreaPoints {
   OperatingPoint hover;    ///< in hover
   OperatingPoint forward;  ///< in forward flight
   DemandMargin worst;      ///< of the demands on the design, the one least met
+  /// Where that is the way up to the drone, and told to people: what stands in it.
+  std::optional<NoWayUp> no_way{};
 
   /// The point in `condition`.
   [[nodiscard]] const OperatingPoint& in(Condition condition) const {

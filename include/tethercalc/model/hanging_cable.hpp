@@ -75,6 +75,10 @@ struct MovingAir {
   auto operator<=>(const MovingAir&) const = default;  ///< member by member
 };
 
+/// m/s, a level wind of `speed` that comes from `from` rad, clockwise seen from above, 0 being
+/// where x points.
+[[nodiscard]] Vector3 level_wind(double speed, double from);
+
 /// N/m, drag of a cable that stands across a wind of `speed` m/s.
 [[nodiscard]] double drag_across(const Cable& cable, const MovingAir& air, double speed);
 

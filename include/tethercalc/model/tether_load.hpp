@@ -171,6 +171,15 @@ struct HangingOutcome {
 [[nodiscard]] HangingOutcome solve_hanging(const HangingSituation& situation, CableSolver& solver,
                                            double radius);
 
+/// Why a solved tether does not hang up to its drone.
+struct NoWayUp {
+  CableOutcome outcome = CableOutcome::not_found;  ///< not `hangs`
+  double needed = 0;  ///< m of cable, where there is not as much; else 0
+};
+
+/// That, with conductors of `area` m², solved anew.
+[[nodiscard]] NoWayUp no_way_up(const Design& design, double area, Condition condition);
+
 class SimilarCables;
 
 /// What will be asked of a tether that hangs as weight and wind have it: a search asks for the

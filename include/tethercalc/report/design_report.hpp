@@ -102,6 +102,12 @@ namespace tethercalc {
                                                 const std::optional<GroundContact>& ground = {},
                                                 const std::optional<WorstSide>& side = {});
 
+/// All of an evaluation, and of an envelope.
+[[nodiscard]] std::vector<Warning> evaluation_warnings(const DesignFile& file,
+                                                       const EvaluationStudy& study);
+[[nodiscard]] std::vector<Warning> envelope_warnings(const DesignFile& file,
+                                                     const EnvelopeStudy& study);
+
 /// All of an optimum.
 [[nodiscard]] std::vector<Warning> optimum_warnings(const DesignFile& file,
                                                     const OptimumStudy& study);

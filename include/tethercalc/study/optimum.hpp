@@ -20,6 +20,10 @@ namespace tethercalc {
                                                      std::span<const double> areas,
                                                      ConductorsAsked asked = ConductorsAsked::many);
 
+/// The same, of what does not hang up to the drone with the reason, `AreaPoints::no_way`.
+[[nodiscard]] std::vector<AreaPoints> evaluate_areas_to_tell(const Design& design,
+                                                             std::span<const double> areas);
+
 /// What cables of given cross-sections do.
 struct EvaluationStudy {
   std::vector<AreaPoints> table;        ///< in the order in which they were asked for
@@ -55,6 +59,7 @@ struct Refusal {
   Condition condition = Condition::hover;  ///< where
   BestHeadroom best;            ///< the most there, for limits of power, weight, thrust and tilt
   bool converter_caps = false;  ///< whether the converter's rating, not the line, allows no more
+  std::optional<NoWayUp> no_way{};  ///< of `Limit::tether_shape`, by `optimum_of`: with 1 mm²
 };
 
 /// Of a `result` that is infeasible.
