@@ -102,9 +102,11 @@ namespace tethercalc {
                                                 const std::optional<GroundContact>& ground = {},
                                                 const std::optional<WorstSide>& side = {});
 
-/// All of an evaluation, and of an envelope.
+/// All of an evaluation.
 [[nodiscard]] std::vector<Warning> evaluation_warnings(const DesignFile& file,
                                                        const EvaluationStudy& study);
+
+/// All of an envelope.
 [[nodiscard]] std::vector<Warning> envelope_warnings(const DesignFile& file,
                                                      const EnvelopeStudy& study);
 
