@@ -48,7 +48,8 @@ struct Unearned {
   Gain gain;
 };
 
-/// The weakest of the gains that do not earn their name; nothing where all do.
+/// The weakest of the gains that do not earn their name; nothing where all do. Of a usual group the
+/// gain in order need only be positive.
 [[nodiscard]] std::optional<Unearned> weakest_unearned(const Record& record,
                                                        std::span<const NamedGains> names,
                                                        double least_percent);

@@ -322,6 +322,7 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted,
   group.id = effect.id.empty() ? effect.title : effect.id;
   if (log) group.id += fmt::format(" (flight {})", *log + 1);
   group.fitted = fitted;
+  group.usual = effect.in_first_look;
   group.numbers = effect.parameters.size();
   group.least_gain_factor = effect.least_gain_factor;
   if (log) group.blocks = logs_[*log].blocks;
@@ -334,7 +335,10 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted,
   }
   for (std::size_t g = 0; g < effects_.size(); ++g) {
     if (in_log_[g] != log) continue;
-    if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) group.replaces = g;
+    if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) {
+      group.replaces = g;
+      problem.groups[g].usual &= !fitted;
+    }
     if (!effect.twin_of.empty() && effects_[g]->id == effect.twin_of) group.twin_of = g;
   }
   problem.groups.push_back(std::move(group));

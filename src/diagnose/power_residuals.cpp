@@ -27,6 +27,32 @@ double third_difference(const std::vector<double>& x, std::size_t i) {
   return (x[i + 3] - 3 * x[i + 2] + 3 * x[i + 1] - x[i]) / std::sqrt(20.0);
 }
 
+/// Covariance of the noise and of all that is as fast in two channels, over usable samples.
+double fast_covariance(const std::vector<double>& a, const std::vector<double>& b,
+                       const std::vector<char>& usable) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 3 < a.size(); ++i) {
+    const auto four = std::span(usable).subspan(i, 4);
+    if (std::count(four.begin(), four.end(), char{1}) < 4) continue;
+    sum += third_difference(a, i) * third_difference(b, i);
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+/// Of the usable and finite values; 0 of none.
+double mean_of(const std::vector<double>& x, const std::vector<char>& usable) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!usable[i] || !std::isfinite(x[i])) continue;
+    sum += x[i];
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
 /// Input power in W per W of output. The curve is piecewise smooth: a difference over 1 W is its
 /// slope wherever it matters.
 double input_slope(const Converter& converter, double output) {
@@ -236,36 +262,86 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
     rows_ += s.rows;
     stages_.push_back(std::move(s));
   }
+  readings_ = reading_noise(base);
   for (std::size_t k = 0; k < stages_.size(); ++k) estimate_noise(base, stages_[k], k);
+}
+
+PowerResiduals::ReadingNoise PowerResiduals::reading_noise(const PowerModel& base) const {
+  const auto of_line = std::find_if(stages_.begin(), stages_.end(),
+                                    [](const PowerStage& s) { return s.stage != Stage::motors; });
+  if (of_line == stages_.end()) return {};
+  const std::vector<char>& usable = of_line->usable;
+  const PowerLog& log = screened_.log;
+  const auto fast = [&](const auto& a, const auto& b) { return fast_covariance(a, b, usable); };
+  ReadingNoise noise;
+  noise.mean_voltage = mean_of(log.drone_voltage, usable);
+  noise.mean_current = mean_of(log.supply_current, usable);
+  double of_supply = 0;  // V², how fast the supply's voltage itself changes
+  if (!log.supply_voltage.empty()) {
+    of_supply = std::max(0.0, fast(log.supply_voltage, log.drone_voltage));
+    noise.supply_voltage = std::max(0.0, fast(log.supply_voltage, log.supply_voltage) - of_supply);
+  }
+  // A current that changes is seen in the voltage lost on the way, its noise is not.
+  std::vector<double> lost(log.drone_voltage);
+  for (std::size_t i = 0; i < lost.size(); ++i) {
+    lost[i] = (log.supply_voltage.empty() ? 0 : log.supply_voltage[i]) - log.drone_voltage[i];
+  }
+  const double resistance =
+      mean_of(loop_resistance(base, without_errors(log, base.instruments), memory_), usable);
+  const double all_current = fast(log.supply_current, log.supply_current);
+  const double true_current =
+      resistance > 0 ? std::clamp(fast(log.supply_current, lost) / resistance, 0.0, all_current)
+                     : all_current;
+  constexpr double least = 1e-12;  // V² and A², of a log without noise
+  noise.supply_current = std::max(least, all_current - true_current);
+  noise.drone_voltage = std::max(
+      least, fast(lost, lost) - noise.supply_voltage - resistance * resistance * true_current);
+  return noise;
+}
+
+double PowerResiduals::lost_voltage_variance(const PowerInstruments& instruments,
+                                             double resistance) const {
+  const auto square = [](double x) { return x * x; };
+  return readings_.supply_voltage / square(instruments.supply_voltage_gain) +
+         readings_.drone_voltage +
+         readings_.supply_current * square(resistance / instruments.supply_current_gain);
+}
+
+double PowerResiduals::input_power_variance(const PowerInstruments& instruments) const {
+  const auto square = [](double x) { return x * x; };
+  const double gain = instruments.supply_current_gain;
+  const double current = (readings_.mean_current - instruments.supply_current_offset) / gain;
+  const double voltage = readings_.mean_voltage - instruments.drone_voltage_offset;
+  return readings_.drone_voltage * square(current) +
+         readings_.supply_current * square(voltage / gain);
 }
 
 void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k) {
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
+  if (stage.stage == Stage::tether) {
+    const PowerLog corrected = without_errors(log, base.instruments);
+    lost_voltage_variance_ = lost_voltage_variance(
+        base.instruments, mean_of(loop_resistance(base, corrected, memory_), stage.usable));
+  }
   if (stage.stage == Stage::converter) {
+    input_power_variance_ = input_power_variance(base.instruments);
     // Input and output share the true power and have noise of their own, so the covariance of their
     // fast changes holds the former and what exceeds it the latter.
     const std::vector<double> input = product(log.drone_voltage, log.supply_current);
-    double in = 0, out = 0, both = 0, slope = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i + 3 < n; ++i) {
-      const auto four = std::span(stage.usable).subspan(i, 4);
-      if (std::count(four.begin(), four.end(), char{1}) < 4) continue;
-      const double a = third_difference(input, i);
-      const double b = third_difference(bus_power_, i);
-      in += a * a;
-      out += b * b;
-      both += a * b;
-      slope += input_slope(base.design.supply.converter, bus_power_[i]);
-      ++count;
-    }
-    if (count > 0) {
-      slope /= static_cast<double>(count);
-      const double total = std::max(
-          (in + slope * slope * out - 2 * slope * both) / static_cast<double>(count), 1e-12);
-      const double excess = (out - both / slope) / static_cast<double>(count);
-      output_variance_ = std::clamp(excess, 0.02 * total, 0.98 * total) / (slope * slope);
-      input_variance_ = total - slope * slope * output_variance_;
+    std::vector<double> slopes(n);
+    std::transform(bus_power_.begin(), bus_power_.end(), slopes.begin(), [&base](double power) {
+      return input_slope(base.design.supply.converter, power);
+    });
+    const double slope = mean_of(slopes, stage.usable);
+    const double out = fast_covariance(bus_power_, bus_power_, stage.usable);
+    const double both = fast_covariance(input, bus_power_, stage.usable);
+    const double total =
+        fast_covariance(input, input, stage.usable) + slope * slope * out - 2 * slope * both;
+    if (total > 0 && slope > 0) {
+      const double of_output = std::clamp((slope * slope * out - slope * both) / total, 0.02, 0.98);
+      output_variance_ = of_output / (slope * slope);
+      input_variance_ = 1 - of_output;
     }
   }
 
@@ -303,20 +379,25 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   const PowerLog log = without_errors(screened_.log, instruments);
   if (stage.stage == Stage::tether) {
     const std::vector<double> resistance = loop_resistance(model, log, memory_);
+    const double noise =
+        stage.noise *
+        std::sqrt(lost_voltage_variance(instruments, mean_of(resistance, stage.usable)) /
+                  lost_voltage_variance_);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const double lost = log.supply_voltage[i] - log.drone_voltage[i];
-      out[i] = (lost - log.supply_current[i] * resistance[i]) / stage.noise;
+      out[i] = (lost - log.supply_current[i] * resistance[i]) / noise;
     }
   } else if (stage.stage == Stage::converter) {
-    const double in_gain = instruments.supply_current_gain;
+    const double input_variance =
+        input_variance_ * input_power_variance(instruments) / input_power_variance_;
     const double out_gain = instruments.bus_current_gain;
     const Converter& converter = model.design.supply.converter;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const double input = log.drone_voltage[i] * log.supply_current[i];
       const double output = bus_power_[i] / out_gain;
       const double slope = input_slope(converter, output);
-      const double variance = input_variance_ / (in_gain * in_gain) +
-                              slope * slope * output_variance_ / (out_gain * out_gain);
+      const double variance =
+          input_variance + slope * slope * output_variance_ / (out_gain * out_gain);
       out[i] =
           (input - model.design.drone.auxiliary_power - converter_input_power(converter, output)) /
           (std::sqrt(variance) * stage.noise);

@@ -41,6 +41,10 @@ struct PowerStage {
 /// - *motors*: the logarithm of the power at the bus with that of steady flight at the measured
 ///   height and airspeed, averaged over some seconds; its error is relative, and lasts for seconds.
 ///
+/// A gain, an offset or a resistance changes the noise of what it is applied to, and so does the
+/// residual's unit: a reading that is taken to be too large would else seem to explain something,
+/// only because its noise shrinks with it.
+///
 /// Noise and its memory are estimated from what a flexible smooth function of time, height and
 /// airspeed leaves of the base model's residuals, so that what is hidden does not pass for noise.
 class PowerResiduals {
@@ -73,6 +77,21 @@ class PowerResiduals {
   void refine_noise(std::size_t k, const PowerModel& model);
 
  private:
+  /// What the noise of the readings makes of a comparison, up to a factor.
+  struct ReadingNoise {
+    double supply_voltage = 0;  ///< V², variance of one reading
+    double drone_voltage = 0;   ///< V²
+    double supply_current = 0;  ///< A²
+    double mean_voltage = 0;    ///< V at the drone
+    double mean_current = 0;    ///< A
+  };
+
+  [[nodiscard]] ReadingNoise reading_noise(const PowerModel& base) const;
+  /// Variances in V² of the voltage lost, at a mean resistance in Ω, and in W² of the power at the
+  /// converter's input, by `readings_`.
+  [[nodiscard]] double lost_voltage_variance(const PowerInstruments& instruments,
+                                             double resistance) const;
+  [[nodiscard]] double input_power_variance(const PowerInstruments& instruments) const;
   void estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k);
 
   ScreenedPowerLog screened_;
@@ -81,8 +100,12 @@ class PowerResiduals {
   std::vector<double> bus_power_;
   std::vector<double> log_bus_power_;
   mutable ChainMemory memory_;
-  double input_variance_ = 1;   ///< W², of U_drone·I
-  double output_variance_ = 0;  ///< W², of the bus power
+  ReadingNoise readings_;
+  // In the base model, whose noise a stage's is.
+  double lost_voltage_variance_ = 1;  ///< V²
+  double input_power_variance_ = 1;   ///< W²
+  double input_variance_ = 1;         ///< of U_drone·I, a part of all noise at the converter
+  double output_variance_ = 0;        ///< of the bus power, likewise
 };
 
 }  // namespace tethercalc

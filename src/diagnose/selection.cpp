@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "diagnose/fit_judgement.hpp"
 #include "identify/statistics.hpp"
@@ -70,14 +71,8 @@ class Search {
 
     // Every round either ends or leaves a set that no step goes to again.
     do {
-      unnamed_.clear();
-      current_ = fit(selected_, nullptr);
-      do {
-        step_forward();
-        exchange();
-      } while (drop_outdone());
-      find_unnamed();
-      if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+      search_beside_usual();
+      name_usual();
       put_in_order(base);
     } while (drop_unearned(base));
     place_candidates();
@@ -112,7 +107,7 @@ class Search {
                              FitUse use = FitUse::search) const {
     Freed freed{{}, shapes};
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      const bool wanted = group(g).fitted || contains(selected, g);
+      const bool wanted = group(g).fitted || contains(selected, g) || contains(beside_, g);
       if (wanted && !is_replaced(g, selected)) freed.groups.push_back(g);
     }
     return fit_blocks(record_, freed, near, use);
@@ -218,7 +213,8 @@ class Search {
 
   /// Whether the group may be freed beside the selected ones.
   [[nodiscard]] bool is_open(std::size_t g) const {
-    return !group(g).fitted && !contains(selected_, g) && !aliased_.contains(g);
+    return !group(g).fitted && !contains(selected_, g) && !contains(beside_, g) &&
+           !aliased_.contains(g);
   }
 
   [[nodiscard]] Groups candidates() const {
@@ -288,7 +284,7 @@ class Search {
       drop_superfluous();
       if (current_.squared_error() < fit_before.squared_error()) continue;
       tell("going back from " + group(step->group).id);
-      left_.insert(sorted(with));
+      left_.insert(without_usual(with));
       selected_ = before;
       current_ = fit_before;
     }
@@ -341,25 +337,27 @@ class Search {
     }
   }
 
+  /// The weakest of `among` that is not worth a name in the fit of all selected ones.
+  [[nodiscard]] std::optional<std::size_t> superfluous(const Groups& among,
+                                                       const BlockFit& all) const {
+    std::optional<std::size_t> weakest;
+    double weakest_error = infinity;
+    for (const std::size_t g : among) {
+      const BlockFit without = fit(selected_without(g), all.freed.unnamed, &all);
+      if (without.squared_error() >= weakest_error) continue;
+      if (judge(g, without, all).worth_a_name) continue;
+      weakest = g;
+      weakest_error = without.squared_error();
+    }
+    return weakest;
+  }
+
   /// Takes back what the other names make superfluous, the weakest first.
   void drop_superfluous() {
-    while (!selected_.empty()) {
-      std::optional<std::size_t> weakest;
-      double weakest_error = infinity;
-      BlockFit rest_fit;
-      for (const std::size_t g : selected_) {
-        BlockFit without = fit(selected_without(g), &current_);
-        const bool earns = judge(g, without, current_).worth_a_name;
-        if (!earns && without.squared_error() < weakest_error) {
-          weakest = g;
-          weakest_error = without.squared_error();
-          rest_fit = std::move(without);
-        }
-      }
-      if (!weakest) return;
-      tell("taking back " + group(*weakest).id);
-      leave(*weakest);
-      current_ = std::move(rest_fit);
+    while (const std::optional<std::size_t> g = superfluous(selected_, current_)) {
+      tell("taking back " + group(*g).id);
+      leave(*g);
+      current_ = fit(selected_, &current_);
     }
   }
 
@@ -395,10 +393,60 @@ class Search {
     return false;
   }
 
-  /// Takes the group back; no step returns to the set that is left.
+  /// Takes the group back; no step returns to the set that is left, and a usual group that is left
+  /// has no name.
   void leave(std::size_t g) {
-    left_.insert(sorted(selected_));
+    if (is_usual(g)) {
+      unearned_usual_.insert(g);
+    } else {
+      left_.insert(without_usual(selected_));
+    }
     selected_ = selected_without(g);
+  }
+
+  /// Whether others are sought beside it, and it has to earn its name afterwards.
+  [[nodiscard]] bool is_usual(std::size_t g) const {
+    return group(g).usual && !group(g).fitted && !aliased_.contains(g);
+  }
+
+  [[nodiscard]] Groups without_usual(Groups groups) const {
+    std::erase_if(groups, [this](std::size_t g) { return is_usual(g); });
+    return sorted(std::move(groups));
+  }
+
+  /// Names and unnamed shapes beside all usual groups, which have no name meanwhile.
+  void search_beside_usual() {
+    std::erase_if(selected_, [this](std::size_t g) { return is_usual(g); });
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      if (is_usual(g)) beside_.push_back(g);
+    }
+    unnamed_.clear();
+    current_ = fit(selected_, nullptr);
+    do {
+      step_forward();
+      exchange();
+    } while (drop_outdone());
+    find_unnamed();
+    if (!unnamed_.empty()) step_forward();  // what the unknown had hidden
+  }
+
+  /// Names the usual groups that earn it. No unnamed shape takes that from them: they are known to
+  /// be there.
+  void name_usual() {
+    Groups added;
+    for (const std::size_t g : std::exchange(beside_, {})) {
+      if (unearned_usual_.contains(g) || is_replaced(g, selected_) ||
+          selected_.size() == options_.most_findings) {
+        continue;
+      }
+      added.push_back(g);
+      selected_.push_back(g);
+    }
+    while (const auto g = superfluous(added, fit(selected_, {}, &current_))) {
+      leave(*g);
+      std::erase(added, *g);
+    }
+    current_ = fit(selected_, &current_);
   }
 
   /// The names by what each adds to those before it. None stays that adds nothing there.
@@ -429,9 +477,9 @@ class Search {
     selected_ = std::move(order);
   }
 
-  /// Takes back the weakest name whose gain, as it will be told or beside all the other names, does
-  /// not earn one. True where there was one.
-  bool drop_unearned(const BlockFit& base) {
+  /// The weakest name whose gain, as it will be told or beside all the other names, does not earn
+  /// one.
+  [[nodiscard]] std::optional<std::size_t> unearned(const BlockFit& base) const {
     const BlockFit all = fit(selected_, {}, &current_);
     BlockFit before = base;
     Groups so_far;
@@ -443,11 +491,20 @@ class Search {
       names.push_back({g, gain_between(before, after), gain_between(without, all)});
       before = std::move(after);
     }
-    const auto unearned = weakest_unearned(record_, names, options_.least_gain_percent);
-    if (!unearned) return false;
-    tell("taking back " + group(unearned->group).id);
-    leave(unearned->group);
-    return true;
+    const auto weakest = weakest_unearned(record_, names, options_.least_gain_percent);
+    return weakest ? std::optional(weakest->group) : std::nullopt;
+  }
+
+  /// Takes back what is not earned. True where that was a name that others were judged beside, so
+  /// that the search has to go on.
+  bool drop_unearned(const BlockFit& base) {
+    while (const std::optional<std::size_t> g = unearned(base)) {
+      tell("taking back " + group(*g).id);
+      leave(*g);
+      if (!is_usual(*g)) return true;
+      current_ = fit(selected_, &current_);
+    }
+    return false;
   }
 
   /// Looks beside all effects that are certain, those too small for a name included: what a known
@@ -557,7 +614,9 @@ class Search {
   double student_factor_ = 0;
   Groups selected_;
   Groups unnamed_;
+  Groups beside_;  ///< usual groups, while others are sought beside them
   std::set<std::size_t> aliased_;
+  std::set<std::size_t> unearned_usual_;
   std::set<Groups> left_;  ///< sets of which a name was taken back, so that the search ends
   BlockFit current_;
 };

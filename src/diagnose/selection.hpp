@@ -46,6 +46,10 @@ struct ParameterGroup {
   /// Always free and never reported: drag areas, instrument gains, base effects. Else a candidate,
   /// at its neutral values until the record demands otherwise.
   bool fitted = false;
+  /// A candidate that nearly every record holds, such as the wind: others are sought beside it, so
+  /// that none takes its place, and it has to earn its own name afterwards. Not where a fitted group
+  /// replaces it.
+  bool usual = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
   /// That describe it: of two groups that explain alike, the one with fewer is taken.
   std::size_t numbers = 1;
@@ -199,6 +203,8 @@ struct Selection {
 /// no longer earns its place goes back to neutral. Standard errors and held-out errors come from
 /// the same fits, each with one block left out (delete-a-block jackknife, Künsch 1989), so that
 /// correlation within a block needs no model. Outlying rows are down-weighted (Huber 1964).
+///
+/// All of this beside the usual groups, which are named afterwards where they earn it.
 ///
 /// Structure left over is sought among `unnamed`; an effect that an unnamed regressor explains
 /// significantly better, or makes superfluous, is taken back: a name is never forced on it.

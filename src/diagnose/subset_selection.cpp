@@ -176,11 +176,16 @@ class SubsetSearch {
     for (const std::size_t g : named) {
       result.length += name_price_ + 2 * std::log(chances(problem_.groups[g]));
     }
-    if (!named.empty() && !shapes.empty()) {
-      freed.unnamed.clear();
-      const double named_alone = fit_blocks(record_, freed, near).squared_error();
-      result.length += missed_by_shapes * static_cast<double>(named.size()) *
-                       std::max(0.0, named_alone - result.fit.squared_error());
+    if (named.empty() || shapes.empty()) return result;
+    const double missed =
+        missed_by_shapes *
+        std::max(0.0, fit_blocks(record_, {freed.groups, {}}, near).squared_error() -
+                          result.fit.squared_error());
+    for (const std::size_t g : named) {
+      const Freed without{without_group(freed.groups, g), shapes};
+      const double earned =
+          fit_blocks(record_, without, &result.fit).squared_error() - result.fit.squared_error();
+      if (earned < name_price_ + missed) result.length += missed;
     }
     return result;
   }
@@ -246,17 +251,23 @@ class SubsetSearch {
     }
   }
 
-  /// Shapes beside all of the names, beside all but one of them, and instead of them.
+  /// Shapes beside all of the names and instead of them; and, as some of them may mimic what has no
+  /// name, beside all but one or two of them and beside each alone.
   void search_shapes() {
     if (problem_.unnamed.empty()) return;
     if (progress_) progress_("looking for structure without a name");
     const Model named = best_;
     consider(with_shapes(named));
     if (named.named.empty()) return;
-    if (named.named.size() > 1) {
-      for (const std::size_t g : named.named) {
-        consider(with_shapes(model(without_group(named.named, g), {}, &named.fit)),
-                 name_preference);
+    const auto beside = [&](const Groups& names) {
+      consider(with_shapes(model(names, {}, &named.fit)), name_preference);
+    };
+    for (std::size_t a = 0; a < named.named.size(); ++a) {
+      const Groups rest = without_group(named.named, named.named[a]);
+      if (!rest.empty()) beside(rest);
+      if (rest.size() > 2) beside({named.named[a]});
+      for (std::size_t b = a; b < rest.size() && rest.size() > 1; ++b) {
+        beside(without_group(rest, rest[b]));
       }
     }
     consider(with_shapes(base_), name_preference);
