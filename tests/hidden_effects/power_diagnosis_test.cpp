@@ -227,6 +227,26 @@ TEST_CASE("readings that are taken too large do not seem to explain more") {
   }
 }
 
+TEST_CASE("what is left at the converter is told in watts") {
+  Scenario scenario;
+  scenario.seed = seed(2640);
+  const PowerLog log = as_power_log(simulate(scenario));
+  const Design design = spec();
+  double squares = 0;
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    const double input = log.drone_voltage[i] * log.supply_current[i];
+    const double output = log.bus_voltage[i] * log.bus_current[i];
+    const double left = input - design.drone.auxiliary_power -
+                        output / design.supply.converter.efficiency.front().efficiency;
+    squares += left * left;
+  }
+  const Diagnosis d = diagnosis_of(log);
+  const auto watts = std::ranges::find(d.further, "W", &HoldoutComparison::unit);
+  REQUIRE(watts != d.further.end());
+  const double rms = std::sqrt(squares / static_cast<double>(log.time.size()));
+  CHECK(watts->base_rmse == Approx(rms).epsilon(0.02));  // outliers and what is held out apart
+}
+
 TEST_CASE("small errors together are not told as large ones that cancel") {
   int large = 0;
   int covered = 0;
