@@ -284,9 +284,8 @@ std::optional<Unearned> weakest_unearned(const Record& record, std::span<const N
                                          double least_percent) {
   std::optional<Unearned> weakest;
   for (const NamedGains& name : names) {
-    // What was sought beside a usual group may cancel most of what that does by itself.
-    const bool cancelled = record.problem().groups[name.group].usual && name.in_order.percent > 0;
-    for (const Gain& gain : {cancelled ? name.beside : name.in_order, name.beside}) {
+    const bool positive = name.others_sought_beside && name.in_order.percent > 0;
+    for (const Gain& gain : {positive ? name.beside : name.in_order, name.beside}) {
       if (weakest && gain.percent >= weakest->gain.percent) continue;
       if (!earns_a_name(record, name.group, gain, least_percent)) weakest = {name.group, gain};
     }

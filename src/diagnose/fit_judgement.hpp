@@ -40,6 +40,9 @@ struct NamedGains {
   std::size_t group = 0;
   Gain in_order;
   Gain beside;
+  /// Others were sought beside it, and may cancel most of what it does by itself: of its gain in
+  /// order no more is asked than that it is positive.
+  bool others_sought_beside = false;
 };
 
 /// A name that is not earned, and by which gain.
@@ -48,8 +51,7 @@ struct Unearned {
   Gain gain;
 };
 
-/// The weakest of the gains that do not earn their name; nothing where all do. Of a usual group the
-/// gain in order need only be positive.
+/// The weakest of the gains that do not earn their name; nothing where all do.
 [[nodiscard]] std::optional<Unearned> weakest_unearned(const Record& record,
                                                        std::span<const NamedGains> names,
                                                        double least_percent);

@@ -335,10 +335,7 @@ void LogModel::add(const Effect& effect, const Design& design, bool fitted,
   }
   for (std::size_t g = 0; g < effects_.size(); ++g) {
     if (in_log_[g] != log) continue;
-    if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) {
-      group.replaces = g;
-      problem.groups[g].usual &= !fitted;
-    }
+    if (!effect.replaces.empty() && effects_[g]->id == effect.replaces) group.replaces = g;
     if (!effect.twin_of.empty() && effects_[g]->id == effect.twin_of) group.twin_of = g;
   }
   problem.groups.push_back(std::move(group));

@@ -220,19 +220,20 @@ class Search {
   [[nodiscard]] Groups candidates() const {
     Groups result;
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      if (is_open(g) && !is_replaced(g, selected_) && !left_.contains(selected_with(g))) {
+      if (is_open(g) && !is_replaced(g, selected_) && !is_replaced(g, beside_) &&
+          !left_.contains(selected_with(g))) {
         result.push_back(g);
       }
     }
     return result;
   }
 
-  /// The candidate with the least held-out error; among those within one standard error of it the
+  /// The one with the least held-out error; among those within one standard error of it the
   /// one with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical
   /// Learning, 2nd ed., section 7.10).
-  [[nodiscard]] std::optional<Trial> best_step() const {
+  [[nodiscard]] std::optional<Trial> best_step(const Groups& among) const {
     std::vector<Trial> worthy;
-    for (const std::size_t g : candidates()) {
+    for (const std::size_t g : among) {
       tell("trying " + group(g).id);
       Trial trial = judge(g, current_, fit(selected_with(g), &current_));
       if (trial.worth_a_name && earns_without_shapes(g)) worthy.push_back(std::move(trial));
@@ -246,9 +247,10 @@ class Search {
       const BlockDifference excess = difference(trial.fit.block_error, best->fit.block_error);
       const std::size_t count = group(trial.group).numbers;
       const std::size_t chosen_count = group(chosen->group).numbers;
-      const bool simpler =
-          count < chosen_count ||
-          (count == chosen_count && trial.fit.squared_error() < chosen->fit.squared_error());
+      const bool coarser = group(chosen->group).replaces == trial.group;
+      const bool better = trial.fit.squared_error() < chosen->fit.squared_error() &&
+                          group(trial.group).replaces != chosen->group;
+      const bool simpler = count < chosen_count || coarser || (count == chosen_count && better);
       if (simpler && excess.sum <= excess.se) chosen = &trial;
     }
     return *chosen;
@@ -272,7 +274,7 @@ class Search {
   void step_forward() {
     while (selected_.size() < options_.most_findings) {
       place_candidates();
-      std::optional<Trial> step = best_step();
+      std::optional<Trial> step = best_step(candidates());
       if (!step) return;
       const Groups before = selected_;
       const BlockFit fit_before = current_;
@@ -337,27 +339,25 @@ class Search {
     }
   }
 
-  /// The weakest of `among` that is not worth a name in the fit of all selected ones.
-  [[nodiscard]] std::optional<std::size_t> superfluous(const Groups& among,
-                                                       const BlockFit& all) const {
-    std::optional<std::size_t> weakest;
-    double weakest_error = infinity;
-    for (const std::size_t g : among) {
-      const BlockFit without = fit(selected_without(g), all.freed.unnamed, &all);
-      if (without.squared_error() >= weakest_error) continue;
-      if (judge(g, without, all).worth_a_name) continue;
-      weakest = g;
-      weakest_error = without.squared_error();
-    }
-    return weakest;
-  }
-
   /// Takes back what the other names make superfluous, the weakest first.
   void drop_superfluous() {
-    while (const std::optional<std::size_t> g = superfluous(selected_, current_)) {
-      tell("taking back " + group(*g).id);
-      leave(*g);
-      current_ = fit(selected_, &current_);
+    while (!selected_.empty()) {
+      std::optional<std::size_t> weakest;
+      double weakest_error = infinity;
+      BlockFit rest_fit;
+      for (const std::size_t g : selected_) {
+        BlockFit without = fit(selected_without(g), &current_);
+        const bool earns = judge(g, without, current_).worth_a_name;
+        if (!earns && without.squared_error() < weakest_error) {
+          weakest = g;
+          weakest_error = without.squared_error();
+          rest_fit = std::move(without);
+        }
+      }
+      if (!weakest) return;
+      tell("taking back " + group(*weakest).id);
+      leave(*weakest);
+      current_ = std::move(rest_fit);
     }
   }
 
@@ -396,17 +396,25 @@ class Search {
   /// Takes the group back; no step returns to the set that is left, and a usual group that is left
   /// has no name.
   void leave(std::size_t g) {
-    if (is_usual(g)) {
-      unearned_usual_.insert(g);
-    } else {
-      left_.insert(without_usual(selected_));
-    }
+    left_.insert(without_usual(selected_));
+    if (is_usual(g)) unearned_usual_.insert(g);
     selected_ = selected_without(g);
   }
 
-  /// Whether others are sought beside it, and it has to earn its name afterwards.
+  /// The group that describes in more detail what the group does.
+  [[nodiscard]] std::optional<std::size_t> replacement(std::size_t g) const {
+    for (std::size_t by = 0; by < record_.problem().groups.size(); ++by) {
+      if (group(by).replaces == g) return by;
+    }
+    return std::nullopt;
+  }
+
+  /// Whether it, or what it describes in more detail, is there in nearly every record.
   [[nodiscard]] bool is_usual(std::size_t g) const {
-    return group(g).usual && !group(g).fitted && !aliased_.contains(g);
+    if (group(g).fitted || aliased_.contains(g)) return false;
+    if (const auto& less = group(g).replaces) return group(*less).usual && !group(*less).fitted;
+    const auto finer = replacement(g);
+    return group(g).usual && !(finer && group(*finer).fitted);
   }
 
   [[nodiscard]] Groups without_usual(Groups groups) const {
@@ -418,7 +426,8 @@ class Search {
   void search_beside_usual() {
     std::erase_if(selected_, [this](std::size_t g) { return is_usual(g); });
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      if (is_usual(g)) beside_.push_back(g);
+      const auto finer = replacement(g);
+      if (is_usual(g) && !(finer && is_usual(*finer))) beside_.push_back(g);
     }
     unnamed_.clear();
     current_ = fit(selected_, nullptr);
@@ -433,19 +442,19 @@ class Search {
   /// Names the usual groups that earn it. No unnamed shape takes that from them: they are known to
   /// be there.
   void name_usual() {
-    Groups added;
-    for (const std::size_t g : std::exchange(beside_, {})) {
-      if (unearned_usual_.contains(g) || is_replaced(g, selected_) ||
-          selected_.size() == options_.most_findings) {
-        continue;
-      }
-      added.push_back(g);
-      selected_.push_back(g);
+    beside_.clear();
+    const Groups shapes = std::exchange(unnamed_, {});
+    current_ = fit(selected_, nullptr);
+    while (selected_.size() < options_.most_findings) {
+      Groups open = candidates();
+      std::erase_if(open,
+                    [&](std::size_t g) { return !is_usual(g) || unearned_usual_.contains(g); });
+      std::optional<Trial> step = best_step(open);
+      if (!step) break;
+      selected_.push_back(step->group);
+      current_ = std::move(step->fit);
     }
-    while (const auto g = superfluous(added, fit(selected_, {}, &current_))) {
-      leave(*g);
-      std::erase(added, *g);
-    }
+    unnamed_ = shapes;
     current_ = fit(selected_, &current_);
   }
 
@@ -488,7 +497,7 @@ class Search {
       so_far.push_back(g);
       BlockFit after = fit(so_far, {}, &current_);
       const BlockFit without = fit(selected_without(g), {}, &current_);
-      names.push_back({g, gain_between(before, after), gain_between(without, all)});
+      names.push_back({g, gain_between(before, after), gain_between(without, all), is_usual(g)});
       before = std::move(after);
     }
     const auto weakest = weakest_unearned(record_, names, options_.least_gain_percent);

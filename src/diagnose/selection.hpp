@@ -47,8 +47,8 @@ struct ParameterGroup {
   /// at its neutral values until the record demands otherwise.
   bool fitted = false;
   /// A candidate that nearly every record holds, such as the wind: others are sought beside it, so
-  /// that none takes its place, and it has to earn its own name afterwards. Not where a fitted group
-  /// replaces it.
+  /// that none takes its place, and it has to earn its own name afterwards. Where the record shows
+  /// a group that replaces it, that one takes this part.
   bool usual = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
   /// That describe it: of two groups that explain alike, the one with fewer is taken.

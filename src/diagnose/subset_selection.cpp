@@ -259,18 +259,18 @@ class SubsetSearch {
     const Model named = best_;
     consider(with_shapes(named));
     if (named.named.empty()) return;
-    const auto beside = [&](const Groups& names) {
-      consider(with_shapes(model(names, {}, &named.fit)), name_preference);
-    };
+    std::vector<Groups> kept{{}};
     for (std::size_t a = 0; a < named.named.size(); ++a) {
       const Groups rest = without_group(named.named, named.named[a]);
-      if (!rest.empty()) beside(rest);
-      if (rest.size() > 2) beside({named.named[a]});
+      if (rest.size() > 2) kept.push_back({named.named[a]});
+      if (!rest.empty()) kept.push_back(rest);
       for (std::size_t b = a; b < rest.size() && rest.size() > 1; ++b) {
-        beside(without_group(rest, rest[b]));
+        kept.push_back(without_group(rest, rest[b]));
       }
     }
-    consider(with_shapes(base_), name_preference);
+    for (const Groups& names : kept) {
+      consider(with_shapes(model(names, {}, &named.fit)), name_preference);
+    }
   }
 
   /// Adds the unnamed shapes that are worth their price.
