@@ -69,6 +69,8 @@ class Search {
       }
     }
 
+    find_usual(base.freed.groups);
+
     // Every round either ends or leaves a set that no step goes to again.
     do {
       search_beside_usual();
@@ -397,38 +399,30 @@ class Search {
   /// has no name.
   void leave(std::size_t g) {
     left_.insert(without_usual(selected_));
-    if (is_usual(g)) unearned_usual_.insert(g);
+    if (contains(usual_, g)) unearned_usual_.push_back(g);
     selected_ = selected_without(g);
   }
 
-  /// The group that describes in more detail what the group does.
-  [[nodiscard]] std::optional<std::size_t> replacement(std::size_t g) const {
-    for (std::size_t by = 0; by < record_.problem().groups.size(); ++by) {
-      if (group(by).replaces == g) return by;
+  /// What is there in nearly every record, or describes in more detail what is.
+  void find_usual(const Groups& fitted) {
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      const auto& coarser = group(g).replaces;
+      const bool counts = coarser ? group(*coarser).usual && !group(*coarser).fitted
+                                  : group(g).usual && !is_replaced(g, fitted);
+      if (counts && is_open(g)) usual_.push_back(g);
     }
-    return std::nullopt;
-  }
-
-  /// Whether it, or what it describes in more detail, is there in nearly every record.
-  [[nodiscard]] bool is_usual(std::size_t g) const {
-    if (group(g).fitted || aliased_.contains(g)) return false;
-    if (const auto& less = group(g).replaces) return group(*less).usual && !group(*less).fitted;
-    const auto finer = replacement(g);
-    return group(g).usual && !(finer && group(*finer).fitted);
   }
 
   [[nodiscard]] Groups without_usual(Groups groups) const {
-    std::erase_if(groups, [this](std::size_t g) { return is_usual(g); });
+    std::erase_if(groups, [this](std::size_t g) { return contains(usual_, g); });
     return sorted(std::move(groups));
   }
 
   /// Names and unnamed shapes beside all usual groups, which have no name meanwhile.
   void search_beside_usual() {
-    std::erase_if(selected_, [this](std::size_t g) { return is_usual(g); });
-    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      const auto finer = replacement(g);
-      if (is_usual(g) && !(finer && is_usual(*finer))) beside_.push_back(g);
-    }
+    std::erase_if(selected_, [this](std::size_t g) { return contains(usual_, g); });
+    beside_ = usual_;
+    std::erase_if(beside_, [this](std::size_t g) { return is_replaced(g, usual_); });
     unnamed_.clear();
     current_ = fit(selected_, nullptr);
     do {
@@ -447,8 +441,9 @@ class Search {
     current_ = fit(selected_, nullptr);
     while (selected_.size() < options_.most_findings) {
       Groups open = candidates();
-      std::erase_if(open,
-                    [&](std::size_t g) { return !is_usual(g) || unearned_usual_.contains(g); });
+      std::erase_if(open, [&](std::size_t g) {
+        return !contains(usual_, g) || contains(unearned_usual_, g);
+      });
       std::optional<Trial> step = best_step(open);
       if (!step) break;
       selected_.push_back(step->group);
@@ -497,7 +492,8 @@ class Search {
       so_far.push_back(g);
       BlockFit after = fit(so_far, {}, &current_);
       const BlockFit without = fit(selected_without(g), {}, &current_);
-      names.push_back({g, gain_between(before, after), gain_between(without, all), is_usual(g)});
+      names.push_back(
+          {g, gain_between(before, after), gain_between(without, all), contains(usual_, g)});
       before = std::move(after);
     }
     const auto weakest = weakest_unearned(record_, names, options_.least_gain_percent);
@@ -510,7 +506,7 @@ class Search {
     while (const std::optional<std::size_t> g = unearned(base)) {
       tell("taking back " + group(*g).id);
       leave(*g);
-      if (!is_usual(*g)) return true;
+      if (!contains(usual_, *g)) return true;
       current_ = fit(selected_, &current_);
     }
     return false;
@@ -623,9 +619,10 @@ class Search {
   double student_factor_ = 0;
   Groups selected_;
   Groups unnamed_;
+  Groups usual_;
   Groups beside_;  ///< usual groups, while others are sought beside them
   std::set<std::size_t> aliased_;
-  std::set<std::size_t> unearned_usual_;
+  Groups unearned_usual_;
   std::set<Groups> left_;  ///< sets of which a name was taken back, so that the search ends
   BlockFit current_;
 };
