@@ -71,7 +71,8 @@ void judge(const char* kind, std::uint64_t seed, const Diagnosis& d, const Besid
         f.gain_percent > 0 && f.holdout_rmse_after < f.holdout_rmse_before ? 0 : 1;
   }
   count.worse_models += d.extended.holdout_rmse <= d.base.holdout_rmse ? 0 : 1;
-  if (count.logs % 10 != 0 || d.findings.size() < 2) return;  // what stands alone was judged above
+  const bool stands_alone = d.findings.size() < 2;  // judged above
+  if (stands_alone || count.logs % 10 != 0) return;
   for (const Finding& f : d.findings) {
     std::vector<std::string> others;
     for (const Finding& other : d.findings) {

@@ -41,6 +41,8 @@ double fast_covariance(const std::vector<double>& a, const std::vector<double>& 
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
+double square(double x) { return x * x; }
+
 /// Of the usable and finite values; 0 of none.
 double mean_of(const std::vector<double>& x, const std::vector<char>& usable) {
   double sum = 0;
@@ -262,24 +264,23 @@ PowerResiduals::PowerResiduals(const PowerModel& base, ScreenedPowerLog screened
     rows_ += s.rows;
     stages_.push_back(std::move(s));
   }
-  readings_ = reading_noise(base);
+  estimate_reading_noise(base);
   for (std::size_t k = 0; k < stages_.size(); ++k) estimate_noise(base, stages_[k], k);
 }
 
-PowerResiduals::ReadingNoise PowerResiduals::reading_noise(const PowerModel& base) const {
+void PowerResiduals::estimate_reading_noise(const PowerModel& base) {
   const auto of_line = std::find_if(stages_.begin(), stages_.end(),
                                     [](const PowerStage& s) { return s.stage != Stage::motors; });
-  if (of_line == stages_.end()) return {};
+  if (of_line == stages_.end()) return;
   const std::vector<char>& usable = of_line->usable;
   const PowerLog& log = screened_.log;
   const auto fast = [&](const auto& a, const auto& b) { return fast_covariance(a, b, usable); };
-  ReadingNoise noise;
-  noise.mean_voltage = mean_of(log.drone_voltage, usable);
-  noise.mean_current = mean_of(log.supply_current, usable);
-  double of_supply = 0;  // V², how fast the supply's voltage itself changes
+  readings_.mean_voltage = mean_of(log.drone_voltage, usable);
+  readings_.mean_current = mean_of(log.supply_current, usable);
   if (!log.supply_voltage.empty()) {
-    of_supply = std::max(0.0, fast(log.supply_voltage, log.drone_voltage));
-    noise.supply_voltage = std::max(0.0, fast(log.supply_voltage, log.supply_voltage) - of_supply);
+    const double of_supply = std::max(0.0, fast(log.supply_voltage, log.drone_voltage));
+    readings_.supply_voltage =
+        std::max(0.0, fast(log.supply_voltage, log.supply_voltage) - of_supply);
   }
   // A current that changes is seen in the voltage lost on the way, its noise is not.
   std::vector<double> lost(log.drone_voltage);
@@ -293,22 +294,21 @@ PowerResiduals::ReadingNoise PowerResiduals::reading_noise(const PowerModel& bas
       resistance > 0 ? std::clamp(fast(log.supply_current, lost) / resistance, 0.0, all_current)
                      : all_current;
   constexpr double least = 1e-12;  // V² and A², of a log without noise
-  noise.supply_current = std::max(least, all_current - true_current);
-  noise.drone_voltage = std::max(
-      least, fast(lost, lost) - noise.supply_voltage - resistance * resistance * true_current);
-  return noise;
+  readings_.supply_current = std::max(least, all_current - true_current);
+  readings_.drone_voltage = std::max(
+      least, fast(lost, lost) - readings_.supply_voltage - resistance * resistance * true_current);
+  lost_voltage_variance_ = lost_voltage_variance(base.instruments, resistance);
+  input_power_variance_ = input_power_variance(base.instruments);
 }
 
 double PowerResiduals::lost_voltage_variance(const PowerInstruments& instruments,
                                              double resistance) const {
-  const auto square = [](double x) { return x * x; };
   return readings_.supply_voltage / square(instruments.supply_voltage_gain) +
          readings_.drone_voltage +
          readings_.supply_current * square(resistance / instruments.supply_current_gain);
 }
 
 double PowerResiduals::input_power_variance(const PowerInstruments& instruments) const {
-  const auto square = [](double x) { return x * x; };
   const double gain = instruments.supply_current_gain;
   const double current = (readings_.mean_current - instruments.supply_current_offset) / gain;
   const double voltage = readings_.mean_voltage - instruments.drone_voltage_offset;
@@ -319,13 +319,7 @@ double PowerResiduals::input_power_variance(const PowerInstruments& instruments)
 void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k) {
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
-  if (stage.stage == Stage::tether) {
-    const PowerLog corrected = without_errors(log, base.instruments);
-    lost_voltage_variance_ = lost_voltage_variance(
-        base.instruments, mean_of(loop_resistance(base, corrected, memory_), stage.usable));
-  }
   if (stage.stage == Stage::converter) {
-    input_power_variance_ = input_power_variance(base.instruments);
     // Input and output share the true power and have noise of their own, so the covariance of their
     // fast changes holds the former and what exceeds it the latter.
     const std::vector<double> input = product(log.drone_voltage, log.supply_current);

@@ -77,7 +77,7 @@ class PowerResiduals {
   void refine_noise(std::size_t k, const PowerModel& model);
 
  private:
-  /// What the noise of the readings makes of a comparison, up to a factor.
+  /// What the noise of a comparison hangs on.
   struct ReadingNoise {
     double supply_voltage = 0;  ///< V², variance of one reading
     double drone_voltage = 0;   ///< V²
@@ -86,7 +86,7 @@ class PowerResiduals {
     double mean_current = 0;    ///< A
   };
 
-  [[nodiscard]] ReadingNoise reading_noise(const PowerModel& base) const;
+  void estimate_reading_noise(const PowerModel& base);
   /// Variances in V² of the voltage lost, at a mean resistance in Ω, and in W² of the power at the
   /// converter's input, by `readings_`.
   [[nodiscard]] double lost_voltage_variance(const PowerInstruments& instruments,

@@ -230,9 +230,9 @@ class Search {
     return result;
   }
 
-  /// The one with the least held-out error; among those within one standard error of it the
-  /// one with the fewest parameters (Hastie, Tibshirani, Friedman, The Elements of Statistical
-  /// Learning, 2nd ed., section 7.10).
+  /// Of `among`, the one with the least held-out error; among those within one standard error of it
+  /// the one with the fewest parameters, or that another describes in more detail (Hastie,
+  /// Tibshirani, Friedman, The Elements of Statistical Learning, 2nd ed., section 7.10).
   [[nodiscard]] std::optional<Trial> best_step(const Groups& among) const {
     std::vector<Trial> worthy;
     for (const std::size_t g : among) {
@@ -288,7 +288,7 @@ class Search {
       drop_superfluous();
       if (current_.squared_error() < fit_before.squared_error()) continue;
       tell("going back from " + group(step->group).id);
-      left_.insert(without_usual(with));
+      left_.insert(sorted(without_usual(with)));
       selected_ = before;
       current_ = fit_before;
     }
@@ -398,7 +398,7 @@ class Search {
   /// Takes the group back; no step returns to the set that is left, and a usual group that is left
   /// has no name.
   void leave(std::size_t g) {
-    left_.insert(without_usual(selected_));
+    left_.insert(sorted(without_usual(selected_)));
     if (contains(usual_, g)) unearned_usual_.push_back(g);
     selected_ = selected_without(g);
   }
@@ -415,12 +415,12 @@ class Search {
 
   [[nodiscard]] Groups without_usual(Groups groups) const {
     std::erase_if(groups, [this](std::size_t g) { return contains(usual_, g); });
-    return sorted(std::move(groups));
+    return groups;
   }
 
   /// Names and unnamed shapes beside all usual groups, which have no name meanwhile.
   void search_beside_usual() {
-    std::erase_if(selected_, [this](std::size_t g) { return contains(usual_, g); });
+    selected_ = without_usual(std::move(selected_));
     beside_ = usual_;
     std::erase_if(beside_, [this](std::size_t g) { return is_replaced(g, usual_); });
     unnamed_.clear();
@@ -622,7 +622,7 @@ class Search {
   Groups usual_;
   Groups beside_;  ///< usual groups, while others are sought beside them
   std::set<std::size_t> aliased_;
-  Groups unearned_usual_;
+  Groups unearned_usual_;  ///< that were taken back
   std::set<Groups> left_;  ///< sets of which a name was taken back, so that the search ends
   BlockFit current_;
 };

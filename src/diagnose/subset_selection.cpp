@@ -269,7 +269,7 @@ class SubsetSearch {
       }
     }
     for (const Groups& names : kept) {
-      consider(with_shapes(model(names, {}, &named.fit)), name_preference);
+      consider(with_shapes(names.empty() ? base_ : model(names, {}, &named.fit)), name_preference);
     }
   }
 

@@ -95,6 +95,9 @@ void detect(const HiddenEffect& effect, int logs, Detection& count) {
   }
 }
 
+/// Where sanitizers leave but few logs, one of them may miss.
+constexpr int may_miss = test::draws(12) < 12 ? 1 : 0;
+
 void check_detection(std::size_t first, std::size_t last) {
   Detection count;
   const int draws = std::max(2, test::draws(12));  // the least and the greatest size
@@ -105,9 +108,8 @@ void check_detection(std::size_t first, std::size_t last) {
   }
   INFO(count.failures);
   CHECK(3 * count.worth >= logs - 1);
-  // Of a few logs one may miss.
-  CHECK(count.named >= 0.9 * count.worth - 1);
-  CHECK(count.covered >= 0.83 * count.fitted - 1);
+  CHECK(count.named >= 0.9 * count.worth - may_miss);
+  CHECK(count.covered >= 0.83 * count.fitted - may_miss);
 }
 
 /// Pairs of which one can always be described as a change of the other.
@@ -146,7 +148,7 @@ void check_pairs(std::size_t remainder) {
     }
   }
   INFO(failures);
-  CHECK(found >= 0.8 * pairs - 1);
+  CHECK(found >= 0.8 * pairs - may_miss);
 }
 
 /// Of a hundred 5 %; of few logs one may be.
