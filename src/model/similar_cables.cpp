@@ -67,14 +67,18 @@ DragOverWeight drag_over_weight(const HangingSituation& situation, double radius
           (per_width * situation.width[1] - value * weight_slope_at(situation, radius)) / weight};
 }
 
+Cable cable_of(const HangingSituation& situation, double radius) {
+  return {.weight = weight_at(situation, radius),
+          .diameter = situation.width[0] + situation.width[1] * radius,
+          .drag_coefficient = situation.drag_coefficient,
+          .cylinder_diameter = situation.cylinder_diameter(radius),
+          .axial_stiffness = situation.axial_stiffness};
+}
+
 HangingOutcome solve_hanging(const HangingSituation& situation, CableSolver& solver,
                              double radius) {
   const PaidOut& paid_out = situation.paid_out;
-  const Cable cable{.weight = weight_at(situation, radius),
-                    .diameter = situation.width[0] + situation.width[1] * radius,
-                    .drag_coefficient = situation.drag_coefficient,
-                    .cylinder_diameter = situation.cylinder_diameter(radius),
-                    .axial_stiffness = situation.axial_stiffness};
+  const Cable cable = cable_of(situation, radius);
   const Vector3 drone{situation.offset, 0, situation.height};
   // The wind swings a fold above its station aside by half of drag over weight. With a fiftieth of
   // its slack it stays a fold, and no solution is needed; with three times its slack nearly so.

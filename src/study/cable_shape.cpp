@@ -53,11 +53,10 @@ LoadedHover hover_by(TetherModel model, Design design, double area, const Flight
 /// The shape of the design's own cable in a state of its flight.
 ShapeStudy shape_in(const Design& design, double area, const FlightState& state) {
   ShapeStudy out;
-  out.cable = cable_of(design, area);
-  out.cable.axial_stiffness = design.tether.axial_stiffness;
   out.drone = {design.flight.horizontal_offset, 0, state.deployed};
   out.breaking_load = breaking_load(design.tether, area);
   const HangingSituation situation = hanging_situation(design, state);
+  out.cable = cable_of(situation, conductor_radius(area));
   out.air = situation.air;
   out.cable_there_is = situation.cable_there_is;
   CableSolver solver;
@@ -73,20 +72,6 @@ ShapeStudy shape_in(const Design& design, double area, const FlightState& state)
 }
 
 }  // namespace
-
-Cable cable_of(const Design& design, double area) {
-  const double radius = conductor_radius(area);
-  const double wall = insulation_wall(design.tether.insulation, design.supply.voltage);
-  const StraightTether tether(design.tether, wall, {.deployed = 1}, design.flight.air_density,
-                              design.flight.gravity);
-  Cable cable{.weight = tether.mass(radius) * design.flight.gravity,
-              .diameter = tether.width(radius),
-              .drag_coefficient = vibrating_drag_coefficient(design.tether)};
-  if (design.tether.drag_by_reynolds_number) {
-    cable.cylinder_diameter = insulated_width(radius, wall);
-  }
-  return cable;
-}
 
 ShapeStudy study_cable_shape(const Design& original, double area, const ShapeRequest& request) {
   const Design design = asked_of(original, request);

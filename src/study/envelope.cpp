@@ -91,7 +91,8 @@ std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
         .front();
   };
   const auto meets = [&](double value) { return points(value).worst.met(); };
-  /// Moves both ends of a step onto the edge between them.
+  /// Moves both ends of a step onto the edge between them, which what is granted to rounding does
+  /// not move.
   const auto bisect = [&](double& good, double& bad) {
     while (std::abs(bad - good) > 1e-9 * std::max(good, bad)) {
       const double middle = 0.5 * (good + bad);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/random.hpp"
+#include "support/random_designs.hpp"
 #include "tethercalc/model/tether_load.hpp"
 
 using namespace tethercalc;
@@ -44,6 +45,16 @@ Cable cable_at(const HangingSituation& s, double radius) {
 }
 
 }  // namespace
+
+TEST_CASE("the bare cable of a design weighs what its tether weighs") {
+  const Design design = test::published_design();
+  const double radius = std::sqrt(1.0886 / 3.14159265358979) / 1000;
+  const Cable cable =
+      cable_of(hanging_situation(design, flight_state(design, Condition::hover)), radius);
+  // 546.9 g for 30 m, 4·k·(r + s) wide.
+  CHECK(cable.weight * 30 / design.flight.gravity == Approx(0.5469).epsilon(2e-4));
+  CHECK(cable.diameter == Approx(4 * 0.75 * (radius + 0.75e-3)).epsilon(1e-9));
+}
 
 TEST_CASE("the load of a solved tether is that of its cable, to 1e-5 of its tension") {
   int hangs = 0;

@@ -83,15 +83,6 @@ TEST_CASE("a crosswind across the cable's plane is held by the drone as well") {
   CHECK(std::tan(hover.pitch) * weight > std::hypot(hover.across, hover.against));
 }
 
-TEST_CASE("the bare cable of a design weighs what its tether weighs") {
-  const Design design = test::published_design();
-  const Cable cable = cable_of(design, published_area);
-  // 546.9 g for 30 m, 4·k·(r + s) wide.
-  CHECK(cable.weight * 30 / design.flight.gravity == Approx(0.5469).epsilon(2e-4));
-  const double radius = std::sqrt(1.0886 / 3.14159265358979) / 1000;
-  CHECK(cable.diameter == Approx(4 * 0.75 * (radius + 0.75e-3)).epsilon(1e-9));
-}
-
 TEST_CASE("a design's own cable hangs with the load that the design is judged by") {
   Design design = test::published_design();
   CHECK(shapes_in_flight(design, published_area).empty());

@@ -159,6 +159,10 @@ struct HangingSituation {
 /// The same with the wall that the design's supply asks for.
 [[nodiscard]] HangingSituation hanging_situation(const Design& design, const FlightState& state);
 
+/// The bare cable with conductors of `radius` m: the weight of both with insulation and strength
+/// member, and the mean width that `projection_factor` makes of them.
+[[nodiscard]] Cable cable_of(const HangingSituation& situation, double radius);
+
 /// A cable as it hangs in such a situation, or why it does not.
 struct HangingOutcome {
   CableOutcome outcome =

@@ -56,10 +56,6 @@ struct ShapeStudy {
   LoadedHover straight;       ///< with the same tether by the straight model
 };
 
-/// The design's tether with a conductor of `area` m² as a bare cable: the weight of both conductors
-/// with insulation and strength member, and the mean width that `projection_factor` makes of them.
-[[nodiscard]] Cable cable_of(const Design& design, double area);
-
 /// Solves the cable, and the drone that hovers on it in the wind of its own height: what `evaluate`
 /// has of the design with what is asked, whatever its tilt. `area` in m².
 /// @throws std::invalid_argument as `CableSolver::solve`.
