@@ -62,7 +62,10 @@ double airspeed(const Design& design, Condition condition) {
 
 FlightState flight_state(const Design& design, Condition condition) {
   const Tether& tether = design.tether;
-  return {airspeed(design, condition), tether.length, tether.spooled_length, usual_ambient(tether)};
+  FlightState state{airspeed(design, condition), tether.length, tether.spooled_length,
+                    usual_ambient(tether)};
+  if (condition == Condition::forward) state.own_airspeed = design.flight.airspeed;
+  return state;
 }
 
 FlightState flight_state_at(const Design& design, double height, double airspeed,

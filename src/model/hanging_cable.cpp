@@ -68,7 +68,27 @@ std::array<double, 2> corner_heights(const MovingAir& air) {
   return {air.roughness_length - air.station_height, air.roughness_length - air.station_height};
 }
 
-double wind_share_slope(const MovingAir& air, double height) {
+/// Of the wind that is not the same at all heights, the part that there is at `height`.
+double profile_share(const MovingAir& air, double height) {
+  const double over_ground = height + air.station_height;
+  switch (air.profile) {
+    case WindProfile::uniform:
+      return 1;
+    case WindProfile::power_law:
+      return over_ground > linear_below * air.reference_height
+                 ? std::pow(over_ground / air.reference_height, air.exponent)
+                 : std::max(over_ground / (linear_below * air.reference_height), 0.0) *
+                       std::pow(linear_below, air.exponent);
+    case WindProfile::logarithmic:
+      return over_ground > air.roughness_length && !is_still(air)
+                 ? std::log(over_ground / air.roughness_length) /
+                       std::log(air.reference_height / air.roughness_length)
+                 : 0;
+  }
+  return 1;
+}
+
+double profile_share_slope(const MovingAir& air, double height) {
   const double over_ground = height + air.station_height;
   if (over_ground <= 0) return 0;
   switch (air.profile) {
@@ -76,14 +96,18 @@ double wind_share_slope(const MovingAir& air, double height) {
       return 0;
     case WindProfile::power_law:
       return over_ground < linear_below * air.reference_height
-                 ? wind_share(air, height) / over_ground
-                 : air.exponent * wind_share(air, height) / over_ground;
+                 ? profile_share(air, height) / over_ground
+                 : air.exponent * profile_share(air, height) / over_ground;
     case WindProfile::logarithmic:
       return over_ground > air.roughness_length && !is_still(air)
                  ? 1 / (over_ground * std::log(air.reference_height / air.roughness_length))
                  : 0;
   }
   return 0;
+}
+
+double wind_share_slope(const MovingAir& air, double height) {
+  return (1 - air.even_share) * profile_share_slope(air, height);
 }
 
 /// A point of the cable, and how it changes with something.
@@ -212,22 +236,7 @@ Vector3 level_wind(double speed, double from) {
 }
 
 double wind_share(const MovingAir& air, double height) {
-  const double over_ground = height + air.station_height;
-  switch (air.profile) {
-    case WindProfile::uniform:
-      return 1;
-    case WindProfile::power_law:
-      return over_ground > linear_below * air.reference_height
-                 ? std::pow(over_ground / air.reference_height, air.exponent)
-                 : std::max(over_ground / (linear_below * air.reference_height), 0.0) *
-                       std::pow(linear_below, air.exponent);
-    case WindProfile::logarithmic:
-      return over_ground > air.roughness_length && !is_still(air)
-                 ? std::log(over_ground / air.roughness_length) /
-                       std::log(air.reference_height / air.roughness_length)
-                 : 0;
-  }
-  return 1;
+  return air.even_share + (1 - air.even_share) * profile_share(air, height);
 }
 
 CylinderDrag cylinder_drag(double reynolds) {
@@ -1096,7 +1105,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
   check(cable, moving, paid_out, drone);
   MovingAir air = moving;
   if (is_still(air)) {
-    air.wind = {};
+    air.wind = air.even_share * air.wind;
     air.profile = WindProfile::uniform;
   }
   const Problem before = last_ ? problem() : Problem();

@@ -143,6 +143,7 @@ std::optional<HangingSituation> normal_form(const HangingSituation& situation) {
   normal.air.wind.x = air.wind.x > 0 ? 1 : -1;
   normal.air.profile = air.profile;
   if (air.profile == WindProfile::uniform) return normal;
+  normal.air.even_share = air.even_share;
   normal.air.station_height = air.station_height / height;
   normal.air.reference_height = air.reference_height / height;
   if (air.profile == WindProfile::power_law) {

@@ -296,8 +296,15 @@ std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situatio
   return load;
 }
 
-/// The air as the cable meets it, x from the station to the drone. The drone's own motion counts as
-/// wind, which loads the cable more than following the drone would.
+/// Of the airspeed, what is the drone's own and no profile of the wind shapes. With a wind from
+/// behind it may be more than all; where both nearly cancel the cable below meets more still.
+double own_share(const FlightState& state) {
+  constexpr double most = 2;
+  return state.airspeed == 0 ? 0 : std::clamp(state.own_airspeed / state.airspeed, 0.0, most);
+}
+
+/// The air as the cable meets it, x from the station to the drone. All of the cable meets the
+/// drone's own airspeed, which loads it more than following the drone would.
 MovingAir air_about(const FlightState& state, const Flight& flight) {
   MovingAir air;
   air.density = flight.air_density;
@@ -307,6 +314,7 @@ MovingAir air_about(const FlightState& state, const Flight& flight) {
   air.reference_height = flight.station_height + state.deployed;
   air.exponent = flight.wind_exponent;
   air.roughness_length = flight.roughness_length;
+  if (air.profile != WindProfile::uniform) air.even_share = own_share(state);
   return air;
 }
 

@@ -189,6 +189,8 @@ TEST_CASE("masses on springs come to rest with the solver's forces") {
     d.paid_out = of_length(length);
     d.cable.axial_stiffness = 300 * d.cable.weight * length;
     d.air.profile = random.chance(0.5) ? WindProfile::power_law : WindProfile::logarithmic;
+    const MovingAir profiled = d.air;
+    if (random.chance(0.3)) d.air.even_share = random.uniform(0, 1.5);
     CableSolver solver;
     REQUIRE(solver.solve(d.cable, d.air, d.paid_out, d.drone) == CableOutcome::hangs);
     const auto settled = test::settled_force_on_end(
@@ -198,8 +200,9 @@ TEST_CASE("masses on springs come to rest with the solver's forces") {
          .drag_width = 0.5 * d.air.density * d.cable.drag_coefficient * d.cable.diameter,
          .reynolds = d.cable.cylinder_diameter.value_or(0) * d.air.density / 1.81e-5,
          .end = {d.drone.x, d.drone.y, d.drone.z},
-         .wind = [&d](double height) -> std::array<double, 3> {
-           const double share = wind_share(d.air, height);
+         .wind = [&](double height) -> std::array<double, 3> {
+           const double even = d.air.even_share;
+           const double share = even + (1 - even) * wind_share(profiled, height);
            return {share * d.air.wind.x, share * d.air.wind.y, 0.0};
          }});
     const HangingCable found = solver.result();

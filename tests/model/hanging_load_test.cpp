@@ -6,6 +6,7 @@
 
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
+#include "tethercalc/model/operating_point.hpp"
 #include "tethercalc/model/tether_load.hpp"
 
 using namespace tethercalc;
@@ -45,6 +46,31 @@ Cable cable_at(const HangingSituation& s, double radius) {
 }
 
 }  // namespace
+
+TEST_CASE("the profile of the wind shapes the wind, not what the drone flies through it") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.03;
+  const double area = 1.2e-6;
+  const auto pull = [&] { return evaluate(design, area, Condition::forward).tether_tension; };
+  const double in_still_air = pull();
+  design.flight.wind_profile = WindProfile::logarithmic;
+  design.flight.roughness_length = 0.5;
+  CHECK(pull() == Approx(in_still_air).epsilon(1e-7));
+  design.flight.headwind = 3;
+  const double by_profile = pull();
+  design.flight.wind_profile = WindProfile::uniform;
+  const double in_even_wind = pull();
+  // Nearer to the ground there is less of the wind, and all of the airspeed.
+  CHECK(by_profile < in_even_wind);
+  CHECK(by_profile > in_still_air);
+  // With a wind from behind there is less of that.
+  design.flight.headwind = -3;
+  const double behind_evenly = pull();
+  design.flight.wind_profile = WindProfile::logarithmic;
+  CHECK(pull() > behind_evenly);
+  CHECK(pull() < in_still_air);
+}
 
 TEST_CASE("the bare cable of a design weighs what its tether weighs") {
   const Design design = test::published_design();

@@ -126,6 +126,8 @@ struct FlightState {
   /// stands aside of its station, so that it blows from there over the station. For a solved tether
   /// of one conductor (`ConductorsAsked::one`) in an operating point.
   double wind_from = 0;
+  /// m/s of the airspeed that the drone flies itself: the profile of the wind shapes the rest only.
+  double own_airspeed = 0;
 };
 
 /// The state in which a design is judged in `condition`: the whole `tether.length` in the air,

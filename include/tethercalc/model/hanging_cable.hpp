@@ -67,6 +67,9 @@ struct MovingAir {
   double reference_height = 10;                ///< m over ground
   double exponent = 1.0 / 7;                   ///< of the power law; 1/7 over open land (Hellmann)
   double roughness_length = 0.03;              ///< m; 0.03 over grass (WMO-No. 8, annex 1.D)
+  /// Of the wind at the reference height, the share that all heights have, whatever the profile:
+  /// air that the cable meets because it is moved.
+  double even_share = 0;
 
   /// m/s, velocity of the drone over ground. The cable follows it in proportion to the way along
   /// the chord.
