@@ -110,7 +110,9 @@ class Search {
     Freed freed{{}, shapes};
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
       const bool wanted = group(g).fitted || contains(selected, g) || contains(beside_, g);
-      if (wanted && !is_replaced(g, selected)) freed.groups.push_back(g);
+      if (wanted && !is_replaced(g, selected) && !is_replaced(g, beside_)) {
+        freed.groups.push_back(g);
+      }
     }
     return fit_blocks(record_, freed, near, use);
   }
@@ -407,8 +409,8 @@ class Search {
   void find_usual(const Groups& fitted) {
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
       const auto& coarser = group(g).replaces;
-      const bool counts = coarser ? group(*coarser).usual && !group(*coarser).fitted
-                                  : group(g).usual && !is_replaced(g, fitted);
+      const bool counts =
+          coarser ? group(*coarser).usual : group(g).usual && !is_replaced(g, fitted);
       if (counts && is_open(g)) usual_.push_back(g);
     }
   }
