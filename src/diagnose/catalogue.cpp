@@ -77,22 +77,43 @@ std::vector<double> lagging(const std::vector<double>& time, double constant,
   return reading;
 }
 
-/// The logged velocity follows the true one with a lag of first order.
+/// The acceleration as a velocity over ground shows it that lags by `constant`, whichever way the
+/// drone points.
+void lag_acceleration(FlightPrediction& p, double constant) {
+  const FlightRecord& record = p.record;
+  std::vector<double> along(record.size());
+  std::vector<double> right(record.size());
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double c = record.along_heading[i];
+    const double s = record.right_of_heading[i];
+    along[i] = p.acceleration[i] * c - p.side_acceleration[i] * s;
+    right[i] = p.acceleration[i] * s + p.side_acceleration[i] * c;
+  }
+  along = lagging(record.time, constant, std::move(along));
+  right = lagging(record.time, constant, std::move(right));
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double c = record.along_heading[i];
+    const double s = record.right_of_heading[i];
+    p.acceleration[i] = along[i] * c + right[i] * s;
+    p.side_acceleration[i] = right[i] * c - along[i] * s;
+  }
+}
+
+/// The logged velocity over ground follows the true one with a lag of first order.
 void lag(FlightPrediction& p, double constant) {
-  const std::vector<double>& time = p.record.time;
+  const std::vector<double> acceleration = p.acceleration;
+  const std::vector<double> side_acceleration = p.side_acceleration;
+  lag_acceleration(p, constant);
   // The true speed is ahead by what the logged one gains in a time constant.
-  const std::vector<double> ahead = lagging(time, constant, p.acceleration);
-  const std::vector<double> aside = lagging(time, constant, p.side_acceleration);
   const double sideways = p.record.both_axes ? constant : 0;
   for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
     const DragForces logged = law_drag(p, i, p.airspeed[i], p.aside[i]);
-    const DragForces truly =
-        law_drag(p, i, p.airspeed[i] + constant * ahead[i], p.aside[i] + sideways * aside[i]);
-    p.acceleration[i] -= (truly.forward - logged.forward) / p.record.mass;
-    p.side_acceleration[i] -= (truly.right - logged.right) / p.record.mass;
+    const DragForces truly = law_drag(p, i, p.airspeed[i] + constant * p.acceleration[i],
+                                      p.aside[i] + sideways * p.side_acceleration[i]);
+    p.acceleration[i] = acceleration[i] - (truly.forward - logged.forward) / p.record.mass;
+    p.side_acceleration[i] = side_acceleration[i] - (truly.right - logged.right) / p.record.mass;
   }
-  p.acceleration = lagging(time, constant, std::move(p.acceleration));
-  p.side_acceleration = lagging(time, constant, std::move(p.side_acceleration));
+  lag_acceleration(p, constant);
 }
 
 /// A size of a wind.
@@ -210,19 +231,23 @@ std::vector<Effect> flight_effects() {
 
       {.id = "wind_drift",
        .title = "Wind that changes steadily during the flight",
-       .mechanism = "The wind along the forward axis rises or falls from the beginning of the "
-                    "flight to its end.",
-       .parameters = {wind_part("wind_drift_m_s")},
+       .mechanism = "The wind over ground rises or falls from the beginning of the flight to its "
+                    "end.",
+       .parameters = {wind_part("wind_drift_m_s"),
+                      wind_part("wind_drift_right_m_s", Shown::turning_or_to_the_side)},
+       .sizes = 2,
        .to_separate = "repeat the first passes at the end of the flight",
-       .change = "w → w + d·(t − t_middle)/duration: d is the change over the whole flight",
+       .change = "w → w + (d_a cos(ψ − ψ̄) + d_r sin(ψ − ψ̄))·(t − t_middle)/duration: d is the "
+                 "change over the whole flight, ψ̄ the mean heading",
        .channel = "time",
        .own_in_each_flight = true,
        .flight_phase = FlightPhase::air,
        .on_flight =
            [](FlightPrediction& p, Values x) {
-             const double rate = p.record.duration > 0 ? x[0] / p.record.duration : 0;
+             if (!(p.record.duration > 0)) return;
              for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-               p.headwind[i] += rate * (p.record.time[i] - p.record.middle_time);
+               const double part = (p.record.time[i] - p.record.middle_time) / p.record.duration;
+               blow(p, i, x[0] * part, x[1] * part);
              }
            }},
 

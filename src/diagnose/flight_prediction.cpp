@@ -185,13 +185,16 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   act(p, effects, FlightPhase::force);
 
   for (std::size_t i = 0; i < size; ++i) {
-    const double turning = base.turn_gain * record.yaw_rate[i];
-    p.acceleration[i] =
-        p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass + turning * record.right_speed[i];
-    p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass -
-                             turning * record.forward_speed[i];
+    p.acceleration[i] = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass;
+    p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass;
   }
   act(p, effects, FlightPhase::reading);
+  // However the velocity was read, the frame turns what was read.
+  for (std::size_t i = 0; i < size; ++i) {
+    const double turning = base.turn_gain * record.yaw_rate[i];
+    p.acceleration[i] += turning * record.right_speed[i];
+    p.side_acceleration[i] -= turning * record.forward_speed[i];
+  }
 }
 
 std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase& base,

@@ -104,21 +104,37 @@ class Search {
                        [&](std::size_t by) { return group(by).replaces == g; });
   }
 
+  /// What is always free and `selected`, without what `replacing` describes in more detail.
+  [[nodiscard]] Groups free_with(const Groups& selected, const Groups& replacing) const {
+    Groups free;
+    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
+      const bool wanted = group(g).fitted || contains(selected, g) || contains(beside_, g);
+      if (wanted && !is_replaced(g, replacing) && !is_replaced(g, beside_)) free.push_back(g);
+    }
+    return free;
+  }
+
   /// The fit of what is always free, `selected`, and `shapes` without a name.
   [[nodiscard]] BlockFit fit(const Groups& selected, const Groups& shapes, const BlockFit* near,
                              FitUse use = FitUse::search) const {
-    Freed freed{{}, shapes};
-    for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
-      const bool wanted = group(g).fitted || contains(selected, g) || contains(beside_, g);
-      if (wanted && !is_replaced(g, selected) && !is_replaced(g, beside_)) {
-        freed.groups.push_back(g);
-      }
-    }
-    return fit_blocks(record_, freed, near, use);
+    return fit_blocks(record_, {free_with(selected, selected), shapes}, near, use);
   }
   /// The same with the shapes that were found.
   [[nodiscard]] BlockFit fit(const Groups& selected, const BlockFit* near) const {
     return fit(selected, unnamed_, near);
+  }
+
+  /// The fit of `some` of the names. What any name replaces of the base is not there beside the
+  /// others either, which it may resemble: of a wind along the nose a pitch offset.
+  [[nodiscard]] BlockFit fit_some(const Groups& some, const BlockFit* near,
+                                  FitUse use = FitUse::search) const {
+    return fit_blocks(record_, {free_with(some, selected_), {}}, near, use);
+  }
+  /// Whether one of the names replaces what is always free.
+  [[nodiscard]] bool base_changes() const {
+    return std::ranges::any_of(selected_, [this](std::size_t g) {
+      return group(g).replaces && group(*group(g).replaces).fitted;
+    });
   }
 
   /// Of the hypothesis that the group is neutral. A group that replaces another has no neutral
@@ -466,7 +482,7 @@ class Search {
         if (contains(order, g)) continue;
         Groups more = order;
         more.push_back(g);
-        BlockFit after = fit(more, {}, &current_);
+        BlockFit after = fit_some(more, &current_);
         if (next && after.squared_error() >= best.squared_error()) continue;
         next = g;
         best = std::move(after);
@@ -492,10 +508,10 @@ class Search {
     std::vector<NamedGains> names;
     for (const std::size_t g : selected_) {
       so_far.push_back(g);
-      BlockFit after = fit(so_far, {}, &current_);
+      BlockFit after = fit_some(so_far, &current_);
       const BlockFit without = fit(selected_without(g), {}, &current_);
-      names.push_back(
-          {g, gain_between(before, after), gain_between(without, all), contains(usual_, g)});
+      names.push_back({g, gain_between(before, after), gain_between(without, all),
+                       base_changes() || contains(usual_, g)});
       before = std::move(after);
     }
     const auto weakest = weakest_unearned(record_, names, options_.least_gain_percent);
@@ -553,7 +569,7 @@ class Search {
     for (const std::size_t g : selected_) {
       // Gains are those of the named part alone, one finding after the other.
       so_far.push_back(g);
-      BlockFit after = fit(so_far, {}, &current_, FitUse::report);
+      BlockFit after = fit_some(so_far, &current_, FitUse::report);
       SelectedGroup& entry = result.selected.emplace_back(freed_between(before, after, g));
       const BlockFit without = fit(selected_without(g), &current_);
       entry.p_value = p_value(g, without, current_);

@@ -137,6 +137,7 @@ TEST_CASE("what happens ahead happens to the side alike") {
   std::swap(aside.forward_speed, aside.right_speed);
   std::swap(aside.tan_tilt, aside.sideward_thrust);
   aside.tilt.assign(aside.size(), 0.0);
+  for (double& x : aside.right_of_heading) x = -x;  // as in a mirror
   FlightBase alike = base;
   alike.side_area = alike.front_area;
   alike.turn_gain = 0;

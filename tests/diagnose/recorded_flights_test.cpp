@@ -160,6 +160,8 @@ std::optional<AnsweredFlight> answered_flight(int number) {
   AnsweredFlight flight{name, read_log(*file), nlohmann::json::parse(in), "", {}};
   flight.hidden = flight.answer["effect"];
   flight.true_of_it = flight.answer["present"];
+  // Of another cause, with the same effect in this flight.
+  for (const std::string near : flight.answer["near"]) flight.true_of_it.push_back(near);
   flight.true_of_it.push_back(flight.hidden);
   return flight;
 }

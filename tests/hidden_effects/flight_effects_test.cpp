@@ -164,11 +164,48 @@ TEST_CASE("the moment of a step in the wind is told") {
   CHECK(told >= flights - (flights > 3 ? 4 : 2));
 }
 
+TEST_CASE(
+    "a pitch offset in a turning flight is none of the tether, whatever wind is in the base") {
+  const int flights = test::draws(8);
+  int right = 0;
+  for (int draw = 0; draw < flights; ++draw) {
+    HiddenFlight hidden = drawn_flight(1700 + static_cast<std::uint64_t>(draw));
+    hidden.yaw_turns = true;
+    hidden.wind = 0;
+    hidden.wind_north = 1;
+    hidden.wind_east = -0.6;
+    hidden.pitch_trim = 1.5;
+    const Diagnosis d = diagnosed(hidden);
+    std::set<std::string> names;
+    for (const Finding& f : d.findings) names.insert(f.effect);
+    right += names == std::set<std::string>{"pitch_trim", "turning_wind"} ? 1 : 0;
+  }
+  // Seen: 8 of 8.
+  CHECK(right >= flights - (flights > 3 ? 2 : 1));
+}
+
+TEST_CASE("a velocity lags over ground, and a wind drifts there, whichever way the drone points") {
+  const int flights = test::draws(4);
+  int right = 0;
+  for (int draw = 0; draw < flights; ++draw) {
+    HiddenFlight hidden = drawn_flight(1750 + static_cast<std::uint64_t>(draw));
+    hidden.yaw_turns = true;
+    hidden.wind = 0;
+    HiddenFlight drifting = hidden;
+    hidden.velocity_lag = 0.12;
+    right += names_first(diagnosed(hidden), "velocity_lag") ? 1 : 0;
+    drifting.wind_drift = 3;
+    right += names_first(diagnosed(drifting), "wind_drift") ? 1 : 0;
+  }
+  CHECK(right >= 2 * flights - 1);
+}
+
 TEST_CASE("a pull over ground keeps its size and its side while the drone turns") {
   int right = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     HiddenFlight hidden = drawn_flight(1650 + seed);
     hidden.yaw_turns = true;
+    hidden.wind = 0;  // none turns with a drone
     hidden.tether_pull = 1.2;
     const FlightLog log = truth::fly(hidden);
     const Diagnosis d = diagnosed(hidden);

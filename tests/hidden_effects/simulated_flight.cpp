@@ -232,8 +232,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
   double north = 0;  // m from the start
   double east = 0;
   double drifting = 0;  // m/s to the right, where the roll moves the drone
-  double lagging_forward = 0;
-  double lagging_right = 0;
+  double lagging_north = 0;
+  double lagging_east = 0;
   double airspeed_sum = 0;
   double lift_sum = 0;
   double next_turn = 40;
@@ -277,14 +277,14 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
     const double ahead = std::cos(yaw - first_heading);
     const double wave =
         std::cos(2 * std::numbers::pi * (time - h.duration / 2) / h.wind_wave_period);
-    const double along = h.wind + h.wind_drift * (time / h.duration - 0.5) +
-                         h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw) +
-                         (time > 0.6 * h.duration ? h.wind_step : 0) * ahead +
-                         h.wind_wave * wave * ahead;
+    const double drift = h.wind_drift * (time / h.duration - 0.5);
+    const double along =
+        h.wind + drift * ahead + h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw) +
+        (time > 0.6 * h.duration ? h.wind_step : 0) * ahead + h.wind_wave * wave * ahead;
     const double to_the_left = std::sin(yaw - first_heading);
     const double across = h.crosswind + h.wind_east * std::cos(yaw) - h.wind_north * std::sin(yaw) -
                           (time > 0.6 * h.duration ? h.wind_step : 0) * to_the_left -
-                          h.wind_wave * wave * to_the_left;
+                          drift * to_the_left - h.wind_wave * wave * to_the_left;
     const double mass = h.mass * (late ? 1 - h.mass_drop / 100 : 1);
     const double pull_north = h.tether_pull * std::cos(first_heading) +
                               h.growing_pull * (h.station * std::cos(first_heading) - north);
@@ -315,8 +315,11 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
     const double late_tilt = logged_tilt.next(tilt);
     const double late_roll = both_axes ? logged_roll.next(roll) : roll;
     const double follow = h.velocity_lag > 0 ? 1 - std::exp(-step / h.velocity_lag) : 1;
-    lagging_forward += follow * (speed - lagging_forward);
-    lagging_right += follow * (right - lagging_right);
+    // An estimator smooths what it knows of the way over ground.
+    lagging_north += follow * (speed * std::cos(yaw) - right * std::sin(yaw) - lagging_north);
+    lagging_east += follow * (speed * std::sin(yaw) + right * std::cos(yaw) - lagging_east);
+    const double lagging_forward = lagging_north * std::cos(yaw) + lagging_east * std::sin(yaw);
+    const double lagging_right = lagging_east * std::cos(yaw) - lagging_north * std::sin(yaw);
     if (k % static_cast<std::size_t>(h.steps_per_sample) == 0) {
       const auto hundredth = [](double angle) {
         return std::round(angle / degree * 100) / 100 * degree;
