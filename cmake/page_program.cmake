@@ -18,6 +18,12 @@ file(GLOB word_sources CONFIGURE_DEPENDS "${source}/study/*.cpp" "${source}/iden
 # The search for a whole design is NLopt's, which is a library of the host.
 list(FILTER physics_sources EXCLUDE REGEX "/constrained_minimum\\.cpp$")
 list(FILTER word_sources EXCLUDE REGEX "/(study/design_search|study/design|page/browser_program)\\.cpp$")
+# No slider waits for these.
+set(patient_physics "/(model/catenary|solve/remedies|solve/sensitivity|solve/spread|solve/sweep_space|solve/unit_points)\\.cpp$")
+set(patient_sources ${physics_sources})
+list(FILTER patient_sources INCLUDE REGEX "${patient_physics}")
+list(FILTER physics_sources EXCLUDE REGEX "${patient_physics}")
+list(APPEND word_sources ${patient_sources})
 file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
 list(FILTER data_files EXCLUDE REGEX "/(schema|rules)/")
 # Of codes the page and its report explain limits, warnings and effects.

@@ -225,11 +225,10 @@ int run_shape(const ShapeOptions& options, const Output& output) {
       [&] { return cable_shape_json(asked.file, asked.area, answer); },
       [&] { return cable_shape_csv(answer); });
   std::vector<std::string> codes;
-  if (answer.outcome != CableOutcome::hangs) {
-    codes.emplace_back(cable_outcome_names()[static_cast<std::size_t>(answer.outcome)]);
-  }
+  const bool hangs = answer.outcome == CableOutcome::hangs && answer.hangs_free;
+  if (!hangs) codes.emplace_back(cable_outcome_name(answer));
   point_to_explanations(std::move(codes), spec_warnings(asked.file), output);
-  return answer.outcome == CableOutcome::hangs && answer.hangs_free ? done : answer_is_no;
+  return hangs ? done : answer_is_no;
 }
 
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,

@@ -22,7 +22,7 @@ constexpr std::array<FormulaChannel, 13> flight_formula_channels{{
     {"forward_speed", "m/s", "over ground"},
     {"right_speed", "m/s", "over ground, to the right"},
     {"down_speed", "m/s", "downward"},
-    {"height", "m", "above the first sample"},
+    {"height", "m", "above the first sample that is judged"},
     {"airspeed", "m/s", "ahead: forward speed less the headwind found so far"},
     {"airspeed_right", "m/s", "to the right: speed over ground less a measured wind"},
     {"mass", "kg", "of the drone"},

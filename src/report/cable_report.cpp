@@ -87,9 +87,14 @@ std::string ground_sentence(const ShapeStudy& study) {
 }  // namespace
 
 std::span<const std::string_view> cable_outcome_names() {
-  static constexpr std::array<std::string_view, 4> names{"hangs", "too_short",
-                                                         "winch_tension_too_low", "not_found"};
+  static constexpr std::array<std::string_view, 5> names{
+      "hangs", "too_short", "winch_tension_too_low", "not_found", "touches_ground"};
   return names;
+}
+
+std::string_view cable_outcome_name(const ShapeStudy& study) {
+  return study.outcome == CableOutcome::hangs && !study.hangs_free ? cable_outcome_names().back()
+                                                                   : outcome_name(study.outcome);
 }
 
 std::string no_shape_sentence(const ShapeStudy& study, const ShapeRequest& request) {
@@ -192,7 +197,7 @@ std::vector<std::string> flown_cable_sentences(const std::vector<FlownShape>& sh
 
 ordered_json cable_shape_json(const DesignFile& file, double area, const ShapeStudy& study) {
   ordered_json out{{"name", file.name},
-                   {"outcome", outcome_name(study.outcome)},
+                   {"outcome", cable_outcome_name(study)},
                    {"cross_section_mm2", area / unit::square_millimetre},
                    {"cable",
                     {{"w_N_per_m", study.cable.weight},

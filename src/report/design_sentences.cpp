@@ -446,7 +446,9 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
         rated ? fmt::format("rated for {} °C", significant(*rated, 3))
               : std::string("of no known rating")));
   }
-  if (tether.model == TetherModel::solved) {
+  const bool hangs =
+      std::isfinite(points.hover.tether_length) && std::isfinite(points.forward.tether_length);
+  if (tether.model == TetherModel::solved && hangs) {
     sentences.push_back(fmt::format(
         "It hangs as weight and wind have it, {}: {} m are paid out in hover and {} m in forward "
         "flight, and at the drone its tension is {} N and {} N.",
@@ -633,7 +635,15 @@ std::vector<Warning> all_warnings(const DesignFile& file, std::span<const AreaPo
 }
 
 std::vector<Warning> evaluation_warnings(const DesignFile& file, const EvaluationStudy& study) {
-  return all_warnings(file, study.table, study.ground, study.side);
+  std::vector<Warning> warnings = all_warnings(file, study.table, study.ground, study.side);
+  for (const AreaPoints& points : study.table) {
+    if (!points.no_way) continue;
+    warnings.push_back(
+        {WarningKind::tether_does_not_hang,
+         fmt::format("with {} mm²: {}", significant(points.area / unit::square_millimetre, 4),
+                     no_way_words(file.design, points.no_way, points.worst.condition))});
+  }
+  return warnings;
 }
 
 std::vector<Warning> envelope_warnings(const DesignFile& file, const EnvelopeStudy& study) {

@@ -326,4 +326,20 @@ ordered_json summary_json(const SweepSummary& summary, const SweepSpace& space) 
           {"sensitivity", indices}};
 }
 
+std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space) {
+  constexpr std::uint64_t asked = 32;
+  std::vector<Warning> warnings = spec_warnings(base);
+  if (density_warning(base.design) || space.rows() == 0) return warnings;
+  SweepCursor cursor(space, base.design);
+  const std::uint64_t last = space.rows() - 1;
+  for (std::uint64_t k = 0; k < asked; ++k) {
+    cursor.move_to(last / (asked - 1) * k + last % (asked - 1) * k / (asked - 1));
+    if (auto density = density_warning(cursor.design())) {
+      warnings.push_back(std::move(*density));
+      break;
+    }
+  }
+  return warnings;
+}
+
 }  // namespace tethercalc

@@ -108,8 +108,25 @@ TEST_CASE("what lies on the ground is told where its power is, too") {
   const Ran shape = run_tethercalc({"shape", published, "--area-mm2", "1.8", "--offset", "20",
                                     "--wind", "0", "--slack", "100", "--format", "json"});
   CHECK(shape.exit_code == 1);
-  CHECK(nlohmann::json::parse(shape.out).at("z_low_m").get<double>() ==
-        Approx(-17.88).margin(0.005));
+  const auto told = nlohmann::json::parse(shape.out);
+  CHECK(told.at("outcome") == "touches_ground");
+  CHECK(told.at("z_low_m").get<double>() == Approx(-17.88).margin(0.005));
+}
+
+TEST_CASE("why a tether does not hang is told to programs as to people") {
+  const std::vector<std::string> weak{"evaluate",   published,
+                                      "--area-mm2", "1.2",
+                                      "--set",      "tether.model=solved",
+                                      "--set",      "tether.winch_pull_N=0.05",
+                                      "--set",      "flight.horizontal_offset_m=20"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), weak.begin(), weak.end());
+    return run_tethercalc(more).out;
+  };
+  const auto told = nlohmann::json::parse(with({"--format", "json"}));
+  CHECK(told.at("warning_codes") == nlohmann::json{"tether_does_not_hang"});
+  CHECK_THAT(told.at("warnings").at(0).get<std::string>(), Contains("0.0500 N cannot hold"));
+  CHECK_THAT(with({}), Contains("cannot hold the tether up") && !Contains("It hangs as weight"));
 }
 
 TEST_CASE("bad numbers of a shape are told all at once") {
@@ -123,6 +140,10 @@ TEST_CASE("bad numbers of a shape are told all at once") {
   CHECK(shaped({"--slack", "1", "--length", "31"}).exit_code == 2);
   CHECK(shaped({"--profile", "logarithmic", "--roughness", "0"}).exit_code == 2);
   CHECK(run_tethercalc({"shape"}).exit_code == 2);
+  const Ran no_profile = shaped({"--roughness", "0.1", "--exponent", "0.2"});
+  CHECK(no_profile.exit_code == 2);
+  CHECK_THAT(no_profile.err, Catch::Contains("says nothing without --profile logarithmic") &&
+                                 Catch::Contains("says nothing without --profile power-law"));
   const Ran no_area = run_tethercalc({"shape", published});
   CHECK(no_area.exit_code == 2);
   CHECK_THAT(no_area.err, Catch::Contains("--area-mm2"));

@@ -13,8 +13,12 @@
 
 namespace tethercalc {
 
-/// "hangs", "too_short", …: how answers name a `CableOutcome`, in its order.
+/// "hangs", "too_short", …: how answers name a `CableOutcome`, in its order, and after those
+/// "touches_ground".
 [[nodiscard]] std::span<const std::string_view> cable_outcome_names();
+
+/// The one of a cable, "touches_ground" where its shape is below the ground.
+[[nodiscard]] std::string_view cable_outcome_name(const ShapeStudy& study);
 
 /// Why a cable has no shape.
 [[nodiscard]] std::string no_shape_sentence(const ShapeStudy& study, const ShapeRequest& request);

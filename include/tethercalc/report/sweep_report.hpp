@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tethercalc/io/design_reader.hpp"
 #include "tethercalc/report/text_table.hpp"
 #include "tethercalc/study/sweep.hpp"
 
@@ -41,6 +42,10 @@ class SweepRows {
   std::string header_;
   std::vector<std::string> openings_;  ///< what stands in front of each column's value
 };
+
+/// What holds for a whole sweep about `base`: its `spec_warnings`, and the first `density_warning` of
+/// some rows that are spread over all of them.
+[[nodiscard]] std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space);
 
 /// One column of records.
 struct RecordColumn {
