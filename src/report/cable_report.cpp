@@ -132,9 +132,11 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
     return out + "\n" + style.bad(wrapped(no_shape_sentence(study, request)));
   }
   const double distance = std::hypot(request.height, request.offset);
+  const double beyond = 100 * (study.loads.length / distance - 1);
+  constexpr double rounding = 1e-8;  // %
   out += fmt::format("{} m paid out, {} % more than the distance\n\n",
                      significant(study.loads.length, 4),
-                     significant(100 * (study.loads.length / distance - 1), 3));
+                     significant(beyond > rounding ? beyond : 0, 3));
   out += wrapped(fmt::format(
       "Tension: {} N at the station, {} N at the drone, least {} N. {}",
       fixed(study.loads.tension_at_station, 2), fixed(study.loads.tension_at_drone, 2),

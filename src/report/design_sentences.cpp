@@ -161,13 +161,23 @@ std::string battery_sentence(const Design& design, const OperatingPoint& point) 
   const double power = landing_power(battery, point.battery_mass, design.tether.length);
   const bool by_energy = seconds / battery.usable_share >= 1 / battery.discharge_rate;
   constexpr double joules_per_Wh = 3600;
+  // Sized for the cable's weight and its drag hanging straight.
+  const double auxiliary = design.drone.auxiliary_power;
+  const double hover =
+      auxiliary + converter_output_power(design.supply.converter, point.drone_power - auxiliary);
+  constexpr double clearly_more = 1.01;
+  const std::string falls_short =
+      hover > clearly_more * power
+          ? fmt::format(" Where the cable pulls as in hover the drone takes {} W.",
+                        significant(hover, 3))
+          : "";
   return fmt::format(
       "A reserve battery of {} g ({} Wh) lands it from {} m within {} s at {} W; {} makes it so "
-      "large.",
+      "large.{}",
       significant(point.battery_mass / unit::gram, 3),
       significant(point.battery_mass * battery.specific_energy / joules_per_Wh, 3),
       significant(design.tether.length, 3), significant(seconds, 3), significant(power, 3),
-      by_energy ? "its energy" : "its discharge rate");
+      by_energy ? "its energy" : "its discharge rate", falls_short);
 }
 
 std::string converter_sentence(const Design& design, const AreaPoints& points) {

@@ -171,6 +171,13 @@ TEST_CASE("a reserve battery and a converter's mass table are flown and told") {
   CHECK_THAT(text.out, Contains("The converter for 800.0 W weighs 170 g"));
   CHECK_THAT(text.out, Contains("its discharge rate makes it so large") ||
                            Contains("its discharge\nrate makes it so large"));
+  // Hovering takes what landing does, unless a winch pulls.
+  CHECK_THAT(text.out, !Contains("pulls as in hover"));
+  std::vector<std::string> pulled = arguments;
+  pulled.insert(pulled.end(), {"--set", "tether.winch_pull_N=1"});
+  const std::string told = run_tethercalc(pulled).out;
+  CHECK_THAT(told,
+             Contains("as in hover the drone takes") || Contains("as in\nhover the drone takes"));
   arguments.insert(arguments.end(), {"--format", "json"});
   const json answer = json::parse(run_tethercalc(arguments).out);
   const json& cable = answer["cable"];
