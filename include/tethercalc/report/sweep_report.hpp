@@ -43,8 +43,8 @@ class SweepRows {
   std::vector<std::string> openings_;  ///< what stands in front of each column's value
 };
 
-/// What holds for a whole sweep about `base`: its `spec_warnings`, and the first `density_warning` of
-/// some rows that are spread over all of them.
+/// What holds for a whole sweep about `base`: its `spec_warnings`, and the first `density_warning`
+/// of some rows that are spread over all of them.
 [[nodiscard]] std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space);
 
 /// One column of records.
