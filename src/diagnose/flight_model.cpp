@@ -225,6 +225,8 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
       if (added && !own) continue;
       add(effect, design, fitted, own ? which(k) : std::nullopt);
       added = true;
+      // Beside a wind along the nose it is looked for only where the nose turns.
+      if (!effect.replaces.empty()) problem.groups.back().usual = turns(flights[k].observations);
       hold_hidden(effect, flights[k]);
     }
   }
