@@ -84,18 +84,16 @@ void lag_acceleration(FlightPrediction& p, double constant) {
   std::vector<double> along(record.size());
   std::vector<double> right(record.size());
   for (std::size_t i = 0; i < record.size(); ++i) {
-    const double c = record.along_heading[i];
-    const double s = record.right_of_heading[i];
-    along[i] = p.acceleration[i] * c - p.side_acceleration[i] * s;
-    right[i] = p.acceleration[i] * s + p.side_acceleration[i] * c;
+    const OverGround true_one = over_ground(record, i, {p.acceleration[i], p.side_acceleration[i]});
+    along[i] = true_one.along;
+    right[i] = true_one.right;
   }
   along = lagging(record.time, constant, std::move(along));
   right = lagging(record.time, constant, std::move(right));
   for (std::size_t i = 0; i < record.size(); ++i) {
-    const double c = record.along_heading[i];
-    const double s = record.right_of_heading[i];
-    p.acceleration[i] = along[i] * c + right[i] * s;
-    p.side_acceleration[i] = right[i] * c - along[i] * s;
+    const AtDrone logged = at_drone(record, i, {along[i], right[i]});
+    p.acceleration[i] = logged.forward;
+    p.side_acceleration[i] = logged.right;
   }
 }
 

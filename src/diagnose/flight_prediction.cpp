@@ -20,19 +20,6 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
-/// By axes that turn with the drone.
-struct AtDrone {
-  double forward;
-  double right;
-};
-
-/// Of what points along the mean heading and to its right.
-AtDrone at_drone(const FlightRecord& record, std::size_t i, double along, double right) {
-  const double c = record.along_heading[i];
-  const double s = record.right_of_heading[i];
-  return {along * c + right * s, right * c - along * s};
-}
-
 /// A speed added up, less its mean.
 std::vector<double> place(const std::vector<double>& time, const std::vector<double>& speed) {
   std::vector<double> place(speed.size(), 0.0);
@@ -50,16 +37,28 @@ void add_places(FlightRecord& record) {
   std::vector<double> along(record.size());
   std::vector<double> right(record.size());
   for (std::size_t i = 0; i < record.size(); ++i) {
-    const double c = record.along_heading[i];
-    const double s = record.right_of_heading[i];
-    along[i] = record.forward_speed[i] * c - record.right_speed[i] * s;
-    right[i] = record.forward_speed[i] * s + record.right_speed[i] * c;
+    const OverGround speed =
+        over_ground(record, i, {record.forward_speed[i], record.right_speed[i]});
+    along[i] = speed.along;
+    right[i] = speed.right;
   }
   record.place_along = place(record.time, along);
   record.place_right = place(record.time, right);
 }
 
 }  // namespace
+
+AtDrone at_drone(const FlightRecord& record, std::size_t i, const OverGround& x) {
+  const double c = record.along_heading[i];
+  const double s = record.right_of_heading[i];
+  return {x.along * c + x.right * s, x.right * c - x.along * s};
+}
+
+OverGround over_ground(const FlightRecord& record, std::size_t i, const AtDrone& x) {
+  const double c = record.along_heading[i];
+  const double s = record.right_of_heading[i];
+  return {x.forward * c - x.right * s, x.forward * s + x.right * c};
+}
 
 FlightRecord flight_record(const Observations& observations, double mass, double air_density,
                            double gravity) {
@@ -137,12 +136,12 @@ void blow_at_drone(FlightPrediction& p, std::size_t i, double forward, double ri
 }
 
 void blow(FlightPrediction& p, std::size_t i, double along, double right) {
-  const AtDrone wind = at_drone(p.record, i, along, right);
+  const AtDrone wind = at_drone(p.record, i, {along, right});
   blow_at_drone(p, i, wind.forward, wind.right);
 }
 
 void pull(FlightPrediction& p, std::size_t i, double along, double right) {
-  const AtDrone force = at_drone(p.record, i, along, right);
+  const AtDrone force = at_drone(p.record, i, {along, right});
   p.drag[i] -= force.forward;
   p.side_drag[i] -= force.right;
 }

@@ -50,6 +50,20 @@ struct FlightRecord {
   [[nodiscard]] std::size_t size() const { return time.size(); }
 };
 
+/// By axes that turn with the drone.
+struct AtDrone {
+  double forward = 0;
+  double right = 0;
+};
+/// Along the mean heading of the flight and to its right.
+struct OverGround {
+  double along = 0;
+  double right = 0;
+};
+/// The same in sample `i` by the other axes.
+[[nodiscard]] AtDrone at_drone(const FlightRecord& record, std::size_t i, const OverGround& x);
+[[nodiscard]] OverGround over_ground(const FlightRecord& record, std::size_t i, const AtDrone& x);
+
 /// `mass` kg > 0, `air_density` kg/m³ > 0, `gravity` m/s² > 0.
 [[nodiscard]] FlightRecord flight_record(const Observations& observations, double mass,
                                          double air_density, double gravity);

@@ -440,9 +440,9 @@ class Search {
   void find_usual(const Groups& fitted) {
     for (std::size_t g = 0; g < record_.problem().groups.size(); ++g) {
       const auto& coarser = group(g).replaces;
-      const bool counts =
-          coarser ? group(*coarser).usual && (group(g).usual || !group(*coarser).fitted)
-                  : group(g).usual && !is_replaced(g, fitted);
+      const bool counts = coarser
+                              ? group(*coarser).usual && (group(g).usual || !group(*coarser).fitted)
+                              : group(g).usual && !is_replaced(g, fitted);
       if (counts && is_open(g)) usual_.push_back(g);
     }
   }

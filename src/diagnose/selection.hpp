@@ -48,7 +48,8 @@ struct ParameterGroup {
   bool fitted = false;
   /// A candidate that nearly every record holds, such as the wind: others are sought beside it, so
   /// that none takes its place, and it has to earn its own name afterwards. Where the record shows
-  /// a group that replaces it, that one takes this part.
+  /// a group that replaces it, that one takes this part; one that replaces a fitted group only
+  /// where it is marked itself.
   bool usual = false;
   std::vector<ModelParameter> parameters{};  ///< in the order that `predict` takes them
   /// That describe it: of two groups that explain alike, the one with fewer is taken.

@@ -73,9 +73,7 @@ OptionalMargin tether_strength(const Design& design, const OperatingPoint& point
 OptionalMargin converter_rating(const Design& design, const OperatingPoint& point, Condition) {
   const Converter& converter = design.supply.converter;
   if (!converter.rated_output_power) return std::nullopt;
-  const double output =
-      converter_output_power(converter, point.drone_power - design.drone.auxiliary_power);
-  return excess(*converter.rated_output_power, output);
+  return excess(*converter.rated_output_power, power_behind_converter(design, point));
 }
 
 struct DemandEntry {

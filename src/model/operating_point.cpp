@@ -88,4 +88,9 @@ OperatingPoint evaluate(const Design& design, double area, const FlightState& st
   return evaluate(SteadyFlight(design, state), area);
 }
 
+double power_behind_converter(const Design& design, const OperatingPoint& point) {
+  return converter_output_power(design.supply.converter,
+                                point.drone_power - design.drone.auxiliary_power);
+}
+
 }  // namespace tethercalc

@@ -162,9 +162,7 @@ std::string battery_sentence(const Design& design, const OperatingPoint& point) 
   const bool by_energy = seconds / battery.usable_share >= 1 / battery.discharge_rate;
   constexpr double joules_per_Wh = 3600;
   // Sized for the cable's weight and its drag hanging straight.
-  const double auxiliary = design.drone.auxiliary_power;
-  const double hover =
-      auxiliary + converter_output_power(design.supply.converter, point.drone_power - auxiliary);
+  const double hover = design.drone.auxiliary_power + power_behind_converter(design, point);
   constexpr double clearly_more = 1.01;
   const std::string falls_short =
       hover > clearly_more * power

@@ -62,4 +62,8 @@ class SteadyFlight;
 /// The same where many areas are evaluated in one flight.
 [[nodiscard]] OperatingPoint evaluate(const SteadyFlight& flight, double area);
 
+/// W that the converter gives the motors in `point`: what the drone takes, less its auxiliaries,
+/// through the converter.
+[[nodiscard]] double power_behind_converter(const Design& design, const OperatingPoint& point);
+
 }  // namespace tethercalc
