@@ -19,7 +19,7 @@ file(GLOB word_sources CONFIGURE_DEPENDS "${source}/study/*.cpp" "${source}/iden
 list(FILTER physics_sources EXCLUDE REGEX "/constrained_minimum\\.cpp$")
 list(FILTER word_sources EXCLUDE REGEX "/(study/design_search|study/design|page/browser_program)\\.cpp$")
 # No slider waits for these.
-set(patient_physics "/(model/catenary|solve/remedies|solve/sensitivity|solve/spread|solve/sweep_space|solve/unit_points)\\.cpp$")
+set(patient_physics "/(model/catenary|model/drum_package|model/warning|solve/remedies|solve/sensitivity|solve/spread|solve/sweep_space|solve/unit_points)\\.cpp$")
 set(patient_sources ${physics_sources})
 list(FILTER patient_sources INCLUDE REGEX "${patient_physics}")
 list(FILTER physics_sources EXCLUDE REGEX "${patient_physics}")
