@@ -1,0 +1,107 @@
+#include "identify/flight_units.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "support/random.hpp"
+
+using namespace tethercalc;
+
+namespace {
+
+constexpr double gravity = 9.80665;
+constexpr double quarter = std::numbers::pi / 2;
+
+/// What a drone of the simplest kind does: 150 s of leaning about in both axes, in wind.
+struct Flown {
+  double yaw_rate = 0.05;       ///< rad/s
+  double mean_lean = 0;         ///< rad forward
+  double carried_by_wings = 0;  ///< rad of lean that needs no thrust forward
+  double wind_north = 0;        ///< m/s
+  double drag = 0.3;            ///< 1/s, over airspeed
+};
+
+FlightLog flown(test::Random& random, const Flown& how) {
+  FlightLog log;
+  const double phase = random.uniform(0, 6);
+  double north = 0;
+  double east = 0;
+  constexpr double step = 0.01;
+  for (int k = 0; k < 15000; ++k) {
+    const double t = k * step;
+    const double yaw = 0.4 + how.yaw_rate * t;
+    const double ahead = how.mean_lean + 0.1 * std::sin(0.9 * t + phase);
+    const double aside = 0.1 * std::sin(0.7 * t + 2 * phase);
+    if (k % 10 == 0) {
+      log.time.push_back(t);
+      log.pitch.push_back(-ahead);
+      log.roll.push_back(aside);
+      log.yaw.push_back(yaw);
+      log.north_velocity.push_back(north);
+      log.east_velocity.push_back(east);
+      log.down_velocity.push_back(0.1 * std::sin(0.2 * t));
+    }
+    const double forward = gravity * std::tan(ahead + how.carried_by_wings);
+    const double right = gravity * std::tan(aside) / std::cos(ahead);
+    north += step * (forward * std::cos(yaw) - right * std::sin(yaw) -
+                     how.drag * (north - how.wind_north));
+    east += step * (forward * std::sin(yaw) + right * std::cos(yaw) - how.drag * east);
+  }
+  return log;
+}
+
+std::string refusal(const FlightLog& log) {
+  try {
+    check_flight_units(observe(log, {0, log.time.size()}, 0, gravity), gravity);
+  } catch (const UnsuitableFlight& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a flight whose north and east or yaw mean something else is refused by that name") {
+  test::Random random(test::run_seed());
+  for (const double yaw_rate : {0.05, -0.1, 0.3}) {
+    const FlightLog right = flown(random, {.yaw_rate = yaw_rate});
+    CHECK(refusal(right).empty());
+    FlightLog wrong = right;
+    std::swap(wrong.north_velocity, wrong.east_velocity);
+    CHECK_THAT(refusal(wrong), Catch::Contains("north and east velocities were exchanged"));
+    const auto with_yaw = [&](auto change) {
+      FlightLog log = right;
+      for (double& yaw : log.yaw) yaw = change(yaw);
+      return refusal(log);
+    };
+    CHECK_THAT(with_yaw([](double yaw) { return -yaw; }),
+               Catch::Contains("counted the other way round"));
+    CHECK_THAT(with_yaw([](double yaw) { return quarter - yaw; }),
+               Catch::Contains("counted from east, counterclockwise"));
+    CHECK_THAT(with_yaw([](double yaw) { return yaw - quarter; }),
+               Catch::Contains("a quarter turn more"));
+    CHECK_THAT(with_yaw([](double yaw) { return yaw + quarter; }),
+               Catch::Contains("a quarter turn less"));
+    CHECK_THAT(with_yaw([](double yaw) { return yaw + 2 * quarter; }),
+               Catch::Contains("half a turn off"));
+    CHECK(with_yaw([](double yaw) { return yaw + 0.3; }).empty());
+  }
+}
+
+TEST_CASE("what keeps its speed nose-up on all headings is refused, a drone in wind is not") {
+  test::Random random(test::run_seed());
+  const Flown fast{.yaw_rate = 0.15, .mean_lean = 0.35};
+  CHECK(refusal(flown(random, fast)).empty());
+  for (const double wind : {4.0, 8.0}) {
+    Flown windy = fast;
+    windy.wind_north = wind;
+    CHECK(refusal(flown(random, windy)).empty());
+  }
+  Flown wings = fast;
+  wings.mean_lean = -0.06;
+  wings.carried_by_wings = 0.45;
+  CHECK_THAT(refusal(flown(random, wings)), Catch::Contains("did wings carry it?"));
+}
