@@ -229,6 +229,15 @@ std::vector<ParameterEstimate> moved_by(const LogModel& log, const Selection& se
   return moved;
 }
 
+/// The found effect that takes the place of this one, if any does.
+std::optional<std::size_t> found_in_more_detail(const LogModel& log, const Selection& selection,
+                                                std::size_t group) {
+  for (const SelectedGroup& found : selection.selected) {
+    if (log.problem.groups[found.group].replaces == group) return found.group;
+  }
+  return std::nullopt;
+}
+
 /// One verdict on an effect that is neither found nor indistinguishable from what is.
 void tell_open(const LogModel& log, const Selection& selection, const Selection::Open& open,
                Diagnosis& diagnosis) {
@@ -395,7 +404,16 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
   for (const Selection::Aliased& aliased : selection.aliased) {
     diagnosis.not_identifiable.push_back(not_identifiable(log, aliased));
   }
-  for (const Selection::Open& open : selection.open) tell_open(log, selection, open, diagnosis);
+  for (const Selection::Open& open : selection.open) {
+    if (const auto finer = found_in_more_detail(log, selection, open.group)) {
+      diagnosis.not_identifiable.push_back(
+          {log.effect(open.group).id,
+           fmt::format("{}, which is found, tells it in more detail", in_words(log.name(*finer))),
+           log.flight_of(open.group)});
+    } else {
+      tell_open(log, selection, open, diagnosis);
+    }
+  }
   diagnosis.budget = error_budget(selection);
   const UnnamedStructure& unnamed = selection.unnamed;
   if (unnamed.regressors.empty()) return;
