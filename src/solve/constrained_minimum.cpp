@@ -63,6 +63,8 @@ class UnitProblem {
   }
 
   Visited visit(std::span<const double> unit) {
+    // COBYLA asks for the objective and for the constraints, one after the other.
+    if (evaluations_ > 0 && std::ranges::equal(unit, last_.unit)) return last_;
     ++evaluations_;
     Visited point{{unit.begin(), unit.end()}, nan, 0};
     point.value = problem_.evaluate(actual(unit), constraints_);
@@ -73,6 +75,7 @@ class UnitProblem {
     // Where nothing is violated, what has no value is no answer either.
     if (!std::isfinite(point.value) && point.violation <= constraint_tolerance) point.violation = 1;
     if (best_.unit.empty() || point.better_than(best_)) best_ = point;
+    last_ = point;
     return point;
   }
 
@@ -93,6 +96,7 @@ class UnitProblem {
   const MinimumProblem& problem_;
   std::vector<double> constraints_;
   Visited best_;
+  Visited last_;
   int evaluations_ = 0;
 };
 
