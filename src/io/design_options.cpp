@@ -134,14 +134,14 @@ std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Des
   request.exponent = fields.number("--exponent", options.exponent, "flight.wind_exponent").value();
   request.roughness_length =
       fields.number("--roughness", options.roughness_length, "flight.roughness_length_m").value();
-  const auto needs_profile = [&](const char* option, bool given, WindProfile profile,
-                                 const char* name) {
+  const auto needs_profile = [&](const char* option, bool given, WindProfile profile) {
     if (!given || request.profile == profile) return;
+    std::string name = field_words(FieldKind::wind_profile)[static_cast<std::size_t>(profile)];
+    std::ranges::replace(name, '_', '-');  // as options are written
     problems.add(option, fmt::format("says nothing without --profile {}", name));
   };
-  needs_profile("--exponent", options.exponent.has_value(), WindProfile::power_law, "power-law");
-  needs_profile("--roughness", options.roughness_length.has_value(), WindProfile::logarithmic,
-                "logarithmic");
+  needs_profile("--exponent", options.exponent.has_value(), WindProfile::power_law);
+  needs_profile("--roughness", options.roughness_length.has_value(), WindProfile::logarithmic);
   const double known_at =
       request.reference_height.value_or(request.station_height + request.height);
   if (const auto rough = roughness_conflict(request.profile, request.roughness_length, known_at)) {

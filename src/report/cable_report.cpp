@@ -8,6 +8,7 @@
 
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
+#include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/design_report.hpp"
 
 namespace tethercalc {
@@ -58,6 +59,21 @@ ordered_json loads_json(const HangingCable& loads, const CableShape& shape) {
           {"T_min_N", shape.slackest.tension},
           {"T_max_N", shape.tautest.tension},
           {"z_low_m", std::min(shape.lowest.position.z, 0.0)}};
+}
+
+std::string_view profile_name(WindProfile profile) {
+  return field_words(FieldKind::wind_profile)[static_cast<std::size_t>(profile)];
+}
+
+/// Of a wind that grows with height, how; empty of another.
+std::string profile_words(const MovingAir& air) {
+  if (air.profile == WindProfile::uniform) return "";
+  const std::string known_at = significant(air.reference_height, 3);
+  return air.profile == WindProfile::power_law
+             ? fmt::format(" at {} m over ground, by the power {} of the height", known_at,
+                           significant(air.exponent, 3))
+             : fmt::format(" at {} m over ground, logarithmic over a roughness of {} m", known_at,
+                           significant(air.roughness_length, 3));
 }
 
 void add_hover(TextTable& table, const char* name, const LoadedHover& hover) {
@@ -126,8 +142,9 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
                   significant(area / unit::square_millimetre, 4), conductor_words(file.conductor),
                   significant(study.cable.weight / file.design.flight.gravity / unit::gram, 3),
                   significant(study.cable.diameter / unit::millimetre, 3));
-  out += fmt::format("Drone {} m up and {} m aside, wind {} m/s\n", significant(request.height, 3),
-                     significant(request.offset, 3), significant(request.wind, 3));
+  out += fmt::format("Drone {} m up and {} m aside, wind {} m/s{}\n",
+                     significant(request.height, 3), significant(request.offset, 3),
+                     significant(request.wind, 3), profile_words(study.air));
   if (study.outcome != CableOutcome::hangs) {
     return out + "\n" + style.bad(wrapped(no_shape_sentence(study, request)));
   }
@@ -207,7 +224,11 @@ ordered_json cable_shape_json(const DesignFile& file, double area, const ShapeSt
                      {"Cd", study.cable.drag_coefficient},
                      {"EA_N", number_or_null(study.cable.axial_stiffness)}}},
                    {"drone_m", vector_json(study.drone)},
-                   {"wind_m_s", vector_json(study.air.wind)}};
+                   {"wind_m_s", vector_json(study.air.wind)},
+                   {"air",
+                    {{"density_kg_m3", study.air.density},
+                     {"wind_profile", profile_name(study.air.profile)},
+                     {"wind_reference_height_m", study.air.reference_height}}}};
   add_estimates(out, file.design);
   add_warnings(out, spec_warnings(file));
   if (study.outcome != CableOutcome::hangs) return out;

@@ -599,9 +599,10 @@ Warning side_warning(const WorstSide& side) {
                         fixed(side.upwind_headroom, 2));
   return {
       WarningKind::offset_is_upwind,
-      fmt::format("the drone is taken to stand upwind of its station, the favourable side: "
-                  "with the wind from {}° instead (tethercalc shape --wind-from) {}{}",
-                  fixed(side.wind_from / unit::degree, 0), condition_words(side.condition), takes)};
+      fmt::format("the drone is taken to stand upwind of its station, the favourable side: {} m "
+                  "aside with the wind from {}° instead (tethercalc shape --wind-from) {}{}",
+                  significant(side.offset, 4), fixed(side.wind_from / unit::degree, 0),
+                  condition_words(side.condition), takes)};
 }
 
 std::optional<Warning> inclination_warning(const Design& design, const OperatingPoint& hover) {

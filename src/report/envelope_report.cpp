@@ -35,9 +35,13 @@ std::string beyond_end(const Design& design, const ReachEnd& end) {
 /// Whether less than that does not meet the demands somewhere.
 bool begins_later(Reach reach, const ReachEnd& end) { return end.from > search_start(reach); }
 
-std::string sentence_of(const Design& design, const ReachResult& result) {
+std::string sentence_of(const Design& design, const ReachResult& result,
+                        const AreaPoints& as_given) {
   const ReachWords words = words_of(result.reach);
-  if (!result.end) return fmt::format("At no {} does this cable meet the demands.", words.noun);
+  if (!result.end) {
+    return fmt::format("At no {} does this cable meet the demands; at the design's own: {}.",
+                       words.noun, shortcoming(design, as_given));
+  }
   const auto number = [&](double value) { return fixed(value / words.si_factor, words.decimals); };
   const std::string from =
       begins_later(result.reach, *result.end)
@@ -69,7 +73,9 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
   out += fmt::format("{} mm² of {}, {} V\n",
                      significant(*file.design.tether.cross_section / unit::square_millimetre, 4),
                      conductor_words(file.conductor), significant(file.design.supply.voltage, 3));
-  for (const ReachResult& result : study.greatest) out += wrapped(sentence_of(file.design, result));
+  for (const ReachResult& result : study.greatest) {
+    out += wrapped(sentence_of(file.design, result, study.as_given));
+  }
   for (const EnvelopeCurve& curve : study.curves) {
     if (curve.points.empty()) continue;
     const ReachWords of = words_of(curve.of);
@@ -98,7 +104,7 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
     ordered_json end = end_json(result.end, words.si_factor);
     if (result.end) {
       if (begins_later(result.reach, *result.end)) end["from"] = result.end->from / words.si_factor;
-      end["sentence"] = sentence_of(file.design, result);
+      end["sentence"] = sentence_of(file.design, result, study.as_given);
     }
     greatest[words.key] = std::move(end);
   }
@@ -112,9 +118,14 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
     });
     return ordered_json{{"of", of.key}, {"against", against.key}, {"points", points}};
   });
+  const std::string fault = shortcoming(file.design, study.as_given);
+  const ordered_json as_given{
+      {"feasible", fault.empty()},
+      {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)}};
   ordered_json out{
       {"name", file.name},
       {"cross_section_mm2", *file.design.tether.cross_section / unit::square_millimetre},
+      {"as_given", as_given},
       {"greatest", greatest},
       {"curves", curves}};
   add_estimates(out, file.design);

@@ -135,8 +135,13 @@ std::optional<WorstSide> worst_side(const Design& design, double area) {
       const double ratio = here.total_power / upwind.total_power;
       if (ratio <= most || std::isinf(most)) continue;
       most = std::isnan(ratio) ? infinity : ratio;
-      worst = {condition,        state.wind_from, upwind.total_power,
-               here.total_power, upwind.headroom, here.headroom};
+      worst = {design.flight.horizontal_offset,
+               condition,
+               state.wind_from,
+               upwind.total_power,
+               here.total_power,
+               upwind.headroom,
+               here.headroom};
     }
   }
   return worst;

@@ -145,6 +145,9 @@ bool EnvelopeStudy::any() const {
 
 EnvelopeStudy study_envelope(const Design& design) {
   EnvelopeStudy study;
+  study.as_given =
+      evaluate_areas(design, std::span(&*design.tether.cross_section, 1), ConductorsAsked::one)
+          .front();
   for (const Reach reach : reaches_of(design)) {
     study.greatest.push_back({reach, greatest_reach(design, reach)});
   }
@@ -157,7 +160,14 @@ EnvelopeStudy study_envelope(const Design& design) {
   for (const auto& [of, against] : curves) {
     study.curves.push_back({of, against, envelope_curve(design, of, against)});
   }
-  study.side = worst_side(design, *design.tether.cross_section);
+  const double area = *design.tether.cross_section;
+  const auto aside = std::ranges::find(study.greatest, Reach::offset, &ReachResult::reach);
+  const bool is_aside = design.flight.horizontal_offset != 0;
+  if (is_aside || aside == study.greatest.end() || !aside->end) {
+    study.side = worst_side(design, area);
+  } else {
+    study.side = worst_side(at_reach(design, Reach::offset, aside->end->value), area);
+  }
   return study;
 }
 

@@ -353,6 +353,21 @@ TEST_CASE("an envelope names what ends it, and needs a cable") {
   CHECK(answer["curves"].size() == 3);
 }
 
+TEST_CASE("an envelope of a cable that does not fly says why") {
+  const std::vector<std::string> heavy{"envelope", published, "--area-mm2",
+                                       "1.5",      "--set",   "drone.mass_g=9000"};
+  const Ran text = run_tethercalc(heavy);
+  CHECK(text.exit_code == 1);
+  CHECK_THAT(text.out, Contains("At no payload does this cable meet the demands; at the design's "
+                                "own:"));
+  auto as_json = heavy;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const json answer = json::parse(run_tethercalc(as_json).out);
+  CHECK(answer["as_given"]["feasible"] == false);
+  CHECK(answer["as_given"]["shortcoming"].get<std::string>().size() > 5);
+  CHECK(answer["greatest"]["payload_g"].is_null());
+}
+
 TEST_CASE("a bound on the cross-section is kept where there is a design that keeps it") {
   const Ran run = design({"--free", "supply.voltage_V=40..75", "--subject-to",
                           "tether.cross_section_mm2<=1.2", "--format", "json"});

@@ -88,6 +88,7 @@ struct GroundContact {
 /// What a drone aside of its station takes where the wind is hardest on it, beside what it takes
 /// upwind of the station, where every design is judged. NaN: it is not flown there.
 struct WorstSide {
+  double offset = 0;                       ///< m from the station
   Condition condition = Condition::hover;  ///< hover where wind blows
   double wind_from = 0;                    ///< rad, as `FlightState` has it
   double upwind_power = 0;                 ///< W of the ground supply

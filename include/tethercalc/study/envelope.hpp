@@ -78,11 +78,13 @@ struct EnvelopeCurve {
 
 /// What a cable can do at most.
 struct EnvelopeStudy {
+  AreaPoints as_given;                ///< the cable in the design itself
   std::vector<ReachResult> greatest;  ///< each with the others as the design has them
   /// Payload and wind against height, payload against wind; of a solved tether also the offset
   /// against height and wind.
   std::vector<EnvelopeCurve> curves;
-  std::optional<WorstSide> side;  ///< of the design itself
+  /// Of the design itself; where it is not aside, at its greatest offset.
+  std::optional<WorstSide> side;
 
   /// Whether the cable flies at all.
   [[nodiscard]] bool any() const;
