@@ -12,18 +12,12 @@ endforeach()
 
 include(cmake/embed_data.cmake)
 set(source "${PROJECT_SOURCE_DIR}/src")
-file(GLOB physics_sources CONFIGURE_DEPENDS "${source}/model/*.cpp" "${source}/solve/*.cpp")
-file(GLOB word_sources CONFIGURE_DEPENDS "${source}/study/*.cpp" "${source}/identify/*.cpp"
-  "${source}/diagnose/*.cpp" "${source}/io/*.cpp" "${source}/report/*.cpp" "${source}/page/*.cpp")
+file(GLOB room_sources CONFIGURE_DEPENDS "${source}/model/*.cpp" "${source}/solve/*.cpp"
+  "${source}/study/*.cpp" "${source}/identify/*.cpp" "${source}/diagnose/*.cpp" "${source}/io/*.cpp"
+  "${source}/report/*.cpp" "${source}/page/*.cpp")
 # The search for a whole design is NLopt's, which is a library of the host.
-list(FILTER physics_sources EXCLUDE REGEX "/constrained_minimum\\.cpp$")
-list(FILTER word_sources EXCLUDE REGEX "/(study/design_search|study/design|page/browser_program)\\.cpp$")
-# No slider waits for these.
-set(patient_physics "/(model/catenary|model/drum_package|model/warning|solve/remedies|solve/sensitivity|solve/spread|solve/sweep_space|solve/unit_points)\\.cpp$")
-set(patient_sources ${physics_sources})
-list(FILTER patient_sources INCLUDE REGEX "${patient_physics}")
-list(FILTER physics_sources EXCLUDE REGEX "${patient_physics}")
-list(APPEND word_sources ${patient_sources})
+list(FILTER room_sources EXCLUDE REGEX
+  "/(solve/constrained_minimum|study/design_search|study/design|page/browser_program)\\.cpp$")
 file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
 list(FILTER data_files EXCLUDE REGEX "/(schema|rules)/")
 # Of codes the page and its report explain limits, warnings and effects.
@@ -34,16 +28,15 @@ list(SORT data_files)
 # caught that is left out; page/call.js begins anew with a fresh program before what is left over counts.
 set(catches "catch \\(|succeeds\\(")
 set(catching_sources)
-foreach(file IN LISTS physics_sources word_sources)
+foreach(file IN LISTS room_sources)
   file(STRINGS "${file}" caught REGEX "${catches}")
   if(caught)
     list(APPEND catching_sources "${file}")
   endif()
 endforeach()
-list(REMOVE_ITEM physics_sources ${catching_sources})
-list(REMOVE_ITEM word_sources ${catching_sources})
+list(REMOVE_ITEM room_sources ${catching_sources})
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-  ${physics_sources} ${word_sources} ${catching_sources})
+  ${room_sources} ${catching_sources})
 set(without_cleaning -fignore-exceptions)
 # A header's catch would be lost in the files that include it; this one is told by its function's name.
 file(GLOB_RECURSE headers_of_rooms "${source}/*.hpp" "${PROJECT_SOURCE_DIR}/include/*.hpp")
@@ -78,19 +71,15 @@ function(compile_for_page target)
     "SHELL:-include ${PROJECT_SOURCE_DIR}/cmake/page/smaller_library.hpp")
 endfunction()
 
-# What sliders wait for is optimised a little more for speed than the rest.
-add_library(page_physics STATIC ${physics_sources})
-compile_for_page(page_physics)
-target_compile_options(page_physics PRIVATE -Os ${without_cleaning})
-
-# Emscripten 3.1.6 inlines nothing at -Oz unless told to, and calls are larger than most of what they call.
+# Emscripten 3.1.6 inlines nothing at -Oz unless told to, and calls are larger than most of what they call. So told
+# it makes smaller programs than at -Os that are no slower.
 set(small -Oz -finline-functions)
-add_library(page_words STATIC ${word_sources})
-embed_data(page_words ${data_files})
+add_library(page_rooms STATIC ${room_sources})
+embed_data(page_rooms ${data_files})
 include(src/page/example_specs.cmake)
-embed_files(page_words example_specs "${PROJECT_SOURCE_DIR}/examples" ${example_specs})
-compile_for_page(page_words)
-target_compile_options(page_words PRIVATE ${small} ${without_cleaning})
+embed_files(page_rooms example_specs "${PROJECT_SOURCE_DIR}/examples" ${example_specs})
+compile_for_page(page_rooms)
+target_compile_options(page_rooms PRIVATE ${small} ${without_cleaning})
 add_library(page_catching STATIC ${catching_sources})
 compile_for_page(page_catching)
 target_compile_options(page_catching PRIVATE ${small})
@@ -98,7 +87,7 @@ target_compile_options(page_catching PRIVATE ${small})
 add_executable(page_program "${source}/page/browser_program.cpp")
 compile_for_page(page_program)
 target_compile_options(page_program PRIVATE ${small})
-target_link_libraries(page_program PRIVATE page_words page_catching page_physics)
+target_link_libraries(page_program PRIVATE page_rooms page_catching)
 set_target_properties(page_program PROPERTIES SUFFIX .js LINK_DEPENDS "${source}/page/call.js")
 target_link_options(page_program PRIVATE -Oz -flto -fwasm-exceptions --no-entry
   "SHELL:--extern-post-js ${source}/page/call.js"
