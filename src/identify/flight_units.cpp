@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "identify/statistics.hpp"
 
@@ -63,8 +64,6 @@ std::optional<Leaning> leaning_over_a_second(const Observations& flight, double 
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// A way in which the columns of a log may mean something else than they should.
 struct AxesMistake {
   const char* words;
@@ -94,27 +93,37 @@ double leaning_correlation(const Observations& flight, const AxesMistake& mistak
   const std::vector<double> turning = yaw_rate(flight);
   const std::size_t lag = samples_a_second(flight);
   const bool rolls = spread(flight.roll) > 0;
-  const auto seen = [&](std::size_t i) {
-    const Complex along_heading{
-        flight.forward_acceleration[i] - turning[i] * flight.right_speed[i],
-        flight.right_acceleration[i] + turning[i] * flight.forward_speed[i]};
-    const Complex over_ground = along_heading * std::polar(1.0, flight.yaw[i]);  // north, east
-    const Complex meant = mistake.velocities_exchanged
-                              ? Complex{over_ground.imag(), over_ground.real()}
-                              : over_ground;
-    return meant * std::polar(1.0, -(mistake.yaw_sign * flight.yaw[i] + mistake.yaw_offset));
+  struct Level {
+    double ahead = 0;
+    double aside = 0;
   };
-  const auto expected = [&](std::size_t i) {
-    return Complex{mistake.pitch_sign * std::tan(flight.tilt[i]),
-                   std::tan(flight.roll[i]) / std::cos(flight.tilt[i])};
+  const auto seen = [&](std::size_t i) -> Level {
+    const double forward = flight.forward_acceleration[i] - turning[i] * flight.right_speed[i];
+    const double right = flight.right_acceleration[i] + turning[i] * flight.forward_speed[i];
+    const double cosine = std::cos(flight.yaw[i]);
+    const double sine = std::sin(flight.yaw[i]);
+    double north = forward * cosine - right * sine;
+    double east = forward * sine + right * cosine;
+    if (mistake.velocities_exchanged) std::swap(north, east);
+    const double meant = mistake.yaw_sign * flight.yaw[i] + mistake.yaw_offset;
+    return {north * std::cos(meant) + east * std::sin(meant),
+            east * std::cos(meant) - north * std::sin(meant)};
+  };
+  const auto expected = [&](std::size_t i) -> Level {
+    return {mistake.pitch_sign * std::tan(flight.tilt[i]),
+            rolls ? std::tan(flight.roll[i]) / std::cos(flight.tilt[i]) : 0};
   };
   double both = 0, leaning = 0, measured = 0;
   for (std::size_t i = lag; i < flight.size(); ++i) {
-    const Complex e = expected(i) - expected(i - lag);
-    const Complex s = seen(i) - seen(i - lag);
-    both += e.real() * s.real() + (rolls ? e.imag() * s.imag() : 0);
-    leaning += e.real() * e.real() + (rolls ? e.imag() * e.imag() : 0);
-    measured += s.real() * s.real() + (rolls ? s.imag() * s.imag() : 0);
+    const Level e1 = expected(i), e0 = expected(i - lag);
+    const Level s1 = seen(i), s0 = seen(i - lag);
+    const double ahead = s1.ahead - s0.ahead;
+    const double aside = rolls ? s1.aside - s0.aside : 0;
+    const double by_pitch = e1.ahead - e0.ahead;
+    const double by_roll = e1.aside - e0.aside;
+    both += by_pitch * ahead + by_roll * aside;
+    leaning += by_pitch * by_pitch + by_roll * by_roll;
+    measured += ahead * ahead + aside * aside;
   }
   return leaning > 0 && measured > 0 ? both / std::sqrt(leaning * measured) : 0;
 }
