@@ -136,22 +136,34 @@ bool better(const Minimum& a, const Minimum& b) {
 /// `x` with as few digits as leave the answer as good: 120 instead of 119.99999998741927.
 void write_short(const MinimumProblem& problem, Minimum& minimum) {
   std::vector<double> constraints(problem.constraint_count);
+  /// Takes a value for the i-th where the answer stays as good, relative, as that.
+  const auto is_taken = [&](std::size_t i, double value, double as_good) {
+    const auto [lo, hi] = problem.variables[i];
+    if (value < lo || value > hi) return false;
+    std::vector<double> x = minimum.x;
+    x[i] = value;
+    const double objective = problem.evaluate(x, constraints);
+    const bool kept =
+        std::ranges::all_of(constraints, [](double c) { return c <= constraint_tolerance; });
+    if (!kept || !(objective <= minimum.value + as_good * std::abs(minimum.value))) return false;
+    minimum.x = std::move(x);
+    minimum.value = objective;
+    minimum.constraints = constraints;
+    return true;
+  };
+  constexpr double rounding = 1e-13;
+  constexpr double known_to = 1e-10;  // the forces of a hanging cable
   for (std::size_t i = 0; i < minimum.x.size(); ++i) {
     const double exact = minimum.x[i];
+    const auto [lo, hi] = problem.variables[i];
+    const auto is_next_to = [exact](double end) {
+      return exact != end && std::abs(exact - end) <= known_to * std::abs(end);
+    };
+    if (is_next_to(lo) && is_taken(i, lo, known_to)) continue;
+    if (is_next_to(hi) && is_taken(i, hi, known_to)) continue;
     for (int digits = 3; digits < 15; ++digits) {
-      std::vector<double> x = minimum.x;
-      x[i] = std::strtod(fmt::format("{:.{}g}", exact, digits).c_str(), nullptr);
-      if (x[i] == exact) break;
-      if (x[i] < problem.variables[i].lo || x[i] > problem.variables[i].hi) continue;
-      const double value = problem.evaluate(x, constraints);
-      const bool kept =
-          std::ranges::all_of(constraints, [](double c) { return c <= constraint_tolerance; });
-      constexpr double as_good = 1e-10;  // what the forces of a hanging cable are known to
-      if (!kept || !(value <= minimum.value + as_good * std::abs(minimum.value))) continue;
-      minimum.x = std::move(x);
-      minimum.value = value;
-      minimum.constraints = constraints;
-      break;
+      const double shorter = std::strtod(fmt::format("{:.{}g}", exact, digits).c_str(), nullptr);
+      if (shorter == exact || is_taken(i, shorter, rounding)) break;
     }
   }
 }
