@@ -242,6 +242,13 @@ std::optional<std::size_t> found_in_more_detail(const LogModel& log, const Selec
 void tell_open(const LogModel& log, const Selection& selection, const Selection::Open& open,
                Diagnosis& diagnosis) {
   const Effect& effect = log.effect(open.group);
+  if (const auto finer = found_in_more_detail(log, selection, open.group)) {
+    diagnosis.not_identifiable.push_back(
+        {effect.id,
+         fmt::format("{}, which is found, tells it in more detail", in_words(log.name(*finer))),
+         log.flight_of(open.group)});
+    return;
+  }
   const std::size_t first = log.first_parameter(open.group);
   std::vector<RuledOut> bounds;
   for (const SizeEstimate& size : open.sizes) {
@@ -404,16 +411,7 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
   for (const Selection::Aliased& aliased : selection.aliased) {
     diagnosis.not_identifiable.push_back(not_identifiable(log, aliased));
   }
-  for (const Selection::Open& open : selection.open) {
-    if (const auto finer = found_in_more_detail(log, selection, open.group)) {
-      diagnosis.not_identifiable.push_back(
-          {log.effect(open.group).id,
-           fmt::format("{}, which is found, tells it in more detail", in_words(log.name(*finer))),
-           log.flight_of(open.group)});
-    } else {
-      tell_open(log, selection, open, diagnosis);
-    }
-  }
+  for (const Selection::Open& open : selection.open) tell_open(log, selection, open, diagnosis);
   diagnosis.budget = error_budget(selection);
   const UnnamedStructure& unnamed = selection.unnamed;
   if (unnamed.regressors.empty()) return;

@@ -33,33 +33,73 @@ std::vector<double> yaw_rate(const Observations& flight) {
   return rate;
 }
 
+namespace {
+
+/// A quantity along the heading and to the right of it, one element a sample.
+struct LevelSeries {
+  std::vector<double> forward;
+  std::vector<double> right;
+};
+
+/// m/s², by forces: without what the turning of the frame does to the speeds.
+LevelSeries seen_accelerations(const Observations& flight) {
+  const std::vector<double> turning = yaw_rate(flight);
+  const bool both_axes = flight.right_acceleration.size() == flight.size();
+  LevelSeries seen;
+  for (std::size_t i = 0; i < flight.size(); ++i) {
+    seen.forward.push_back(flight.forward_acceleration[i] - turning[i] * flight.right_speed[i]);
+    if (!both_axes) continue;
+    seen.right.push_back(flight.right_acceleration[i] + turning[i] * flight.forward_speed[i]);
+  }
+  return seen;
+}
+
+/// m/s², g·tan θ and g·tan φ/cos θ.
+LevelSeries leaning_accelerations(const Observations& flight, double gravity) {
+  LevelSeries leaning;
+  for (std::size_t i = 0; i < flight.size(); ++i) {
+    leaning.forward.push_back(gravity * std::tan(flight.tilt[i]));
+    leaning.right.push_back(gravity * std::tan(flight.roll[i]) / std::cos(flight.tilt[i]));
+  }
+  return leaning;
+}
+
+/// How changes of two quantities over a second go together, of as many axes as are added.
+struct SecondsCompared {
+  double both = 0;
+  double leaning = 0;
+  double measured = 0;
+
+  void add(const std::vector<double>& expected, const std::vector<double>& seen, std::size_t lag) {
+    for (std::size_t i = lag; i < seen.size(); ++i) {
+      const double by_leaning = expected[i] - expected[i - lag];
+      const double by_force = seen[i] - seen[i - lag];
+      both += by_leaning * by_force;
+      leaning += by_leaning * by_leaning;
+      measured += by_force * by_force;
+    }
+  }
+
+  [[nodiscard]] std::optional<Leaning> result() const {
+    if (!(leaning > 0 && measured > 0)) return std::nullopt;
+    return Leaning{both / std::sqrt(leaning * measured), both / leaning,
+                   std::sqrt(leaning / measured)};
+  }
+};
+
+}  // namespace
+
 std::optional<Leaning> leaning_over_a_second(const Observations& flight, double gravity,
                                              Axis axis) {
   if (flight.size() < 3) return std::nullopt;
   const std::size_t lag = samples_a_second(flight);
   if (flight.size() < 10 * lag) return std::nullopt;
-  const std::vector<double> turning = yaw_rate(flight);
-  const bool forward = axis == Axis::forward;
-  if (!forward && flight.right_acceleration.size() != flight.size()) return std::nullopt;
-  const auto by_force = [&](std::size_t i) {
-    return forward ? flight.forward_acceleration[i] - turning[i] * flight.right_speed[i]
-                   : flight.right_acceleration[i] + turning[i] * flight.forward_speed[i];
-  };
-  const auto by_leaning = [&](std::size_t i) {
-    return gravity * (forward ? std::tan(flight.tilt[i])
-                              : std::tan(flight.roll[i]) / std::cos(flight.tilt[i]));
-  };
-  double both = 0, leaning = 0, measured = 0;
-  for (std::size_t i = lag; i < flight.size(); ++i) {
-    const double expected = by_leaning(i) - by_leaning(i - lag);
-    const double seen = by_force(i) - by_force(i - lag);
-    both += expected * seen;
-    leaning += expected * expected;
-    measured += seen * seen;
-  }
-  if (!(leaning > 0 && measured > 0)) return std::nullopt;
-  return Leaning{both / std::sqrt(leaning * measured), both / leaning,
-                 std::sqrt(leaning / measured)};
+  const auto of = axis == Axis::forward ? &LevelSeries::forward : &LevelSeries::right;
+  const LevelSeries seen = seen_accelerations(flight);
+  if ((seen.*of).size() != flight.size()) return std::nullopt;
+  SecondsCompared compared;
+  compared.add(leaning_accelerations(flight, gravity).*of, seen.*of, lag);
+  return compared.result();
 }
 
 namespace {
@@ -87,55 +127,42 @@ constexpr std::array axes_mistakes{
     AxesMistake{.words = "the pitch were positive nose-up", .pitch_sign = -1},
 };
 
-/// What the pitch and, where it moves, the roll make expect over the heading's axes, and what is
-/// seen there, were the log's columns mistaken so.
-double leaning_correlation(const Observations& flight, const AxesMistake& mistake) {
-  const std::vector<double> turning = yaw_rate(flight);
-  const std::size_t lag = samples_a_second(flight);
-  const bool rolls = spread(flight.roll) > 0;
-  struct Level {
-    double ahead = 0;
-    double aside = 0;
-  };
-  const auto seen = [&](std::size_t i) -> Level {
-    const double forward = flight.forward_acceleration[i] - turning[i] * flight.right_speed[i];
-    const double right = flight.right_acceleration[i] + turning[i] * flight.forward_speed[i];
-    const double cosine = std::cos(flight.yaw[i]);
-    const double sine = std::sin(flight.yaw[i]);
-    double north = forward * cosine - right * sine;
-    double east = forward * sine + right * cosine;
+/// What is seen, along the axes that the heading has if the columns are mistaken so.
+LevelSeries read_otherwise(const LevelSeries& seen, const std::vector<double>& yaw,
+                           const AxesMistake& mistake) {
+  LevelSeries out;
+  for (std::size_t i = 0; i < yaw.size(); ++i) {
+    const double cosine = std::cos(yaw[i]);
+    const double sine = std::sin(yaw[i]);
+    double north = seen.forward[i] * cosine - seen.right[i] * sine;
+    double east = seen.forward[i] * sine + seen.right[i] * cosine;
     if (mistake.velocities_exchanged) std::swap(north, east);
-    const double meant = mistake.yaw_sign * flight.yaw[i] + mistake.yaw_offset;
-    return {north * std::cos(meant) + east * std::sin(meant),
-            east * std::cos(meant) - north * std::sin(meant)};
-  };
-  const auto expected = [&](std::size_t i) -> Level {
-    return {mistake.pitch_sign * std::tan(flight.tilt[i]),
-            rolls ? std::tan(flight.roll[i]) / std::cos(flight.tilt[i]) : 0};
-  };
-  double both = 0, leaning = 0, measured = 0;
-  for (std::size_t i = lag; i < flight.size(); ++i) {
-    const Level e1 = expected(i), e0 = expected(i - lag);
-    const Level s1 = seen(i), s0 = seen(i - lag);
-    const double ahead = s1.ahead - s0.ahead;
-    const double aside = rolls ? s1.aside - s0.aside : 0;
-    const double by_pitch = e1.ahead - e0.ahead;
-    const double by_roll = e1.aside - e0.aside;
-    both += by_pitch * ahead + by_roll * aside;
-    leaning += by_pitch * by_pitch + by_roll * by_roll;
-    measured += ahead * ahead + aside * aside;
+    const double meant = mistake.yaw_sign * yaw[i] + mistake.yaw_offset;
+    out.forward.push_back(mistake.pitch_sign * (north * std::cos(meant) + east * std::sin(meant)));
+    out.right.push_back(east * std::cos(meant) - north * std::sin(meant));
   }
-  return leaning > 0 && measured > 0 ? both / std::sqrt(leaning * measured) : 0;
+  return out;
 }
 
-void check_axes(const Observations& flight) {
+void check_axes(const Observations& flight, double gravity) {
   if (flight.right_acceleration.size() != flight.size()) return;
+  const std::size_t lag = samples_a_second(flight);
+  const bool rolls = spread(flight.roll) > 0;
+  const LevelSeries leaning = leaning_accelerations(flight, gravity);
+  const auto correlation_with = [&](const LevelSeries& seen) {
+    SecondsCompared compared;
+    compared.add(leaning.forward, seen.forward, lag);
+    if (rolls) compared.add(leaning.right, seen.right, lag);
+    const std::optional<Leaning> result = compared.result();
+    return result ? result->correlation : 0;
+  };
   constexpr double clear = 0.7;
   constexpr double alike = 0.02;
-  if (leaning_correlation(flight, {.words = ""}) > leans_to_speed_up) return;
+  const LevelSeries seen = seen_accelerations(flight);
+  if (correlation_with(seen) > leans_to_speed_up) return;
   std::vector<std::pair<double, const char*>> found;
   for (const AxesMistake& mistake : axes_mistakes) {
-    found.emplace_back(leaning_correlation(flight, mistake), mistake.words);
+    found.emplace_back(correlation_with(read_otherwise(seen, flight.yaw, mistake)), mistake.words);
   }
   const double best = std::ranges::max(found).first;
   if (best < clear) return;
@@ -150,18 +177,19 @@ void check_axes(const Observations& flight) {
 }
 
 /// Drag has to be leaned against, whichever way the wind blows, while wings carry a nose held up.
-void check_leans_into_its_speed(const Observations& flight, double gravity) {
+void check_leans_into_its_speed(const Observations& flight) {
   constexpr double fast = 8;          // m/s
   constexpr double long_enough = 20;  // s
   constexpr double nose_up = 0.35;    // m/s², 2°: beyond what the attitude's own errors do
   constexpr int sides = 4;
+  const std::vector<double> drag = forward_drag_over_mass(flight);
   std::array<double, sides> sum{};
   std::array<std::size_t, sides> count{};
   for (std::size_t i = 0; i < flight.size(); ++i) {
     if (flight.forward_speed[i] < fast) continue;
     const double turn = flight.yaw[i] / (2 * std::numbers::pi);
     const auto side = static_cast<std::size_t>((turn - std::floor(turn)) * sides) % sides;
-    sum[side] += gravity * std::tan(flight.tilt[i]) - flight.forward_acceleration[i];
+    sum[side] += drag[i];
     ++count[side];
   }
   // With the wind in the back less than nothing may be left of the drag; on both sides of it never.
@@ -218,8 +246,8 @@ void check_flight_units(const Observations& flight, double gravity) {
     throw UnsuitableFlight(
         "the pitch is far too level for the logged accelerations; are the angles in radians?");
   }
-  check_axes(flight);
-  check_leans_into_its_speed(flight, gravity);
+  check_axes(flight, gravity);
+  check_leans_into_its_speed(flight);
   constexpr double clear = 0.5;  // real flights have correlations of 0.8 to 0.95
   if (correlation < -clear) {
     throw UnsuitableFlight(
