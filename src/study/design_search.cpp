@@ -136,8 +136,9 @@ bool better(const Minimum& a, const Minimum& b) {
 /// `x` with as few digits as leave the answer as good: 120 instead of 119.99999998741927.
 void write_short(const MinimumProblem& problem, Minimum& minimum) {
   std::vector<double> constraints(problem.constraint_count);
-  /// Takes a value for the i-th where the answer stays as good, relative, as that.
-  const auto is_taken = [&](std::size_t i, double value, double as_good) {
+  /// Whether the answer stays as good, relative, as that with a value for the i-th, which it then
+  /// has.
+  const auto takes = [&](std::size_t i, double value, double as_good) {
     const auto [lo, hi] = problem.variables[i];
     if (value < lo || value > hi) return false;
     std::vector<double> x = minimum.x;
@@ -159,11 +160,11 @@ void write_short(const MinimumProblem& problem, Minimum& minimum) {
     const auto is_next_to = [exact](double end) {
       return exact != end && std::abs(exact - end) <= known_to * std::abs(end);
     };
-    if (is_next_to(lo) && is_taken(i, lo, known_to)) continue;
-    if (is_next_to(hi) && is_taken(i, hi, known_to)) continue;
+    if (is_next_to(lo) && takes(i, lo, known_to)) continue;
+    if (is_next_to(hi) && takes(i, hi, known_to)) continue;
     for (int digits = 3; digits < 15; ++digits) {
       const double shorter = std::strtod(fmt::format("{:.{}g}", exact, digits).c_str(), nullptr);
-      if (shorter == exact || is_taken(i, shorter, rounding)) break;
+      if (shorter == exact || takes(i, shorter, rounding)) break;
     }
   }
 }

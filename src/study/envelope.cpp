@@ -160,14 +160,11 @@ EnvelopeStudy study_envelope(const Design& design) {
   for (const auto& [of, against] : curves) {
     study.curves.push_back({of, against, envelope_curve(design, of, against)});
   }
-  const double area = *design.tether.cross_section;
   const auto aside = std::ranges::find(study.greatest, Reach::offset, &ReachResult::reach);
-  const bool is_aside = design.flight.horizontal_offset != 0;
-  if (is_aside || aside == study.greatest.end() || !aside->end) {
-    study.side = worst_side(design, area);
-  } else {
-    study.side = worst_side(at_reach(design, Reach::offset, aside->end->value), area);
-  }
+  const bool at_its_end =
+      design.flight.horizontal_offset == 0 && aside != study.greatest.end() && aside->end;
+  study.side = worst_side(at_its_end ? at_reach(design, Reach::offset, aside->end->value) : design,
+                          *design.tether.cross_section);
   return study;
 }
 
