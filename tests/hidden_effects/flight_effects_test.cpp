@@ -1,5 +1,6 @@
 // Flights that hide known effects: what a diagnosis must say of them. Rates are asserted with room
 // for chance; the whole confusion matrix is printed by the program confusion_matrix.
+#include <fmt/format.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -135,7 +136,11 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
         if (d.findings.empty() || d.findings[0].effect != c.effect) continue;
         ++named;
         const ParameterEstimate& p = d.findings[0].parameters[0];
-        covered += p.ci95_lower <= strength && strength <= p.ci95_upper ? 1 : 0;
+        const bool holds = p.ci95_lower <= strength && strength <= p.ci95_upper;
+        covered += holds ? 1 : 0;
+        if (!holds)
+          failures +=
+              fmt::format("{} {}: {} to {}\n", c.effect, strength, p.ci95_lower, p.ci95_upper);
       }
     }
   }
