@@ -39,6 +39,25 @@ class Wander {
   double value_ = 0;
 };
 
+/// What follows with a lag of first order. Between two steps what is followed changes evenly: taken
+/// at their ends alone it would be followed half a step sooner or later than the lag says.
+class Lagging {
+ public:
+  explicit Lagging(double lag) : keep_(lag > 0 ? std::exp(-step / lag) : 0), is_late_(lag > 0) {}
+  double next(double followed) {
+    const double halfway = is_late_ ? (before_ + followed) / 2 : followed;
+    before_ = followed;
+    value_ = keep_ * value_ + (1 - keep_) * halfway;
+    return value_;
+  }
+
+ private:
+  double keep_;
+  bool is_late_;
+  double before_ = 0;
+  double value_ = 0;
+};
+
 /// Forward and backward passes: tilt into the motion, hold, tilt against it, with pauses.
 class Pilot {
  public:
@@ -232,8 +251,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
   double north = 0;  // m from the start
   double east = 0;
   double drifting = 0;  // m/s to the right, where the roll moves the drone
-  double lagging_north = 0;
-  double lagging_east = 0;
+  Lagging lagging_north{h.velocity_lag};
+  Lagging lagging_east{h.velocity_lag};
   double airspeed_sum = 0;
   double lift_sum = 0;
   double next_turn = 40;
@@ -314,12 +333,11 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
 
     const double late_tilt = logged_tilt.next(tilt);
     const double late_roll = both_axes ? logged_roll.next(roll) : roll;
-    const double follow = h.velocity_lag > 0 ? 1 - std::exp(-step / h.velocity_lag) : 1;
     // An estimator smooths what it knows of the way over ground.
-    lagging_north += follow * (speed * std::cos(yaw) - right * std::sin(yaw) - lagging_north);
-    lagging_east += follow * (speed * std::sin(yaw) + right * std::cos(yaw) - lagging_east);
-    const double lagging_forward = lagging_north * std::cos(yaw) + lagging_east * std::sin(yaw);
-    const double lagging_right = lagging_east * std::cos(yaw) - lagging_north * std::sin(yaw);
+    const double logged_north = lagging_north.next(speed * std::cos(yaw) - right * std::sin(yaw));
+    const double logged_east = lagging_east.next(speed * std::sin(yaw) + right * std::cos(yaw));
+    const double lagging_forward = logged_north * std::cos(yaw) + logged_east * std::sin(yaw);
+    const double lagging_right = logged_east * std::cos(yaw) - logged_north * std::sin(yaw);
     if (k % static_cast<std::size_t>(h.steps_per_sample) == 0) {
       const auto hundredth = [](double angle) {
         return std::round(angle / degree * 100) / 100 * degree;
