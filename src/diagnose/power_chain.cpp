@@ -81,12 +81,14 @@ PowerLog without_errors(PowerLog log, const PowerInstruments& instruments) {
 }
 
 const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
-    const PowerModel& model, const PowerLog& log) {
+    const PowerModel& model, const PowerLog& log, HangingLoads& loads) {
   const Design& design = model.design;
-  const double radius = conductor_radius(*design.tether.cross_section);
   // What a search moves most often and no heat depends on, at the measured current, is left out.
   Tether tether = design.tether;
-  tether.contact_resistance = tether.drag_coefficient = tether.winch_pull = tether.slack = 0;
+  tether.contact_resistance = 0;
+  if (tether.model == TetherModel::straight) {
+    tether.drag_coefficient = tether.winch_pull = tether.slack = 0;
+  }
   PowerInstruments instruments = model.instruments;
   instruments.supply_voltage_gain = instruments.bus_current_gain = 1;
   instruments.drone_voltage_offset = 0;
@@ -103,12 +105,12 @@ const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
   if (known_.size() == kept) known_.pop_back();
   Known& latest = known_.emplace_front(
       Known{std::move(tether), design.flight, design.supply.voltage, instruments, model.slack, {}});
-  Design straight = design;
-  straight.tether.model = TetherModel::straight;
+  FlownDesign flown(design, loads);
   for (std::size_t i = 0; i < log.time.size(); ++i) {
-    const SteadyFlight flight(straight, state_at(model, log, i));
-    latest.temperatures.push_back(
-        TetherHeat(flight, radius).temperatures(std::abs(log.supply_current[i])));
+    const SteadyFlight* hangs = flown.in(state_at(model, log, i));
+    auto& warm = latest.temperatures.emplace_back();
+    if (hangs == nullptr) continue;
+    warm = TetherHeat(*hangs, flown.radius()).temperatures(std::abs(log.supply_current[i]));
   }
   return latest.temperatures;
 }
@@ -151,8 +153,9 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
                                     ChainMemory& memory) {
   const Tether& tether = model.design.tether;
   const bool measured = tether.heating.rise_per_loss > 0;
-  const auto* warm =
-      is_heated(tether) && !measured ? &memory.heat.temperatures(model, log) : nullptr;
+  const auto* warm = is_heated(tether) && !measured
+                         ? &memory.heat.temperatures(model, log, memory.loads)
+                         : nullptr;
   double rise = 0;  // K over the air, of a cable whose heating was measured
   std::vector<double> resistance(log.time.size());
   FlownDesign flown(model.design, memory.loads);

@@ -54,7 +54,7 @@ class CableHeat {
   /// are none. `log` is without the errors of the model's instruments, and otherwise that of the
   /// call before.
   [[nodiscard]] const std::vector<std::optional<TetherTemperatures>>& temperatures(
-      const PowerModel& model, const PowerLog& log);
+      const PowerModel& model, const PowerLog& log, HangingLoads& loads);
 
  private:
   struct Known {

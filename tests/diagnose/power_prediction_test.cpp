@@ -8,6 +8,7 @@
 #include "model/constants.hpp"
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
+#include "tethercalc/model/operating_point.hpp"
 
 using namespace tethercalc;
 
@@ -108,5 +109,35 @@ TEST_CASE("a power effect at its neutral values changes no prediction, beyond it
       effect.on_power(changed, values);
       CHECK(largest_change(plain, predictions(changed, log)) > 1e-9);
     }
+  });
+}
+
+TEST_CASE("the drum warms as in the simulation with what a hanging cable leaves on it") {
+  test::each_random(6, [](test::Random& random) {
+    Design design = test::published_design();
+    const double area = random.uniform(0.9e-6, 1.5e-6);
+    design.tether.cross_section = area;
+    design.tether.conductor.temperature_coefficient = 0.004;
+    design.tether.ambient_temperature_C = 20;
+    design.tether.model = TetherModel::solved;
+    design.tether.slack = random.uniform(0.2, 0.4);
+    design.tether.spooled_length = random.uniform(15, 30);
+    design.tether.drum.core_diameter = 0.1;
+    design.tether.drum.width = 0.03;
+    design.supply.voltage = 150;
+    PowerLog log;
+    std::vector<double> resistance;
+    for (const double height : {8.0, 15.0, 25.0}) {
+      const FlightState state = flight_state_at(design, height, random.uniform(3, 9), {});
+      const OperatingPoint point = evaluate(design, area, state);
+      REQUIRE(point.total_power > 0);
+      resistance.push_back(point.tether_resistance);
+      log.time.push_back(height);
+      log.height.push_back(height);
+      log.airspeed.push_back(state.airspeed);
+      log.supply_current.push_back(point.current);
+    }
+    ChainMemory memory;
+    CHECK(largest_change(resistance, loop_resistance({.design = design}, log, memory)) < 1e-5);
   });
 }
