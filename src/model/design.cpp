@@ -33,12 +33,8 @@ Drone drone_in_flight(const Design& design) {
 
 std::optional<UnscaledMotors> unscaled_motors(const Design& design) {
   constexpr double noticeable = 0.03;
-  const double density = design.flight.air_density;
-  const double ratio = density / standard_air_density;
-  if (bench_air_density(design.drone) || density == Flight{}.air_density ||
-      std::abs(ratio - 1) <= noticeable) {
-    return std::nullopt;
-  }
+  const double ratio = design.flight.air_density / standard_air_density;
+  if (bench_air_density(design.drone) || std::abs(ratio - 1) <= noticeable) return std::nullopt;
   return UnscaledMotors{ideal_power_in_air(ratio), ratio};
 }
 

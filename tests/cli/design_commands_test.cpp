@@ -315,20 +315,27 @@ TEST_CASE(
   const std::vector<std::string> strong{"optimize", published, "--set", "supply.voltage_V=400"};
   const std::string plain = run_tethercalc(strong).out;
   CHECK_THAT(plain, Contains("Nothing that was checked limits it") && Contains("Not checked"));
-  for (const char* field : {"tether.ambient_temperature_C", "requirements.strength_safety_factor",
-                            "tether.insulation.dielectric_safety_factor"}) {
+  for (const char* field :
+       {"tether.ambient_temperature_C", "requirements.strength_safety_factor",
+        "tether.insulation.dielectric_safety_factor", "drone.motor_air_density_kg_m3"}) {
     CHECK_THAT(plain, Contains(field));
   }
   std::vector<std::string> one = strong;
   one.insert(one.end(), {"--set", "tether.ambient_temperature_C=20"});
   CHECK_THAT(run_tethercalc(one).out,
              Contains("Not checked") && !Contains("tether.ambient_temperature_C"));
+  for (const char* air : {"flight.air_density_kg_m3=1.225", "flight.air_density_kg_m3=1.1"}) {
+    one.back() = air;  // as in the standard's, or with a note that has the figures
+    CHECK_THAT(run_tethercalc(one).out, !Contains("the air of the motors' bench"));
+  }
+  one.back() = "tether.ambient_temperature_C=20";
   std::vector<std::string> all = one;
   all.insert(all.end(), {"--set", "tether.insulation.material=etfe", "--set",
                          "requirements.strength_safety_factor=3", "--set",
                          "tether.insulation.dielectric_safety_factor=2", "--set",
                          "tether.strength_member.material=aramid", "--set",
-                         "tether.strength_member.cross_section_mm2=0.5"});
+                         "tether.strength_member.cross_section_mm2=0.5", "--set",
+                         "drone.motor_air_density_kg_m3=1.293"});
   const Ran checked = run_tethercalc(all);
   INFO(checked.err);
   REQUIRE(checked.exit_code == 0);

@@ -102,7 +102,7 @@ struct UnscaledMotors {
 
 /// That, of a curve measured in `standard_air_density`, as `MotorCurve::in_air` has it. Nothing
 /// where the air of the bench is stated, so that the curve is scaled, and where that of the flight
-/// is within 3 % of the standard one or is the published method's, 1.293 kg/m³.
+/// is within 3 % of the standard one.
 [[nodiscard]] std::optional<UnscaledMotors> unscaled_motors(const Design& design);
 
 /// Wind at the drone in m/s, `tether.length` over its station: `headwind`, or what the profile

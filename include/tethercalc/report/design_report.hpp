@@ -27,8 +27,9 @@ namespace tethercalc {
 /// The limit in a word or three, for a table: "least power", "heat".
 [[nodiscard]] std::string limit_in_short(Limit limit);
 
-/// Which of heat, strength and the insulation's wall the design was not held to, with the fields
-/// that would have it checked; empty where all are.
+/// Which of heat, strength and the insulation's wall the design was not held to, and that the air
+/// of the motors' bench is not known where the published method's is flown in, with the fields that
+/// would have it checked; empty where all are.
 [[nodiscard]] std::string unchecked_sentence(const Design& design);
 
 /// What binds where this demand does: "The converter's rated 450 W".
@@ -70,7 +71,8 @@ namespace tethercalc {
                                                   std::span<const AreaPoints> flown);
 
 /// That the density of the air does not reach the motor's curve, and what that comes to; nothing
-/// where `unscaled_motors` finds nothing to tell.
+/// where `unscaled_motors` finds nothing to tell, and in the published method's 1.293 kg/m³, where
+/// `unchecked_sentence` has it.
 [[nodiscard]] std::optional<Warning> density_warning(const Design& design);
 
 /// That the drag is an estimate, which one, and by how much it may be off; nothing where it is not.
