@@ -21,6 +21,7 @@ constexpr double emissivity = 0.9;    // CIGRE TB 601: 0.8 to 0.9 for weathered 
 constexpr double absorptivity = 0.9;  // likewise
 constexpr double pair_surface_share = (pi + 2) / (2 * pi);
 constexpr double steepest_known_inclination = pi / 3;
+const double hanging_in_still_air = cigre601_inclination_factor(steepest_known_inclination);
 
 double kelvin(double celsius) { return celsius + zero_celsius_K; }
 
@@ -170,7 +171,7 @@ ConductorHeat::ConductorHeat(const Tether& tether, double radius, double wall,
       diameter_(2 * (radius + wall)),
       surface_share_(pair_surface_share),
       wind_share_(around.inclination ? cigre601_attack_factor(*around.inclination) : 1),
-      still_air_share_(cigre601_inclination_factor(steepest_known_inclination)),
+      still_air_share_(hanging_in_still_air),
       density_0C_(density_at_zero(around)) {
   const double around_metal = 2 * pi * insulation_conductivity(tether.insulation);
   thermal_resistance_ = std::log((radius + wall) / radius) / around_metal;

@@ -67,7 +67,15 @@ double landing_thrust(const Drone& drone, double mass, const Landing& landing) {
 
 namespace {
 
-/// What a drone of `takeoff` kg asks for, of which `mass` are not battery.
+/// A drone of `mass` kg without the battery that lands it.
+struct Lander {
+  const Drone& drone;
+  const Landing& landing;
+  double mass = 0;
+  double per_watt = 0;  ///< kg of battery
+};
+
+/// What it asks for with a take-off mass.
 struct Ask {
   double takeoff = 0;  ///< kg
   double tan_pitch = 0;
@@ -76,13 +84,13 @@ struct Ask {
   double missing = 0;     ///< kg of battery asked for beyond what there is
 };
 
-Ask ask_at(const Drone& drone, double takeoff, double mass, const Landing& landing) {
+Ask ask_at(const Lander& lander, double takeoff) {
+  const auto& [drone, landing, mass, per_watt] = lander;
   const ForceBalance balance = force_balance(drone, takeoff, landing);
   const double tangent = equilibrium_tan_pitch(balance, infinity);
   Ask ask{takeoff, tangent, inclined_thrust(balance, tangent, landing.gravity, 0)};
   ask.share = translational_lift_share(drone.translational_lift, landing.airspeed, tangent).value;
   const double per_motor = drone.motor.power(ask.thrust.value / drone.motor_count);
-  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
   ask.missing = per_watt * battery_power(drone, per_motor, ask.share) - (takeoff - mass);
   return ask;
 }
@@ -94,9 +102,8 @@ bool thrust_bends_up(const Ask& at) { return at.tan_pitch * at.tan_pitch <= 0.5;
 
 /// The take-off mass where nothing is missing at the earliest, were the motors to draw `share` of
 /// their data-sheet power on `piece` of their curve.
-double earliest_takeoff(const Drone& drone, const Ask& at, std::size_t piece, double share,
-                        double mass, const Landing& landing) {
-  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
+double earliest_takeoff(const Lander& lander, const Ask& at, std::size_t piece, double share) {
+  const auto& [drone, landing, mass, per_watt] = lander;
   const MotorPoint& start = drone.motor.vertices()[piece];
   const double beyond = at.thrust.value / drone.motor_count - start.thrust;
   const double power = start.power + drone.motor.slope(piece) * beyond;
@@ -109,11 +116,9 @@ double earliest_takeoff(const Drone& drone, const Ask& at, std::size_t piece, do
 
 /// Whether from `at` to `end`, on `piece` of the motors' curve, a heavier drone is sure to ask for
 /// less battery more than it is heavier.
-bool lags_behind(const Drone& drone, const Ask& at, const Ask& end, std::size_t piece,
-                 const Landing& landing) {
-  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
+bool lags_behind(const Lander& lander, const Ask& at, const Ask& end, std::size_t piece) {
   return thrust_bends_up(at) &&
-         per_watt * power_per_newton(drone, piece, at.share) * end.thrust.slope < 1;
+         lander.per_watt * power_per_newton(lander.drone, piece, at.share) * end.thrust.slope < 1;
 }
 
 /// The take-off mass between two at which nothing is missing any more.
@@ -139,7 +144,9 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
   constexpr double longest = 0.3;  // relative to the mass
   constexpr double shortest = 1e-3;
   double stride = longest;
-  const auto ask = [&](double takeoff) { return ask_at(drone, takeoff, mass, landing); };
+  const Lander lander{drone, landing, mass,
+                      battery_mass_per_watt(drone.reserve_battery, landing.height)};
+  const auto ask = [&](double takeoff) { return ask_at(lander, takeoff); };
   const auto vertices = drone.motor.vertices();
   Ask at = ask(mass);
   for (std::size_t i = drone.motor.piece(at.thrust.value / drone.motor_count);
@@ -149,7 +156,7 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
       if (!(at.missing > 0)) return at.takeoff - mass;
       if (!share_changes && thrust_bends_up(at)) {
         // Newton's method, which squares the error in every step, and is exact in still air.
-        const double next = earliest_takeoff(drone, at, i, 1, mass, landing);
+        const double next = earliest_takeoff(lander, at, i, 1);
         const bool last = is_still(landing) || next - at.takeoff <= 1e-8 * next;
         if (last && next <= upper) return next - mass;
         at = ask(std::min(next, upper));
@@ -157,9 +164,9 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
       }
       const Ask end = ask(std::min(at.takeoff * (1 + stride), upper));
       const bool one_root =
-          lags_behind(drone, at, end, i, landing) || end.takeoff <= at.takeoff * (1 + shortest);
+          lags_behind(lander, at, end, i) || end.takeoff <= at.takeoff * (1 + shortest);
       if (one_root && !(end.missing > 0)) return takeoff_between(at, end, ask) - mass;
-      const double from = earliest_takeoff(drone, at, i, end.share, mass, landing);
+      const double from = earliest_takeoff(lander, at, i, end.share);
       if (one_root || !(from < end.takeoff)) {
         at = end;
         stride = std::min(longest, 4 * stride);
@@ -173,7 +180,8 @@ double reserve_battery_mass(const Drone& drone, double mass, const Landing& land
 }
 
 double mass_beside_battery(const Drone& drone, double takeoff_mass, const Landing& landing) {
-  return -ask_at(drone, takeoff_mass, 0, landing).missing;
+  const double per_watt = battery_mass_per_watt(drone.reserve_battery, landing.height);
+  return -ask_at({drone, landing, 0, per_watt}, takeoff_mass).missing;
 }
 
 double heaviest_landing(const Drone& drone, const Landing& landing) {
@@ -189,20 +197,21 @@ BatteryGrowth reserve_battery_growth(const Drone& drone, double takeoff_mass,
   const InclinedThrust by_mass = inclined_thrust(balance, tangent, landing.gravity, 0);
   const InclinedThrust by_drag =
       tangent == 0 ? InclinedThrust{} : inclined_thrust(balance, tangent, 0, 1);
-  const std::size_t piece = drone.motor.piece(by_mass.value / drone.motor_count);
+  const double thrust = by_mass.value / drone.motor_count;
+  const std::size_t piece = drone.motor.piece(thrust);
   const PowerShare share =
       translational_lift_share(drone.translational_lift, landing.airspeed, tangent);
   const double price = per_watt * power_per_newton(drone, piece, share.value);
   double more = price * by_mass.slope;
   double more_by_drag = price * by_drag.slope;
   if (share.slope != 0) {
-    const double power = drone.motor.power(by_mass.value / drone.motor_count);
+    const double power = drone.motor.power(thrust);
     const double by_share = per_watt * (battery_power(drone, power, 1) - drone.auxiliary_power);
     more += by_share * share.slope * by_mass.tan_slope;
     more_by_drag += by_share * share.slope * by_drag.tan_slope;
   }
-  if (!(more < 1)) return {infinity, infinity};
-  return {more / (1 - more), more_by_drag / (1 - more)};
+  if (!(more < 1)) return {infinity, infinity, thrust};
+  return {more / (1 - more), more_by_drag / (1 - more), thrust};
 }
 
 double mass_without_battery(const Drone& drone, double takeoff_mass, double height,

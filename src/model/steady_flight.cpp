@@ -100,12 +100,15 @@ SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
   const double bare = mass_without_battery_at(radius);
   const double battery = reserve_battery_mass(drone(), bare, landing);
   const double weight = lifted(radius, mass + battery);
-  if (!(battery < std::numeric_limits<double>::infinity())) return {weight, slope};
+  if (!(battery < std::numeric_limits<double>::infinity())) {
+    return {weight, slope, battery};
+  }
   const BatteryGrowth growth = reserve_battery_growth(drone(), bare + battery, landing);
   const double carried = tether_.straight().mass_slope(radius) * gravity_;
   const double blown = landing_.drag_slope * growth.by_drag * gravity_;
-  return {weight, tether_.is_solved() ? slope + carried * growth.by_mass + blown
-                                      : slope * (1 + growth.by_mass) + blown};
+  const double grown =
+      tether_.is_solved() ? slope + carried * growth.by_mass : slope * (1 + growth.by_mass);
+  return {weight, grown + blown, growth.thrust};
 }
 
 double SteadyFlight::radius_of_weight(double weight) const {

@@ -83,9 +83,8 @@ class FlightDemands {
   [[nodiscard]] int trend(const ThrustAt& a, const ThrustAt& b) const {
     // Nothing is known of how the load of a solved tether bends, nor a share of the power.
     if (flight_.tether().is_solved() || flight_.share_changes()) return 0;
-    if (!convex_weight_ && flight_.battery_piece(a.radius) != flight_.battery_piece(b.radius)) {
-      return 0;
-    }
+    const MotorCurve& motor = flight_.motor();
+    if (!convex_weight_ && motor.piece(a.landing_thrust) != motor.piece(b.landing_thrust)) return 0;
     const Range price = price_of_thrust(a, b);
     const StraightTether& tether = flight_.tether().straight();
     // V²/R = V²/(c + k/r²) rises with V²·2k·r/(c·r² + k)².
@@ -507,7 +506,7 @@ class BestHeadroomSearch {
           std::isnan(thrust) ? nan : at_thrust(flight_, thrust, lo, hi, a.at).radius;
       if (inside(kink)) return kink;
     }
-    return battery_kink(flight_, lo, hi);
+    return battery_kink(flight_, a.at, b.at);
   }
 
   /// The radius at which what arrives brings the converter to its rating or from one piece of its

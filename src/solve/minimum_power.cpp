@@ -440,7 +440,7 @@ class LeastPowerSearch {
     const MotorCurve& motor = flight_.motor();
     const bool any_kink = !is_proportional(flight_.design().supply.converter);
     const double battery =
-        motor.is_convex() && !any_kink ? nan : battery_kink(flight_, a.radius, b.radius, any_kink);
+        motor.is_convex() && !any_kink ? nan : battery_kink(flight_, a, b, any_kink);
     if (!std::isnan(battery)) return thrust_at(flight_, battery, a.tan_guess(battery));
     const double thrust = motor.is_convex() && !any_kink
                               ? nan
@@ -458,7 +458,7 @@ class LeastPowerSearch {
   /// ends all the way to the other.
   [[nodiscard]] bool rises_from_bottom(const ThrustAt& a, const ThrustAt& b) const {
     if (best_.radius != bottom_ || !(a.radius == bottom_ || b.radius == bottom_)) return false;
-    if (!flight_.motor().is_convex() && battery_bends(flight_, a.radius, b.radius)) {
+    if (!flight_.motor().is_convex() && battery_bends(flight_, a, b)) {
       return false;
     }
     return bends_up(a, b, flight_.motor().convex_hull(), false);
@@ -491,8 +491,7 @@ class LeastPowerSearch {
     }
     // A slope that an efficiency bends down may vanish again beyond a kink that bends it up.
     const Pieces pieces = pieces_between(motor, a.thrust.value, b.thrust.value);
-    const bool kinked =
-        pieces.first != pieces.last || battery_bends(flight_, a.radius, b.radius, true);
+    const bool kinked = pieces.first != pieces.last || battery_bends(flight_, a, b, true);
     if (b.radius < narrow * a.radius && !kinked) return true;
     // Where the slope vanishes, the power bends up by 3/r for the losses, and down by what the
     // efficiency gains twice over where it rises with the load.

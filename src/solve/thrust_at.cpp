@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "model/constants.hpp"
 
@@ -9,7 +10,10 @@ namespace tethercalc {
 
 ThrustAt thrust_at(const SteadyFlight& flight, double radius, double tan_guess) {
   const SteadyFlight::Balance balance = flight.balance(radius, tan_guess);
-  ThrustAt at{radius, balance.tan_pitch, balance.thrust};
+  ThrustAt at{.radius = radius,
+              .tan_pitch = balance.tan_pitch,
+              .thrust = balance.thrust,
+              .landing_thrust = balance.landing_thrust};
   if (flight.share_changes() && balance.tan_pitch < infinity) {
     const PowerShare share = flight.power_share(balance.tan_pitch);
     at.share = share.value;
@@ -136,10 +140,11 @@ void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
 
 /// The first piece of the motor curve, of those that the reserve battery passes to strictly between
 /// two radii, at whose start its mass bends; 0 where there is none.
-std::size_t bent_battery_piece(const SteadyFlight& flight, double lo, double hi, bool either_way) {
+std::size_t bent_battery_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
+                               bool either_way) {
   const MotorCurve& motor = flight.motor();
-  const std::size_t last = flight.battery_piece(hi * (1 - kink_rounding));
-  for (std::size_t i = flight.battery_piece(lo * (1 + kink_rounding)) + 1; i <= last; ++i) {
+  const Pieces landed = pieces_between(motor, a.landing_thrust, b.landing_thrust);
+  for (std::size_t i = landed.first + 1; i <= landed.last; ++i) {
     if (either_way || motor.slope(i) < motor.slope(i - 1)) return i;
   }
   return 0;
@@ -188,13 +193,17 @@ double thrust_kink(const SteadyFlight& flight, double lo, double hi, double shar
                       flight.output_power(1, share));
 }
 
-bool battery_bends(const SteadyFlight& flight, double lo, double hi, bool either_way) {
-  return bent_battery_piece(flight, lo, hi, either_way) > 0;
+bool battery_bends(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
+                   bool either_way) {
+  return bent_battery_piece(flight, a, b, either_way) > 0;
 }
 
-double battery_kink(const SteadyFlight& flight, double lo, double hi, bool either_way) {
-  const std::size_t piece = bent_battery_piece(flight, lo, hi, either_way);
+double battery_kink(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
+                    bool either_way) {
+  const std::size_t piece = bent_battery_piece(flight, a, b, either_way);
   if (piece == 0) return nan;
+  const double lo = a.radius;
+  const double hi = b.radius;
   if (flight.tether().is_solved() || flight.lands_in_wind()) {
     double before = lo;
     double after = hi;
@@ -226,15 +235,15 @@ bool on_one_piece(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt&
          std::isnan(converter_kink(flight.design().supply.converter,
                                    flight.output_power(motor.power(lo), less),
                                    flight.output_power(motor.power(hi), more))) &&
-         !battery_bends(flight, a.radius, b.radius);
+         !battery_bends(flight, a, b);
 }
 
 TetherHeatState WarmTether::state(double power, double radius, double sunlit_radius,
                                   double last_step) const {
-  constexpr std::size_t most_known = 4;
+  const auto asked = std::span(known_).first(std::min(asked_, known_.size()));
   const Known* nearest = nullptr;
   double distance = infinity;
-  for (const Known& known : known_) {
+  for (const Known& known : asked) {
     if (known.power == power && known.radius == radius && known.sunlit_radius == sunlit_radius &&
         known.last_step <= last_step) {
       return known.state;
@@ -247,8 +256,7 @@ TetherHeatState WarmTether::state(double power, double radius, double sunlit_rad
   const TetherHeatState state =
       TetherHeat(flight_, radius, sunlit_radius)
           .carrying(power, nearest ? nearest->state : TetherHeatState{}, last_step);
-  if (known_.size() < most_known) known_.emplace_back();
-  known_[asked_++ % most_known] = {power, radius, sunlit_radius, last_step, state};
+  known_[asked_++ % known_.size()] = {power, radius, sunlit_radius, last_step, state};
   return state;
 }
 

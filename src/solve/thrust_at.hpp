@@ -1,9 +1,9 @@
 // The necessary thrust along the conductor's radius, with what makes the next one cheap.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether_heat.hpp"
@@ -16,8 +16,9 @@ struct ThrustAt {
   double radius = 0;
   double tan_pitch = 0;
   SteadyFlight::Thrust thrust;
-  double share = 1;        ///< `SteadyFlight::power_share` there
-  double share_slope = 0;  ///< its derivative by the radius
+  double share = 1;           ///< `SteadyFlight::power_share` there
+  double share_slope = 0;     ///< its derivative by the radius
+  double landing_thrust = 0;  ///< as in a `SteadyFlight::Balance`
 
   /// Where to look for the tangent of the tilt at a radius nearby.
   [[nodiscard]] double tan_guess(double at_radius) const {
@@ -71,11 +72,11 @@ struct Pieces {
                                                        const ThrustAt& a, const ThrustAt& b);
 
 /// Whether the reserve battery's mass bends down strictly between two radii, or bends either way.
-[[nodiscard]] bool battery_bends(const SteadyFlight& flight, double lo, double hi,
+[[nodiscard]] bool battery_bends(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
                                  bool either_way = false);
 
 /// A radius strictly between two where it does; NaN where there is none.
-[[nodiscard]] double battery_kink(const SteadyFlight& flight, double lo, double hi,
+[[nodiscard]] double battery_kink(const SteadyFlight& flight, const ThrustAt& a, const ThrustAt& b,
                                   bool either_way = false);
 
 /// The heat of the tether of one flight, asked for at one place after another nearby.
@@ -98,7 +99,7 @@ class WarmTether {
   };
 
   const SteadyFlight& flight_;
-  mutable std::vector<Known> known_;  ///< the last few that were asked for
+  mutable std::array<Known, 4> known_{};  ///< the last that were asked for
   mutable std::size_t asked_ = 0;
 };
 

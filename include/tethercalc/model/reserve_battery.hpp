@@ -62,6 +62,7 @@ struct Landing {
 struct BatteryGrowth {
   double by_mass = 0;  ///< kg for a kilogram more without it
   double by_drag = 0;  ///< kg for 1 N more drag of the tether
+  double thrust = 0;   ///< N, of one motor as the battery lands the drone
 };
 
 /// At a take-off mass of `takeoff_mass` kg; +infinity where a kilogram more of battery asks for

@@ -144,17 +144,18 @@ class SteadyFlight {
 
   /// Tilt and thrust of the equilibrium, where no limit holds the tilt.
   struct Balance {
-    double tan_pitch = 0;  ///< of the tilt
-    Thrust thrust;         ///< N per motor, and how it changes
+    double tan_pitch = 0;       ///< of the tilt
+    Thrust thrust;              ///< N per motor, and how it changes
+    double landing_thrust = 0;  ///< N of one motor as the battery lands it; 0 without
   };
   /// The balance at `radius`; `tan_guess` saves iterations.
   [[nodiscard]] Balance balance(double radius, double tan_guess) const {
     const Weight weight = weighed(radius);
     constexpr double none = std::numeric_limits<double>::infinity();
-    if (weight.value == none) return {none, {none, 0, 0}};
+    if (weight.value == none) return {none, {none, 0, 0}, weight.landing_thrust};
     const double tangent =
         tan_pitch(radius, weight.value, std::numeric_limits<double>::infinity(), tan_guess);
-    return {tangent, thrust_of(radius, weight, tangent)};
+    return {tangent, thrust_of(radius, weight, tangent), weight.landing_thrust};
   }
 
   // --- Power ---
@@ -212,6 +213,7 @@ class SteadyFlight {
   struct Weight {
     double value = 0;
     double slope = 0;
+    double landing_thrust = 0;  ///< as in a `Balance`
   };
   [[nodiscard]] Weight weighed(double radius) const;
   [[nodiscard]] Thrust thrust_of(double radius, Weight weight, double tan_pitch) const;
