@@ -76,7 +76,8 @@ TEST_CASE("a wind that is measured is no finding, and its drag is followed") {
 }
 
 TEST_CASE("a hidden effect is found first, with the truth within its interval") {
-  constexpr int repeats = std::max(1, test::draws(8) / 4);
+  constexpr int repeats = 2;
+  std::size_t number = 0;
   int flights = 0;
   int first = 0;
   int named = 0;
@@ -86,6 +87,7 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
     for (const double strength : c.strengths) {
       for (int repeat = 0; repeat < repeats; ++repeat) {
         HiddenFlight hidden = drawn_flight(++seed);
+        if (number++ % test::stride() != 0) continue;
         hidden.*(c.field) = strength;
         const Diagnosis d = diagnosed(hidden);
         INFO(c.effect << " " << strength << " seed " << seed);
@@ -101,7 +103,6 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
   }
   // Asked for: 95 % and 90 %. Of 36 flights, 33 right and 29 covered leave three standard
   // deviations.
-  CHECK(flights == 18 * repeats);
   CHECK(first >= flights - 3);
   CHECK(named >= flights - 6);
   CHECK(covered >= named - 7);
@@ -116,7 +117,8 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
                                 {"yaw_misalign", &HiddenFlight::yaw_misalign, {-12, 18}},
                                 {"velocity_lag", &HiddenFlight::velocity_lag, {0.1, 0.25}},
                                 {"velocity_scale", &HiddenFlight::velocity_scale, {1.2, 0.8}}};
-  constexpr int repeats = std::max(1, test::draws(8) / 4);
+  constexpr int repeats = 2;
+  std::uint64_t number = 0;
   int flights = 0;
   int first = 0;
   int named = 0;
@@ -125,7 +127,8 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
   for (const Case& c : wider) {
     for (const double strength : c.strengths) {
       for (int repeat = 0; repeat < repeats; ++repeat) {
-        HiddenFlight hidden = drawn_flight(1500 + static_cast<std::uint64_t>(flights));
+        HiddenFlight hidden = drawn_flight(1500 + number);
+        if (number++ % test::stride() != 0) continue;
         hidden.duration = 540;
         hidden.*(c.field) = strength;
         const Diagnosis d = diagnosed(hidden);
@@ -147,7 +150,6 @@ TEST_CASE("what happens at once, comes and goes, pulls aside or is misread is fo
   // Asked for: 95 % of each. Seen: 99 % right, and 96 % of 900 covered. Of 32 flights five that are
   // not covered leave a chance of one in 250 at 95 %.
   INFO(failures);
-  CHECK(flights == 16 * repeats);
   CHECK(first >= flights - 3);
   CHECK(covered >= named - 5);
 }
@@ -206,9 +208,10 @@ TEST_CASE("a velocity lags over ground, and a wind drifts there, whichever way t
 }
 
 TEST_CASE("a pull over ground keeps its size and its side while the drone turns") {
+  const int flights = test::draws(4);
   int right = 0;
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    HiddenFlight hidden = drawn_flight(1650 + seed);
+  for (int draw = 0; draw < flights; ++draw) {
+    HiddenFlight hidden = drawn_flight(1651 + static_cast<std::uint64_t>(draw));
     hidden.yaw_turns = true;
     hidden.wind = 0;  // none turns with a drone
     hidden.tether_pull = 1.2;
@@ -231,7 +234,7 @@ TEST_CASE("a pull over ground keeps its size and its side while the drone turns"
     REQUIRE_FALSE(d.notes.empty());
     CHECK(d.notes.back().sentence.find("mean heading") != std::string::npos);
   }
-  CHECK(right >= 3);
+  CHECK(right >= flights - 1);
 }
 
 TEST_CASE("a pull that grows with the distance is told from one that stays, and both are sized") {
@@ -306,7 +309,7 @@ TEST_CASE("a log that samples ten times as fast says the same") {
 TEST_CASE("nothing hidden, nothing found") {
   int alarms = 0;
   int structure = 0;
-  constexpr int flights = test::draws(200);
+  constexpr int flights = test::draws(120);
   for (int i = 0; i < flights; ++i) {
     const Diagnosis d = diagnosed(drawn_flight(2000 + static_cast<std::uint64_t>(i)));
     alarms += d.findings.empty() ? 0 : 1;

@@ -153,8 +153,9 @@ void check_pairs(std::size_t remainder) {
   CHECK(found >= 0.72 * pairs - may_miss);
 }
 
-/// Of a hundred 5 %; of few logs one may be.
-constexpr int most_alarms = std::max(1, test::draws(100) / 20);
+constexpr int quiet_logs = test::draws(60);
+/// 5 %; of few logs one may be.
+constexpr int most_alarms = std::max(1, quiet_logs / 20);
 
 PowerLog practice_log(const char* name) {
   const auto path = test::reference_file(std::string("data/practice/") + name);
@@ -163,12 +164,12 @@ PowerLog practice_log(const char* name) {
 
 }  // namespace
 
-TEST_CASE("a power log without hidden effects yields findings in at most 5 %, first hundred") {
-  CHECK(false_alarms(test::draws(100), 0) <= most_alarms);
+TEST_CASE("a power log without hidden effects yields findings in at most 5 %, first half") {
+  CHECK(false_alarms(quiet_logs, 0) <= most_alarms);
 }
 
-TEST_CASE("a power log without hidden effects yields findings in at most 5 %, second hundred") {
-  CHECK(false_alarms(test::draws(100), 100) <= most_alarms);
+TEST_CASE("a power log without hidden effects yields findings in at most 5 %, second half") {
+  CHECK(false_alarms(quiet_logs, 100) <= most_alarms);
 }
 
 TEST_CASE("a voltmeter that is off by thousandths is named, and no volt is predicted worse") {
@@ -336,7 +337,8 @@ TEST_CASE("two power effects at once are both found, first half of the pairs") {
 TEST_CASE("two power effects at once are both found, second half of the pairs") { check_pairs(1); }
 
 TEST_CASE("what no power effect describes is seen, with its channel, and not given a name") {
-  constexpr int sizes = std::max(2, test::draws(10));
+  constexpr int sizes = 10;
+  std::uint64_t number = 0;
   int right = 0;
   int total = 0;
   std::string failures;
@@ -344,8 +346,9 @@ TEST_CASE("what no power effect describes is seen, with its channel, and not giv
   for (const UnknownEffect& unknown : unknown_effects()) {
     for (int i = 0; i < sizes; ++i) {
       Scenario scenario;
-      scenario.seed = seed(300'000 + static_cast<std::uint64_t>(total));
+      scenario.seed = seed(300'000 + number);
       scenario.hidden.step_at = random.uniform(0.25, 0.75);
+      if (number++ % test::stride() != 0) continue;
       unknown.hide(scenario.hidden, i / (sizes - 1.0));
       const Diagnosis d = diagnosis_of(scenario);
       const bool ok = d.unexplained.detected && d.unexplained.channels.front() == unknown.channel &&
