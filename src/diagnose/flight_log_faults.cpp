@@ -16,8 +16,8 @@ constexpr double spike_bound = 10;
 /// A spike stands out from the line between its neighbours; on a flank or at a corner of honest
 /// motion the neighbours differ by as much.
 constexpr double spike_over_slope = 2;
-/// Of its size, in the samples beside it: half, less what noise may take of the smallest.
-constexpr double spike_shows_beside = 0.125;
+/// Of the corner beside: what rounding may leave.
+constexpr double on_a_line = 0.1;
 /// Seconds of one and the same value. An estimator at 10 Hz with two decimals repeats itself two or
 /// three times in calm flight.
 constexpr double stuck_after = 1.0;
@@ -25,32 +25,32 @@ constexpr double stuck_after = 1.0;
 std::size_t repair_spikes(std::vector<double>& series, const SampleRange& range,
                           std::vector<bool>& bad) {
   if (range.size() < 3) return 0;
-  const std::vector<double> read(series.begin() + static_cast<std::ptrdiff_t>(range.first),
-                                 series.begin() + static_cast<std::ptrdiff_t>(range.last));
-  std::vector<double> deviation(read.size(), 0);
-  std::vector<double> size;
-  for (std::size_t i = 1; i + 1 < read.size(); ++i) {
-    deviation[i] = read[i] - (read[i - 1] + read[i + 1]) / 2;
-    size.push_back(std::abs(deviation[i]));
+  const auto between = [&series](std::size_t i) { return (series[i - 1] + series[i + 1]) / 2; };
+  std::vector<double> deviation;  // from the second sample to the last but one
+  for (std::size_t i = range.first + 1; i + 1 < range.last; ++i) {
+    deviation.push_back(std::abs(series[i] - between(i)));
   }
-  const double bound = spike_bound * median(size);
-  // Beside a spike the line between neighbours is drawn to it, half as far; beside a corner of a
-  // log that was interpolated it is not.
-  const auto draws = [&](std::size_t spike, std::size_t beside) {
-    if (beside == 0 || beside + 1 == read.size()) return true;
-    return -deviation[beside] / deviation[spike] >= spike_shows_beside;
+  const double bound = spike_bound * median(deviation);
+  // Next to a corner of a log that was interpolated lies a sample on the line between its own
+  // neighbours; next to a spike they are drawn to that, half as far.
+  const auto is_corner = [&](std::size_t k) {
+    const double on_line = on_a_line * deviation[k];
+    return (k > 0 && deviation[k - 1] <= on_line) ||
+           (k + 1 < deviation.size() && deviation[k + 1] <= on_line);
   };
-  std::size_t count = 0;
-  for (std::size_t i = 1; i + 1 < read.size(); ++i) {
-    const double slope = std::abs(read[i + 1] - read[i - 1]);
-    if (size[i - 1] <= std::max(bound, spike_over_slope * slope)) continue;
-    if (!draws(i, i - 1) || !draws(i, i + 1)) continue;
-    const std::size_t sample = range.first + i;
-    series[sample] = (series[sample - 1] + series[sample + 1]) / 2;
-    bad[sample] = true;
-    ++count;
+  std::vector<std::size_t> spikes;
+  for (std::size_t k = 0; k < deviation.size(); ++k) {
+    const std::size_t i = range.first + 1 + k;
+    const double slope = std::abs(series[i + 1] - series[i - 1]);
+    if (deviation[k] > std::max(bound, spike_over_slope * slope) && !is_corner(k)) {
+      spikes.push_back(i);
+    }
   }
-  return count;
+  for (const std::size_t i : spikes) {
+    series[i] = between(i);
+    bad[i] = true;
+  }
+  return spikes.size();
 }
 
 bool constant(const std::vector<double>& series, const SampleRange& range) {

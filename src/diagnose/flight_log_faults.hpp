@@ -18,11 +18,11 @@ struct LogFaults {
 };
 
 /// Marks spikes (a sample that stands out from the line between its neighbours ten times as far as
-/// samples usually do, and twice as far as the neighbours are apart, and draws the lines through
-/// the neighbours to itself: Hampel's identifier on second differences, see Pearson, Outliers in
-/// Process Modeling and Identification, IEEE Trans. Control Systems Technology 10, 2002) and
-/// stretches of a second and more in which a channel repeats one value while it moves elsewhere.
-/// Spikes are replaced in `log` by that line, so that neighbours do not inherit them.
+/// samples usually do, and twice as far as the neighbours are apart, and is no corner between
+/// straight lines: Hampel's identifier on second differences, see Pearson, Outliers in Process
+/// Modeling and Identification, IEEE Trans. Control Systems Technology 10, 2002) and stretches of a
+/// second and more in which a channel repeats one value while it moves elsewhere. Spikes are
+/// replaced in `log` by that line, so that neighbours do not inherit them.
 [[nodiscard]] LogFaults repair_flight_log(FlightLog& log, const SampleRange& range);
 
 }  // namespace tethercalc
