@@ -408,14 +408,12 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
     diagnosis.findings.push_back(finding_of(log, selection, found));
     diagnosis.traces.push_back(trace_of(log, selection, found.group));
   }
-  const auto is_rival = [&](const Selection::Aliased& aliased) {
-    return std::ranges::any_of(selection.selected, [&](const SelectedGroup& found) {
-      return std::ranges::count(found.indistinguishable, aliased.group) > 0;
-    });
-  };
   for (const Selection::Aliased& aliased : selection.aliased) {
     // A rival's verdict is that it explains the log as well.
-    if (is_rival(aliased)) continue;
+    const auto has_as_rival = [&](const SelectedGroup& found) {
+      return contains(found.indistinguishable, aliased.group);
+    };
+    if (std::ranges::any_of(selection.selected, has_as_rival)) continue;
     diagnosis.not_identifiable.push_back(not_identifiable(log, aliased));
   }
   for (const Selection::Open& open : selection.open) tell_open(log, selection, open, diagnosis);

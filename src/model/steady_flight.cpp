@@ -100,9 +100,8 @@ SteadyFlight::Weight SteadyFlight::weighed(double radius) const {
   const double bare = mass_without_battery_at(radius);
   const double battery = reserve_battery_mass(drone(), bare, landing);
   const double weight = lifted(radius, mass + battery);
-  if (!(battery < std::numeric_limits<double>::infinity())) {
-    return {weight, slope, battery};
-  }
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  if (!(battery < unlimited)) return {weight, slope, unlimited};
   const BatteryGrowth growth = reserve_battery_growth(drone(), bare + battery, landing);
   const double carried = tether_.straight().mass_slope(radius) * gravity_;
   const double blown = landing_.drag_slope * growth.by_drag * gravity_;

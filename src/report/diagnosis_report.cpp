@@ -205,10 +205,8 @@ class Story {
         TitledTable{"Measured against predicted (rms, on parts of the log that were not fitted)",
                     std::move(table)});
     for (const HoldoutComparison& c : d_.further) {
-      if (!found || significant(c.extended_rmse, 3) == significant(c.base_rmse, 3) ||
-          c.extended_rmse < c.base_rmse) {
-        continue;
-      }
+      const bool shows = significant(c.extended_rmse, 3) != significant(c.base_rmse, 3);
+      if (!found || !shows || c.extended_rmse < c.base_rmse) continue;
       paragraph(fmt::format(
           "The findings were chosen by the {}. They predict the {} worse: do not rely on them for "
           "that.",

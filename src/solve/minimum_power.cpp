@@ -458,9 +458,7 @@ class LeastPowerSearch {
   /// ends all the way to the other.
   [[nodiscard]] bool rises_from_bottom(const ThrustAt& a, const ThrustAt& b) const {
     if (best_.radius != bottom_ || !(a.radius == bottom_ || b.radius == bottom_)) return false;
-    if (!flight_.motor().is_convex() && battery_bends(flight_, a, b)) {
-      return false;
-    }
+    if (!flight_.motor().is_convex() && battery_bends(flight_, a, b)) return false;
     return bends_up(a, b, flight_.motor().convex_hull(), false);
   }
 
