@@ -368,11 +368,10 @@ NoWayUp no_way_up(const Design& design, double area, Condition condition) {
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,
                                const Flight& flight, ConductorsAsked asked)
     : straight_(tether, wall, state, flight.air_density, flight.gravity), asked_(asked) {
-  set_state(state, flight);
+  hang(state, flight);
 }
 
-void TetherInFlight::set_state(const FlightState& state, const Flight& flight) {
-  straight_.set_airspeed(state.airspeed);
+void TetherInFlight::hang(const FlightState& state, const Flight& flight) {
   const Tether& tether = *straight_.tether_;
   // On the ground nothing hangs.
   if (tether.model == TetherModel::straight || !(state.deployed > 0)) return;

@@ -290,7 +290,11 @@ class LeastPowerSearch {
     (void)consider(first);
   }
 
-  void search(const ThrustAt& a, const ThrustAt& b) { improve(consider(a), consider(b)); }
+  /// From `first` up to a conductor of `thickest`, or to what the motors can lift.
+  void search(const ThrustAt& first, double thickest) {
+    const Look a = consider(first);
+    improve(a, consider(last_to_search(first, thickest)));
+  }
 
   [[nodiscard]] const ThrustAt& best() const { return best_; }
   [[nodiscard]] double power() const { return power_; }
@@ -312,6 +316,20 @@ class LeastPowerSearch {
     return {candidate, power};
   }
 
+  /// A little beyond the best place known, where that shows that no thicker conductor up to
+  /// `thickest` is better, which saves the search for what the motors can lift.
+  [[nodiscard]] ThrustAt last_to_search(const ThrustAt& first, double thickest) const {
+    const double most = flight_.motor().max_thrust();
+    const double beyond = beside_best * best_.radius;
+    if (power_ < infinity && beyond < thickest) {
+      const ThrustAt at = thrust_at(flight_, beyond, best_.tan_guess(beyond));
+      if (at.thrust.value <= most && !(power_over(at, thickest) < power_)) return at;
+    }
+    const ThrustAt last = thrust_at(flight_, thickest, best_.tan_pitch);
+    if (!(last.thrust.value > most)) return last;
+    return at_thrust(flight_, most, first.radius, thickest, last);
+  }
+
   /// Last step of a heat balance where the power is only compared: its error is about the square.
   static constexpr double roughly = 1e-3;
 
@@ -319,6 +337,8 @@ class LeastPowerSearch {
   /// motors' power that changes with the tilt, but between radii of this ratio their power bends no
   /// more sharply than its parts.
   static constexpr double narrow = 1.5;
+  /// As far from the best place known a stretch about it ends, so that it is narrow.
+  static constexpr double beside_best = 0.99 * narrow;
   /// Of a cable that its winch hardly holds up, the length grows sharply before its end.
   static constexpr double narrow_by_winch = 1.02;
   /// Where a heavier drone gains by leaning less about what it spends on thrust.
@@ -428,11 +448,10 @@ class LeastPowerSearch {
   /// At the best place known, or a little beyond, so that a narrow stretch lies about it; else at a
   /// kink between a and b, if there is one, else half-way.
   [[nodiscard]] ThrustAt split(const ThrustAt& a, const ThrustAt& b) const {
-    constexpr double little = 0.99 * narrow;
     const double best = best_.radius;
     if (power_ < infinity && a.radius <= best && best <= b.radius) {
       if (a.radius < best && best < b.radius) return best_;
-      const double beyond = best == a.radius ? best * little : best / little;
+      const double beyond = best == a.radius ? best * beside_best : best / beside_best;
       if (a.radius < beyond && beyond < b.radius) {
         return thrust_at(flight_, beyond, best_.tan_guess(beyond));
       }
@@ -598,11 +617,7 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
       motor.power(best.thrust.value) > convex.power(best.thrust.value)) {
     const ThrustAt first = thrust_at(flight, radii.lo, 0);
     if (!(first.thrust.value <= motor.max_thrust() * (1 + 1e-12))) return none;
-    ThrustAt last = thrust_at(flight, radii.hi, best.tan_pitch);
-    if (last.thrust.value > motor.max_thrust()) {
-      last = at_thrust(flight, motor.max_thrust(), radii.lo, radii.hi, last);
-    }
-    search.search(first, last);
+    search.search(first, radii.hi);
   }
   if (!(search.power() < infinity)) return none;
   // The root of a square may miss its end by rounding, beyond which a warm cable runs away or a
@@ -610,8 +625,9 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const double area = conductor_area(search.best().radius);
   for (const double inside : {area, std::nextafter(area, 0), std::nextafter(area, 1),
                               area * (1 - 1e-15), area * (1 + 1e-15)}) {
-    if (one_valley) break;
-    const ThrustAt there = thrust_at(flight, conductor_radius(inside), search.best().tan_pitch);
+    const double radius = conductor_radius(inside);
+    if (one_valley || radius == search.best().radius) return {inside, search.power()};
+    const ThrustAt there = thrust_at(flight, radius, search.best().tan_pitch);
     if (total_power(flight, tether, there) <= search.power() * (1 + 1e-9))
       return {inside, search.power()};
   }

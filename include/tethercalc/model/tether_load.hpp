@@ -292,7 +292,10 @@ class TetherInFlight {
                  ConductorsAsked asked = ConductorsAsked::many);
 
   /// The same tether in another state.
-  void set_state(const FlightState& state, const Flight& flight);
+  void set_state(const FlightState& state, const Flight& flight) {
+    straight_.set_airspeed(state.airspeed);
+    hang(state, flight);
+  }
 
   /// Whether it hangs as weight and wind have it, so that nothing of it is a polynomial of r.
   [[nodiscard]] bool is_solved() const { return hanging_ != nullptr; }
@@ -368,6 +371,8 @@ class TetherInFlight {
   [[nodiscard]] const StraightTether& straight() const { return straight_; }
 
  private:
+  /// Where the model asks for a solved tether.
+  void hang(const FlightState& state, const Flight& flight);
   [[nodiscard]] double hanging_mass(double radius) const;
   [[nodiscard]] double hanging_length(double radius) const;
   [[nodiscard]] double on_drum(double in_air) const;
