@@ -60,6 +60,11 @@ Neighbours neighbours(const ModelParameter& p, double here, FitUse use) {
 /// the loss is far below what a block more or less changes.
 constexpr double converged_decrease = 1e-7;
 constexpr int most_iterations = 40;
+/// For a search the slopes are kept after a step that lowered chi² by less than this, which is a
+/// third of a standard error, and by less than this part of what the step before did.
+constexpr double small_decrease = 0.1;
+constexpr double small_decrease_ratio = 1e-2;
+constexpr double first_damping = 1e-4;
 /// Relative diagonal loading of the normal equations, so that parameters that happen to be parallel
 /// share their effect instead of cancelling each other with huge values.
 constexpr double loading = 1e-9;
@@ -209,9 +214,11 @@ struct WeightedMinimum {
   [[nodiscard]] double bound() const {
     return huber_bound * std::max(robust_sigma(residual), 1e-12);
   }
-  /// Weights by that bound, and slopes, where the model stands.
+  /// Weights by that bound where the model stands.
+  void weigh(double beyond) { weight = huber_weights(residual, beyond); }
+  /// The same, and slopes.
   void look_around(double beyond, FitUse use) {
-    weight = huber_weights(residual, beyond);
+    weigh(beyond);
     model.jacobian(residual, use, jacobian);
   }
   [[nodiscard]] VectorXd gradient() const {
@@ -278,10 +285,16 @@ WeightedMinimum minimise(FreedModel model, const Record& record, FitUse use) {
   WeightedMinimum at{std::move(model), VectorXd(record.rows()), {}, {}};
   at.model.residuals(at.residual);
   VectorXd trial_residual(record.rows());
-  double damping = 1e-4;
+  double damping = first_damping;
+  double last_decrease = 1;
+  bool slopes_kept = false;
   for (int iteration = 0;; ++iteration) {
     const double bound = at.bound();
-    at.look_around(bound, FitUse::search);
+    if (slopes_kept) {
+      at.weigh(bound);
+    } else {
+      at.look_around(bound, FitUse::search);
+    }
     if (at.model.size() == 0 || iteration == most_iterations) break;
 
     const NormalEquations equations(at);
@@ -300,10 +313,18 @@ WeightedMinimum minimise(FreedModel model, const Record& record, FitUse use) {
       }
       damping = std::max(damping, 1e-8) * 10;
     }
+    if (slopes_kept && decrease == 0) {
+      slopes_kept = false;
+      damping = first_damping;
+      continue;
+    }
     if (decrease < converged_decrease) {
-      if (decrease > 0) at.look_around(bound, FitUse::search);
+      at.weigh(bound);
       break;
     }
+    slopes_kept = decrease * static_cast<double>(record.rows()) < small_decrease &&
+                  decrease < small_decrease_ratio * last_decrease;
+    last_decrease = decrease;
   }
   if (use == FitUse::report && at.model.size() > 0) polish(at);
   return at;

@@ -220,10 +220,10 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              if (x[0] == 0 && x[1] == 0) return;
+             const double c = std::cos(p.record.mean_heading);
+             const double s = std::sin(p.record.mean_heading);
              for (std::size_t i = 0; i < p.headwind.size(); ++i) {
-               const double c = std::cos(p.record.yaw[i]);
-               const double s = std::sin(p.record.yaw[i]);
-               blow_at_drone(p, i, x[0] * c + x[1] * s, x[1] * c - x[0] * s);
+               blow(p, i, x[0] * c + x[1] * s, x[1] * c - x[0] * s);
              }
            }},
 

@@ -20,6 +20,8 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
+double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
+
 /// A speed added up, less its mean.
 std::vector<double> place(const std::vector<double>& time, const std::vector<double>& speed) {
   std::vector<double> place(speed.size(), 0.0);
@@ -75,7 +77,11 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   record.crosswind.resize(observations.size(), 0.0);
   record.down_acceleration = observations.down_acceleration;
   record.tan_tilt.reserve(observations.size());
-  for (const double tilt : observations.tilt) record.tan_tilt.push_back(std::tan(tilt));
+  record.cos_tilt.reserve(observations.size());
+  for (const double tilt : observations.tilt) {
+    record.tan_tilt.push_back(std::tan(tilt));
+    record.cos_tilt.push_back(std::cos(tilt));
+  }
   record.sideward_thrust.reserve(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     record.sideward_thrust.push_back(std::tan(observations.roll[i]) /
@@ -102,11 +108,11 @@ FlightRecord flight_record(const Observations& observations, double mass, double
 FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last) {
   FlightRecord part = record;
   for (auto series :
-       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::yaw,
-        &FlightRecord::along_heading, &FlightRecord::right_of_heading, &FlightRecord::place_along,
-        &FlightRecord::place_right, &FlightRecord::forward_speed, &FlightRecord::right_speed,
-        &FlightRecord::headwind, &FlightRecord::crosswind, &FlightRecord::down_speed,
-        &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
+       {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::cos_tilt,
+        &FlightRecord::yaw, &FlightRecord::along_heading, &FlightRecord::right_of_heading,
+        &FlightRecord::place_along, &FlightRecord::place_right, &FlightRecord::forward_speed,
+        &FlightRecord::right_speed, &FlightRecord::headwind, &FlightRecord::crosswind,
+        &FlightRecord::down_speed, &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
         &FlightRecord::yaw_rate}) {
     const auto begin = (record.*series).begin();
     (part.*series)
@@ -122,9 +128,11 @@ FlightPrediction::FlightPrediction(const FlightRecord& flight)
       headwind(flight.size()),
       aside(flight.size()),
       tan_tilt(flight.size()),
+      cos_tilt(flight.size()),
       airspeed(flight.size()),
       drag(flight.size()),
       sideward_thrust(flight.size()),
+      cos_sideward(flight.size()),
       side_drag(flight.size()),
       lift(flight.size()),
       acceleration(flight.size()),
@@ -150,8 +158,10 @@ DragForces law_drag(const FlightPrediction& p, std::size_t i, double forward, do
   const double density = p.record.air_density;
   // To both sides alike.
   const AirframeDrag sideward{p.side_area, p.law.top_area, p.law.linear_speed, 0};
-  return {airframe_drag_along(p.law, density, forward, right, p.tan_tilt[i]),
-          airframe_drag_along(sideward, density, right, forward, p.sideward_thrust[i])};
+  return {airframe_drag_along(p.law, density, forward, right,
+                              effective_area(p.law, p.tan_tilt[i], p.cos_tilt[i])),
+          airframe_drag_along(sideward, density, right, forward,
+                              effective_area(sideward, p.sideward_thrust[i], p.cos_sideward[i]))};
 }
 
 void predict_acceleration(FlightPrediction& p, const FlightBase& base,
@@ -170,12 +180,17 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   act(p, effects, FlightPhase::air);
 
   p.tan_tilt = record.tan_tilt;
+  p.cos_tilt = record.cos_tilt;
   if (p.tilt != record.tilt) {
-    for (std::size_t i = 0; i < size; ++i) p.tan_tilt[i] = std::tan(p.tilt[i]);
+    for (std::size_t i = 0; i < size; ++i) {
+      p.tan_tilt[i] = std::tan(p.tilt[i]);
+      p.cos_tilt[i] = cosine_of(p.tan_tilt[i]);
+    }
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
     p.sideward_thrust[i] -= base.roll_trim;
+    p.cos_sideward[i] = cosine_of(p.sideward_thrust[i]);
     const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
     p.drag[i] = drag.forward;
     p.side_drag[i] = drag.right;

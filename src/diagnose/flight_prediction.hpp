@@ -18,6 +18,7 @@ struct FlightRecord {
   std::vector<double> time;      ///< s
   std::vector<double> tilt;      ///< θ, positive leaning forward
   std::vector<double> tan_tilt;  ///< tan θ
+  std::vector<double> cos_tilt;  ///< cos θ
   std::vector<double> yaw;       ///< rad
   /// Cosine and sine of the yaw less the mean heading of the flight, of which this may be a part:
   /// how far forward is along that heading, and how far to its right.
@@ -99,10 +100,12 @@ struct FlightPrediction {
   AirframeDrag law;              ///< of the drag
   double side_area = 0;          ///< m², in place of the law's front area to the side
   std::vector<double> tan_tilt;  ///< of `tilt`; known in the force phase
+  std::vector<double> cos_tilt;  ///< of `tilt`; known in the force phase
   std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
   std::vector<double> drag;      ///< N against the motion; known in the force phase
   /// tan φ/cos θ as the thrust had it, from which attitude effects start.
   std::vector<double> sideward_thrust;
+  std::vector<double> cos_sideward;  ///< of the lean to the side; known in the force phase
   std::vector<double> side_drag;  ///< N against the motion to the right; known in the force phase
   std::vector<double> lift;       ///< m/s², what the thrust carries; known in the force phase
   std::vector<double> acceleration;       ///< m/s² forward at each sample: the result

@@ -100,7 +100,9 @@ void lean(FlightLog& log, const FlownBy& drone) {
     const double u = ahead(log.north_velocity[i], log.east_velocity[i]);
     const double v = aside(log.north_velocity[i], log.east_velocity[i]);
     const auto drag = [&](double along, double across) {
-      return airframe_drag_along(drone.drag, drone.air_density, along, across, 0) / drone.mass;
+      return airframe_drag_along(drone.drag, drone.air_density, along, across,
+                                 effective_area(drone.drag, 0)) /
+             drone.mass;
     };
     const double tilt = std::atan((ahead(north, east) + drag(u, v)) / carried);
     log.pitch.push_back(-tilt);

@@ -57,8 +57,9 @@ std::vector<DragSample> samples_of(const DragStudy& drag) {
       const double airspeed = flight.forward_speed[i] - wind;
       const double aside = exact ? flight.right_speed[i] - blown : 0;
       const double measured = known.mass * over_mass[i];
-      const double fitted = airframe_drag_along(parameters, known.air_density, airspeed, aside,
-                                                std::tan(flight.tilt[i]));
+      const double fitted =
+          airframe_drag_along(parameters, known.air_density, airspeed, aside,
+                              effective_area(parameters, std::tan(flight.tilt[i])));
       out.push_back({airspeed, flight.tilt[i] / unit::degree, measured, fitted, measured - fitted});
     }
   }

@@ -37,6 +37,12 @@ inline constexpr double drag_estimate_factor = 2;
          std::sqrt(1 + tan_pitch * tan_pitch);
 }
 
+/// The same where the tilt's cosine is known.
+[[nodiscard]] inline double effective_area(const AirframeDrag& drag, double tan_pitch,
+                                           double cosine) {
+  return (drag.front_area + drag.top_area * std::abs(tan_pitch)) * cosine;
+}
+
 /// Drag in N per m² of effective area at `airspeed` (m/s, either sign), `air_density` in kg/m³:
 /// ½·ρ·(v² + j·|v|)·(1 + a·sign v). Never negative.
 [[nodiscard]] inline double area_force_factor(const AirframeDrag& drag, double air_density,
@@ -53,13 +59,12 @@ inline constexpr double drag_estimate_factor = 2;
 
 /// The part along the forward axis of the drag on a drone that also moves sideways: the force lies
 /// along the airspeed vector, (`along`, `across`) in m/s, and is as large as its magnitude makes
-/// it: ½·ρ·(A_f cos|θ| + A_t sin|θ|)·(√(along² + across²) + j)·along·(1 + a·sign along).
+/// it: ½·ρ·A·(√(along² + across²) + j)·along·(1 + a·sign along), A the effective `area` in m².
 [[nodiscard]] inline double airframe_drag_along(const AirframeDrag& drag, double air_density,
-                                                double along, double across, double tan_pitch) {
+                                                double along, double across, double area) {
   const double asymmetry = along < 0 ? -drag.fore_aft_asymmetry : drag.fore_aft_asymmetry;
   const double speed = std::sqrt(along * along + across * across);
-  return 0.5 * air_density * (speed + drag.linear_speed) * along * (1 + asymmetry) *
-         effective_area(drag, tan_pitch);
+  return 0.5 * air_density * (speed + drag.linear_speed) * along * (1 + asymmetry) * area;
 }
 
 /// `airframe_drag_along` with its derivatives.
