@@ -116,37 +116,48 @@ const std::vector<std::optional<TetherTemperatures>>& CableHeat::temperatures(
 }
 
 FlownDesign::FlownDesign(const Design& design, HangingLoads& loads)
-    : design_(design), loads_(loads), radius_(conductor_radius(*design.tether.cross_section)) {
+    : design_(design),
+      loads_(loads),
+      radius_(conductor_radius(*design.tether.cross_section)),
+      wall_(insulation_wall(design.tether.insulation, design.supply.voltage)) {
   if (design.tether.model == TetherModel::straight) return;
   hanging_ = design.tether;
   design_.tether.model = TetherModel::straight;
 }
 
-const SteadyFlight* FlownDesign::in(const FlightState& state) {
+std::optional<FlightState> FlownDesign::laid_straight(const FlightState& state) {
+  hanging_drag_.reset();
   // On the ground nothing hangs.
   if (!hanging_ || !(state.deployed > 0)) {
     if (hanging_) design_.tether.winch_pull = hanging_->winch_pull;
-    steady_.emplace(design_, state);
-    drag_ = steady_->tether().drag(radius_);
-    return &*steady_;
+    return state;
   }
-  const double wall = insulation_wall(hanging_->insulation, design_.supply.voltage);
   const HangingLoad::Parts load =
-      loads_.at(hanging_situation(*hanging_, wall, state, design_.flight), radius_);
-  if (!std::isfinite(load.length)) return nullptr;
+      loads_.at(hanging_situation(*hanging_, wall_, state, design_.flight), radius_);
+  if (!std::isfinite(load.length)) return std::nullopt;
   const FlightState as_long =
       flight_state_at(design_, load.length, state.airspeed, state.ambient_temperature_C);
   design_.tether.winch_pull = 0;
-  const StraightTether cable(design_.tether, wall, as_long, design_.flight.air_density,
+  const StraightTether cable(design_.tether, wall_, as_long, design_.flight.air_density,
                              design_.flight.gravity);
   design_.tether.winch_pull = load.down - cable.mass(radius_) * design_.flight.gravity;
-  drag_ = load.along;
-  steady_.emplace(design_, as_long);
-  return &*steady_;
+  hanging_drag_ = load.along;
+  return as_long;
+}
+
+const SteadyFlight* FlownDesign::in(const FlightState& state) {
+  const auto flown = laid_straight(state);
+  return flown ? &steady_.emplace(design_, *flown) : nullptr;
+}
+
+const TetherInFlight* FlownDesign::tether_in(const FlightState& state) {
+  const auto flown = laid_straight(state);
+  return flown ? &tether_.emplace(design_.tether, wall_, *flown, design_.flight) : nullptr;
 }
 
 double FlownDesign::tan_pitch(double limit, double guess) const {
-  return steady_->tan_pitch_against(drag_, weight(), limit, guess);
+  const double drag = hanging_drag_.value_or(steady_->tether().drag(radius_));
+  return steady_->tan_pitch_against(drag, weight(), limit, guess);
 }
 
 std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
@@ -161,17 +172,17 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
   FlownDesign flown(model.design, memory.loads);
   const double radius = flown.radius();
   for (std::size_t i = 0; i < resistance.size(); ++i) {
-    const SteadyFlight* hangs = flown.in(state_at(model, log, i));
+    const FlightState state = state_at(model, log, i);
+    const TetherInFlight* hangs = flown.tether_in(state);
     if (hangs == nullptr) {
       resistance[i] = nan;
       continue;
     }
-    const SteadyFlight& flight = *hangs;
     if (!is_heated(tether)) {
-      resistance[i] = flight.tether().resistance(radius);
+      resistance[i] = hangs->resistance(radius);
     } else if (measured) {
-      const double temperature = flight.state().ambient_temperature_C + rise;
-      resistance[i] = flight.tether().resistance(radius, temperature, temperature);
+      const double temperature = state.ambient_temperature_C + rise;
+      resistance[i] = hangs->resistance(radius, temperature, temperature);
       if (i + 1 == resistance.size()) break;
       // What settles is taken constant up to the next sample; the lag then has an exact step.
       const double settled =
@@ -181,7 +192,7 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
     } else {
       const auto& t = (*warm)[i];
       resistance[i] =
-          t ? flight.tether().resistance(radius, t->in_air, t->on_drum.value_or(t->in_air)) : nan;
+          t ? hangs->resistance(radius, t->in_air, t->on_drum.value_or(t->in_air)) : nan;
     }
   }
   return resistance;

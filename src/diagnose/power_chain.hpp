@@ -90,6 +90,9 @@ class FlownDesign {
   /// That which holds until the next call; nothing where the tether cannot hang.
   [[nodiscard]] const SteadyFlight* in(const FlightState& state);
 
+  /// Its tether alone, sooner.
+  [[nodiscard]] const TetherInFlight* tether_in(const FlightState& state);
+
   /// m of the conductor.
   [[nodiscard]] double radius() const { return radius_; }
   /// N at the motors, in the last state.
@@ -98,12 +101,17 @@ class FlownDesign {
   [[nodiscard]] double tan_pitch(double limit, double guess = 0) const;
 
  private:
+  /// The state in which the straight tether is that of the design; nothing where it cannot hang.
+  [[nodiscard]] std::optional<FlightState> laid_straight(const FlightState& state);
+
   Design design_;  ///< its tether straight
   std::optional<Tether> hanging_;
   HangingLoads& loads_;
   double radius_;
-  double drag_ = 0;  ///< N of the tether in the last state
+  double wall_;                         ///< m of the insulation
+  std::optional<double> hanging_drag_;  ///< N of a solved tether in the last state
   std::optional<SteadyFlight> steady_;
+  std::optional<TetherInFlight> tether_;
 };
 
 /// Loop resistance in Ω at every sample of a log without the errors of its instruments; see

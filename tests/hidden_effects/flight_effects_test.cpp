@@ -466,8 +466,8 @@ TEST_CASE("what no catalogue knows is detected on its channel and not named") {
   int detected = 0;
   int names = 0;
   for (const auto& [channel, effect] : unknown) {
-    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-      HiddenFlight hidden = drawn_flight(1300 + 10 * static_cast<std::uint64_t>(flights) + seed);
+    for (int draw = 0; draw < test::draws(5); ++draw) {
+      HiddenFlight hidden = drawn_flight(1301 + 11 * static_cast<std::uint64_t>(flights));
       hidden.*(effect.first) = effect.second;
       hidden.roll_std = 3;
       const Diagnosis d = diagnosed(hidden);
@@ -476,7 +476,7 @@ TEST_CASE("what no catalogue knows is detected on its channel and not named") {
       detected += d.unexplained.detected && d.unexplained.channels.front() == channel ? 1 : 0;
     }
   }
-  // Asked for: 90 % of 20.
-  CHECK(detected >= 16);
-  CHECK(names <= 2);
+  // Asked for: 90 %.
+  CHECK(detected >= flights - std::max(1, flights / 5));
+  CHECK(names <= std::max(1, flights / 10));
 }
