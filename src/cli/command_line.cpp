@@ -214,7 +214,9 @@ class Command {
                 "Of the drone over the station, m (default: tether.length_m)")
         .option("--offset M", shape.offset,
                 "Of the drone aside, m (default: flight.horizontal_offset_m)")
-        .comma_list("--wind M/S", shape.winds, "m/s (default: flight.airspeed_m_s)")
+        .comma_list("--wind M/S", shape.winds,
+                    "m/s (default: what blows about the drone in forward flight; with a profile "
+                    "in hover)")
         .option("--wind-from DEGREES", shape.wind_from,
                 "Degrees, clockwise from above, 0 from where the drone stands aside (default: 0)")
         .comma_list(

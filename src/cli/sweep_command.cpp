@@ -272,7 +272,7 @@ int run_sweep(const SweepOptions& options) {
   std::optional<SampleRequest> sample;
   if (options.sample) sample = {*options.sample, options.method, options.seed};
   const SweepSpace space = read_sweep_space(options.varied, base, sample);
-  remark_warnings("sweep", sweep_warnings(base, space));
+  remark_warnings("sweep", sweep_warnings(base, space, ground_contact(space, base.design)));
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 
   const Sweep sweep{space, base.design, SweepRows(space.axes(), format),

@@ -117,6 +117,14 @@ std::vector<PaidOut> parsed_paid_out(const CableOptions& options, const Design& 
   return out;
 }
 
+/// m/s that blow about the drone in forward flight, or in hover where the wind grows with height,
+/// as the drone's own speed does not.
+double flown_wind(const Design& design, WindProfile profile) {
+  const bool grows = profile != WindProfile::uniform;
+  const Condition condition = grows ? Condition::hover : Condition::forward;
+  return std::abs(flight_state(design, condition).airspeed);
+}
+
 std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Design& design) {
   Problems problems;
   FieldOptions fields(design, problems);
@@ -149,7 +157,9 @@ std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Des
   }
   request.axial_stiffness =
       fields.number("--stiffness", options.axial_stiffness, "tether.axial_stiffness_N");
-  const std::vector<double> winds = fields.numbers("--wind", options.winds, "flight.airspeed_m_s");
+  const std::vector<double> winds =
+      options.winds.empty() ? std::vector<double>{flown_wind(design, request.profile)}
+                            : fields.numbers("--wind", options.winds, "flight.airspeed_m_s");
   const std::vector<PaidOut> lengths = parsed_paid_out(options, design, request, problems);
   problems.throw_if_any();
   std::vector<ShapeRequest> requests;

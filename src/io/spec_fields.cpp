@@ -684,9 +684,9 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
                          "the straight tether has one drag coefficient at all speeds; give "
                          "tether.model solved"});
   }
-  const double lowest = std::min(flight.wind_reference_height.value_or(infinity),
-                                 flight.station_height + design.tether.length);
-  if (auto rough = roughness_conflict(flight.wind_profile, flight.roughness_length, lowest)) {
+  const double known_at =
+      flight.wind_reference_height.value_or(flight.station_height + design.tether.length);
+  if (auto rough = roughness_conflict(flight.wind_profile, flight.roughness_length, known_at)) {
     conflicts.push_back({"/flight/roughness_length_m", std::move(*rough)});
   }
   try {

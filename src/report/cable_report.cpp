@@ -85,6 +85,9 @@ void add_hover(TextTable& table, const char* name, const LoadedHover& hover) {
 std::string difference_sentence(const ShapeStudy& study) {
   const double right = study.solved.total_power;
   const double straight = study.straight.total_power;
+  if (!std::isfinite(right) && !std::isfinite(straight)) {
+    return "Both take more power than motors or line have.";
+  }
   if (!std::isfinite(right) || !std::isfinite(straight)) {
     return "One of the two takes more power than motors or line have.";
   }
@@ -151,9 +154,10 @@ std::string cable_shape_text(const DesignFile& file, double area, const ShapeReq
   const double distance = std::hypot(request.height, request.offset);
   const double beyond = 100 * (study.loads.length / distance - 1);
   constexpr double rounding = 1e-8;  // %
-  out += fmt::format("{} m paid out, {} % more than the distance\n\n",
+  out += fmt::format("{} m paid out, {} % {} than the distance\n\n",
                      significant(study.loads.length, 4),
-                     significant(beyond > rounding ? beyond : 0, 3));
+                     significant(std::abs(beyond) > rounding ? std::abs(beyond) : 0, 3),
+                     beyond < -rounding ? "less" : "more");
   out += wrapped(fmt::format(
       "Tension: {} N at the station, {} N at the drone, least {} N. {}",
       fixed(study.loads.tension_at_station, 2), fixed(study.loads.tension_at_drone, 2),

@@ -50,8 +50,8 @@ constexpr LimitWords all_limits[] = {
      "The insulation's rated {rated_C} °C",
      "the conductor gets hotter than its insulation is rated for in {where}", "conductor too hot"},
     {"Limited by strength: the tether would not hold {factor} times its tension in {where}.",
-     "No cross-section that meets the other demands holds {factor} times the tension in {where}; a "
-     "strength member would.",
+     "No cross-section that meets the other demands holds {factor} times the tension in {where}; "
+     "{member} would.",
      "The tether's strength of {factor} times its tension",
      "the tether no longer holds its tension with the factor asked for in {where}",
      "tether too weak"},
@@ -67,7 +67,7 @@ constexpr LimitWords all_limits[] = {
      "the supply is outside the converter's range", "supply outside the converter's range"},
     {"Limited by the tether: any thicker, and {no_way}.",
      "No cross-section works: with 1 mm², a usual size, {no_way}.",
-     "The tether's way up to the drone", "{no_way}", "tether not found to hang"}};
+     "The tether's way up to the drone", "{no_way}", "no way up for the tether"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
@@ -117,6 +117,9 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
       fmt::arg("rated_C", significant(design.tether.insulation.rated_temperature_C.value_or(
                                           highest_conductor_temperature_C),
                                       3)),
+      fmt::arg("member", strength_member_data(design.tether.strength_member).mass_per_metre > 0
+                             ? "a thicker strength member"
+                             : "a strength member"),
       fmt::arg("factor", significant(need.strength_safety_factor, 3)),
       fmt::arg("rated_W", significant(converter.rated_output_power.value_or(0), 4)),
       fmt::arg("voltage", significant(design.supply.voltage, 4)),
@@ -325,7 +328,11 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
       if (point.thermal_runaway) return "overheats without end in " + where;
       const double demanded = demanded_headroom(design.requirements, missed.condition);
       if (demanded == 1) return "cannot hold " + where;
-      return fmt::format("headroom {} < {}", fixed(point.headroom, 2), fixed(demanded, 2));
+      int decimals = 2;
+      while (decimals < 9 && fixed(point.headroom, decimals) == fixed(demanded, decimals)) {
+        ++decimals;
+      }
+      return fmt::format("headroom {} < {}", fixed(point.headroom, decimals), fixed(demanded, 2));
     }
     case Demand::conductor_temperature:
     case Demand::drum_temperature: {
@@ -666,10 +673,6 @@ std::vector<Warning> evaluation_warnings(const DesignFile& file, const Evaluatio
                      no_way_words(file.design, points.no_way, points.worst.condition))});
   }
   return warnings;
-}
-
-std::vector<Warning> envelope_warnings(const DesignFile& file, const EnvelopeStudy& study) {
-  return all_warnings(file, {}, {}, study.side);
 }
 
 std::vector<Warning> optimum_warnings(const DesignFile& file, const OptimumStudy& study) {

@@ -67,6 +67,20 @@ ordered_json end_json(const std::optional<ReachEnd>& end, double si_factor) {
 
 }  // namespace
 
+std::vector<Warning> envelope_warnings(const DesignFile& file, const EnvelopeStudy& study) {
+  std::vector<Warning> warnings = all_warnings(file, {}, {}, study.side);
+  if (study.ground) {
+    const ReachWords reach = words_of(study.ground->reach);
+    Warning warning = ground_warning(study.ground->contact);
+    warning.sentence =
+        fmt::format("at the greatest {}, {} {}, ", reach.noun,
+                    fixed(study.ground->value / reach.si_factor, reach.decimals), reach.unit) +
+        warning.sentence;
+    warnings.push_back(std::move(warning));
+  }
+  return warnings;
+}
+
 std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
                           const TextStyle& style) {
   std::string out = style.bold(file.name) + "\n\n";

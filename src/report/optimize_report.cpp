@@ -62,6 +62,12 @@ std::string remedy_words(const Design& design, const Remedy& remedy) {
 Answer refused_answer(const OptimumStudy& study) {
   const Design& design = study.design;
   Answer out{"This design cannot fly as required.", {refusal_sentence(design, *study.refusal)}, {}};
+  const auto& no_way = study.refusal->no_way;
+  if (no_way && no_way->outcome == CableOutcome::tension_too_low) {
+    out.sentences.push_back(
+        "The winch has to pull harder (tether.winch_pull_N), or pay out a length of its own "
+        "(tether.slack_percent).");
+  }
   out.sentences.push_back(
       study.remedies.empty()
           ? "No single change of supply voltage, drone mass, tether length or airspeed would make "
@@ -378,6 +384,12 @@ std::vector<Warning> comparison_warnings(const DesignFile& file,
   for (Warning& warning : cable_warnings(file.design, flown)) {
     warnings.push_back(std::move(warning));
   }
+  const auto on_ground = std::ranges::find_if(
+      ranking, [](const MotorOptimum& entry) { return entry.ground.has_value(); });
+  if (on_ground != ranking.end()) warnings.push_back(ground_warning(*on_ground->ground));
+  const auto aside = std::ranges::find_if(
+      ranking, [](const MotorOptimum& entry) { return entry.side.has_value(); });
+  if (aside != ranking.end()) warnings.push_back(side_warning(*aside->side));
   return warnings;
 }
 

@@ -326,14 +326,19 @@ ordered_json summary_json(const SweepSummary& summary, const SweepSpace& space) 
           {"sensitivity", indices}};
 }
 
-std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space) {
-  constexpr std::uint64_t asked = 32;
+std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space,
+                                    const std::optional<GroundContact>& ground) {
+  constexpr std::uint64_t looked_at = 32;
   std::vector<Warning> warnings = spec_warnings(base);
+  if (ground) {
+    Warning warning = ground_warning(*ground);
+    warning.sentence = "in some rows: " + warning.sentence;
+    warnings.push_back(std::move(warning));
+  }
   if (density_warning(base.design) || space.rows() == 0) return warnings;
   SweepCursor cursor(space, base.design);
-  const std::uint64_t last = space.rows() - 1;
-  for (std::uint64_t k = 0; k < asked; ++k) {
-    cursor.move_to(last / (asked - 1) * k + last % (asked - 1) * k / (asked - 1));
+  for (const std::uint64_t row : spread_rows(space.rows(), looked_at)) {
+    cursor.move_to(row);
     if (auto density = density_warning(cursor.design())) {
       warnings.push_back(std::move(*density));
       break;

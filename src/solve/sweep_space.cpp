@@ -106,6 +106,17 @@ RowRange shard_rows(std::uint64_t rows, std::uint64_t part, std::uint64_t parts)
   return {begin_of(part - 1), begin_of(part)};
 }
 
+std::vector<std::uint64_t> spread_rows(std::uint64_t rows, std::uint64_t most) {
+  std::vector<std::uint64_t> spread;
+  const std::uint64_t count = std::min(rows, most);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const std::uint64_t steps = std::max<std::uint64_t>(count - 1, 1);
+    const std::uint64_t last = rows - 1;
+    spread.push_back(last / steps * k + last % steps * k / steps);
+  }
+  return spread;
+}
+
 SweepSpace::SweepSpace(std::vector<SweepAxis> axes) : axes_(std::move(axes)) {
   constexpr std::uint64_t limit = std::uint64_t{1} << 63;
   for (const SweepAxis& axis : axes_) {

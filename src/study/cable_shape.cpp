@@ -120,15 +120,15 @@ std::optional<GroundContact> ground_contact(double area, std::span<const FlownSh
 std::optional<WorstSide> worst_side(const Design& design, double area) {
   std::optional<WorstSide> worst;
   if (design.flight.horizontal_offset == 0 || !(area > 0)) return worst;
+  double most = 1;  // of what it takes over what it takes upwind
   for (const Condition condition : {Condition::hover, Condition::forward}) {
     FlightState state = flight_state(design, condition);
-    if (worst || state.airspeed == 0) continue;
+    if (state.airspeed == 0) continue;
     const auto flown = [&] {
       return evaluate(SteadyFlight(design, state, ConductorsAsked::one), area);
     };
     const OperatingPoint upwind = flown();
     if (std::isnan(upwind.total_power)) continue;
-    double most = 1;
     for (int degrees = 30; degrees <= 180; degrees += 30) {  // left and right are alike
       state.wind_from = degrees * unit::degree;
       const OperatingPoint here = flown();

@@ -139,6 +139,26 @@ std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach 
   return curve;
 }
 
+namespace {
+
+std::optional<GroundAtReach> lowest_on_ground(const Design& design,
+                                              std::span<const ReachResult> greatest) {
+  std::optional<GroundAtReach> lowest;
+  const double area = *design.tether.cross_section;
+  for (const ReachResult& result : greatest) {
+    if (!result.end) continue;
+    const double end = result.end->value;
+    const Design there = at_reach(design, result.reach, end);
+    const auto contact = ground_contact(area, shapes_in_flight(there, area));
+    if (contact && !(lowest && lowest->contact.below_station >= contact->below_station)) {
+      lowest = GroundAtReach{result.reach, end, *contact};
+    }
+  }
+  return lowest;
+}
+
+}  // namespace
+
 bool EnvelopeStudy::any() const {
   return std::ranges::any_of(greatest, [](const ReachResult& r) { return r.end.has_value(); });
 }
@@ -160,6 +180,7 @@ EnvelopeStudy study_envelope(const Design& design) {
   for (const auto& [of, against] : curves) {
     study.curves.push_back({of, against, envelope_curve(design, of, against)});
   }
+  study.ground = lowest_on_ground(design, study.greatest);
   const auto aside = std::ranges::find(study.greatest, Reach::offset, &ReachResult::reach);
   const bool at_its_end =
       design.flight.horizontal_offset == 0 && aside != study.greatest.end() && aside->end;

@@ -96,6 +96,21 @@ double judged_power(const SweepOutcome& outcome, const Design& design) {
   return outcome.points.in(design.requirements.power_at).total_power;
 }
 
+std::optional<GroundContact> ground_contact(const SweepSpace& space, const Design& base) {
+  constexpr std::uint64_t looked_at = 8;  // one on a weak winch may take seconds
+  if (space.rows() == 0) return std::nullopt;
+  const bool given_area = varies_cross_section(space);
+  SweepCursor cursor(space, base);
+  for (const std::uint64_t row : spread_rows(space.rows(), looked_at)) {
+    cursor.move_to(row);
+    const Design& design = cursor.design();
+    if (design.tether.model == TetherModel::straight) continue;
+    const double area = sweep_outcome(design, given_area).area();
+    if (auto ground = ground_contact(area, shapes_in_flight(design, area))) return ground;
+  }
+  return std::nullopt;
+}
+
 bool varies_cross_section(const SweepSpace& space) {
   const auto axes = space.axes();
   return std::ranges::count(axes, "tether.cross_section_mm2", &SweepAxis::name) > 0;

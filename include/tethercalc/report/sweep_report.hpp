@@ -43,9 +43,11 @@ class SweepRows {
   std::vector<std::string> openings_;  ///< what stands in front of each column's value
 };
 
-/// What holds for a whole sweep about `base`: its `spec_warnings`, and the first `density_warning`
-/// of some rows that are spread over all of them.
-[[nodiscard]] std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space);
+/// What holds for a whole sweep about `base`: its `spec_warnings`, the `ground_warning` of
+/// `ground`, which `ground_contact` found in the sweep, and the first `density_warning` of some
+/// rows that are spread over all of them.
+[[nodiscard]] std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& space,
+                                                  const std::optional<GroundContact>& ground);
 
 /// One column of records.
 struct RecordColumn {

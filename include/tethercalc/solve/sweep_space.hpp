@@ -104,6 +104,9 @@ class SweepSpace {
   std::uint64_t rows_ = 1;
 };
 
+/// The numbers of at most `most` (≥ 2) of `rows` rows, spread evenly from the first to the last.
+[[nodiscard]] std::vector<std::uint64_t> spread_rows(std::uint64_t rows, std::uint64_t most);
+
 /// Walks the rows of a space. One a thread.
 class SweepCursor {
  public:

@@ -89,7 +89,7 @@ struct GroundContact {
 /// upwind of the station, where every design is judged. NaN: it is not flown there.
 struct WorstSide {
   double offset = 0;                       ///< m from the station
-  Condition condition = Condition::hover;  ///< hover where wind blows
+  Condition condition = Condition::hover;  ///< the one that it is hardest on
   double wind_from = 0;                    ///< rad, as `FlightState` has it
   double upwind_power = 0;                 ///< W of the ground supply
   double power = 0;                        ///< the same on the worst side

@@ -76,6 +76,13 @@ struct EnvelopeCurve {
   std::vector<EnvelopePoint> points;  ///< by rising `against`
 };
 
+/// That the cable lies on the ground at the end of a reach.
+struct GroundAtReach {
+  Reach reach = Reach::height;  ///< which
+  double value = 0;             ///< its end
+  GroundContact contact;        ///< there
+};
+
 /// What a cable can do at most.
 struct EnvelopeStudy {
   AreaPoints as_given;                ///< the cable in the design itself
@@ -83,6 +90,8 @@ struct EnvelopeStudy {
   /// Payload and wind against height, payload against wind; of a solved tether also the offset
   /// against height and wind.
   std::vector<EnvelopeCurve> curves;
+  /// Of the reach at whose end the cable would hang lowest.
+  std::optional<GroundAtReach> ground;
   /// Of the design itself; where it is not aside, at its greatest offset.
   std::optional<WorstSide> side;
 

@@ -107,7 +107,9 @@ struct AreaCurve {
 
 /// One motor's best tether.
 struct MotorOptimum : DesignOptimum {
-  MotorEntry motor;  ///< as given, and in `design`
+  MotorEntry motor;                     ///< as given, and in `design`
+  std::optional<GroundContact> ground;  ///< of the optimum
+  std::optional<WorstSide> side;        ///< of the optimum
 };
 
 /// The design with each of `motors` in turn, feasible ones first by rising power, infeasible ones

@@ -71,6 +71,11 @@ struct SweepChunk {
   std::vector<JudgedRow> judged;  ///< one a row
 };
 
+/// Whether a solved tether lies on the ground: the first that does of eight rows spread over a
+/// sweep.
+[[nodiscard]] std::optional<GroundContact> ground_contact(const SweepSpace& space,
+                                                          const Design& base);
+
 /// True where a sweep varies the cross-section itself, so that cables are evaluated, not found.
 [[nodiscard]] bool varies_cross_section(const SweepSpace& space);
 
