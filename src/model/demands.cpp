@@ -110,9 +110,20 @@ std::string_view demand_name(Demand demand) {
 }
 
 const DemandMargin& Margins::worst() const {
-  return *std::min_element(begin(), end(), [](const DemandMargin& a, const DemandMargin& b) {
-    return a.value != b.value ? a.value < b.value : a.demand < b.demand;
-  });
+  // What a converter's rating caps misses its headroom by the same.
+  const auto cause = [](const DemandMargin& margin) {
+    return margin.demand == Demand::converter_rating ? Demand::thrust_headroom : margin.demand;
+  };
+  const auto before = [&](const DemandMargin& a, const DemandMargin& b) {
+    return cause(a) != cause(b) ? a.demand < b.demand : a.demand > b.demand;
+  };
+  constexpr double same = 1e-12;
+  const DemandMargin* worst = begin();
+  for (const DemandMargin& margin : *this) {
+    const double more = margin.value - worst->value;
+    if (more < -same || (more <= same && before(margin, *worst))) worst = &margin;
+  }
+  return *worst;
 }
 
 bool is_headroom_demanded(const Requirements& requirements, Condition condition) {

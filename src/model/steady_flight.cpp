@@ -142,8 +142,9 @@ double SteadyFlight::searched_radius(double limit) const {
     if (here <= limit) light = heavy;
     if (light > 0 && here > limit && here < std::numeric_limits<double>::infinity()) break;
   }
-  if (light < 0 || 2 * light > thickest) return light;
-  if (heavy > thickest) heavy = 2 * light;
+  if (light < 0) return light;
+  if (heavy > thickest) heavy = std::min(2 * light, thickest);
+  if (weight(heavy) <= limit) return heavy;
   if (!has_battery_ && weight(heavy) < std::numeric_limits<double>::infinity()) {
     return radius_between(limit, light, heavy);
   }

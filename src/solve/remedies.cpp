@@ -45,8 +45,8 @@ double rounded_feasible(const Design& design, Quantity quantity, double value, d
 std::optional<double> threshold(const Design& design, Quantity quantity, double present,
                                 double bound) {
   const double ratio = bound / present;
-  // Cables on a winch are solved anew for each step.
-  const double stride = std::log(hangs_on_winch(design.tether) ? 1.1 : 1.02);
+  // Hanging cables are solved anew for each step.
+  const double stride = std::log(design.tether.model == TetherModel::solved ? 1.1 : 1.02);
   const int steps = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / stride));
   double infeasible = present;
   for (int step = 1; step <= steps; ++step) {

@@ -78,8 +78,10 @@ bool has_lower_bound(const DesignProblem& problem) {
 /// A tether adds losses, weight W and drag, and with both the thrust T rises: W·tan θ is the drag
 /// q(A_f cos θ + A_t sin θ) of the airframe plus that of the tether, so that more tether drag tilts
 /// further at T = W/cos θ; and more weight tilts less at T = q(A_f cot θ + A_t) and more. Since it
-/// tilts less, a tilt that the drone alone may not have says nothing of it with a tether.
+/// tilts less, a tilt that the drone alone may not have says nothing of it with a tether. Unknown
+/// where leaning less saves power.
 double lower_bound(Design design, const PointQuantity& objective) {
+  if (design.drone.translational_lift.induced_share > 0) return -infinity;
   const Condition condition = condition_of(objective, design.requirements);
   design.requirements.max_pitch = 89.99 * unit::degree;
   Tether& tether = design.tether = without_heat(design.tether);
