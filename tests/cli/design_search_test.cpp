@@ -46,6 +46,34 @@ TEST_CASE("a design study keeps its demands, and its spec flies as told") {
         Approx(answer["value"].get<double>()).epsilon(1e-9));
 }
 
+TEST_CASE("where leaning less saves power, no wind is ruled out unseen") {
+  const TemporaryFolder folder;
+  const std::string spec = (folder.path() / "leaning.json").string();
+  write_file(spec, R"({
+    "name": "a light drone under a large rotor, with drag from above alone",
+    "drone": {"motor_count": 1, "motor": "tmotor-u8ii-85kv-28in", "mass_g": 17.6, "auxiliary_power_W": 15,
+      "drag": {"front_area_m2": 0, "top_area_m2": 0.0136, "linear_m_s": 100},
+      "translational_lift": {"induced_share": 0.471, "hover_induced_speed_m_s": 2},
+      "reserve_battery": {"specific_energy_Wh_kg": 100, "descent_speed_m_s": 0.5, "discharge_C": 1}},
+    "tether": {"length_m": 0.21, "conductor": "aluminium", "projection_factor": 0,
+      "insulation": {"material": "silicone", "thickness_mm": 0}, "contact_resistance_ohm": 0.1},
+    "supply": {"voltage_V": 80, "converter": {"efficiency": 1, "fixed_ratio": 0.0944, "min_input_voltage_V": 16}},
+    "flight": {"airspeed_m_s": 0, "air_density_kg_m3": 1.293},
+    "requirements": {"thrust_headroom": 1.2, "headroom_at": "forward", "power_at": "forward"}})");
+  const std::string winds = "flight.headwind_m_s=-5,0,5";
+  const Ran found = run_tethercalc({"design", spec, "--free", winds, "--format", "json"});
+  const Ran rows = run_tethercalc({"sweep", spec, "--vary", winds, "--format", "jsonl"});
+  REQUIRE(found.exit_code == 0);
+  REQUIRE(rows.exit_code == 0);
+  double least = std::numeric_limits<double>::infinity();
+  std::istringstream lines(rows.out);
+  for (std::string line; std::getline(lines, line);) {
+    const json power = json::parse(line)["forward.total_power_W"];
+    if (power.is_number()) least = std::min(least, power.get<double>());
+  }
+  CHECK(json::parse(found.out)["value"].get<double>() <= least * (1 + 1e-9));
+}
+
 TEST_CASE("the price of a metre is what a metre more costs") {
   const json at =
       json::parse(design({"--free", "supply.voltage_V=40..60", "--format", "json"}).out);

@@ -255,3 +255,22 @@ TEST_CASE("a winch that holds up only tethers too thin for the power is what lim
   CHECK(thin.limited_by == Limit::tether_shape);
   CHECK(std::isnan(evaluate(design, 1.01 * thin.area, thin.limiting_condition).tether_length));
 }
+
+TEST_CASE("what misses its headroom for a converter's rating is told to miss the rating") {
+  Design design = test::published_design();
+  design.requirements.thrust_headroom = 1;
+  for (const double rated : {310.0, 320.0, 330.0}) {
+    INFO(rated << " W");
+    design.supply.converter.rated_output_power = rated;
+    const Optimization optimum = optimize(design);
+    REQUIRE(optimum.feasible);
+    CHECK(optimum.limited_by == Limit::converter_rating);
+    for (const double more : {1.001, 1.01, 1.1, 1.2}) {
+      const double area = more * optimum.area;
+      const Margins margins = demand_margins(design, evaluate(design, area, Condition::hover),
+                                             evaluate(design, area, Condition::forward));
+      CHECK_FALSE(margins.met());
+      CHECK(margins.worst().demand == Demand::converter_rating);
+    }
+  }
+}

@@ -8,7 +8,9 @@
 #include "tethercalc/model/steady_flight.hpp"
 #include "tethercalc/model/tether.hpp"
 #include "tethercalc/model/units.hpp"
+#include "tethercalc/study/envelope.hpp"
 #include "tethercalc/study/optimum.hpp"
+#include "tethercalc/study/sweep.hpp"
 
 using namespace tethercalc;
 
@@ -226,4 +228,57 @@ TEST_CASE("the worst side of a drone aside takes no less than any side that a sh
   design.tether.model = TetherModel::straight;
   design.flight.horizontal_offset = 0;
   CHECK_FALSE(worst_side(design, published_area));
+}
+
+TEST_CASE("the worst side is that of the flight that it is hardest on") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.02;
+  design.supply.voltage = 150;
+  design.flight.airspeed = 9;
+  design.flight.horizontal_offset = 15;
+  for (const double headwind : {0.0, 0.3, 1.0}) {
+    design.flight.headwind = headwind;
+    const auto worst = worst_side(design, published_area);
+    REQUIRE(worst);
+    CHECK(worst->condition == Condition::forward);
+    // A breeze of 0.3 m/s changes little in forward flight.
+    CHECK(worst->power > 1.3 * worst->upwind_power);
+  }
+}
+
+TEST_CASE("whatever tells of slack cables tells of those that lie on the ground") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.slack = 0.2;
+  design.supply.voltage = 150;
+  design.tether.cross_section = 1.5 * unit::square_millimetre;
+  const EnvelopeStudy envelope = study_envelope(design);
+  REQUIRE(envelope.ground);
+  CHECK(envelope.ground->contact.below_station > 1);
+  const Design there = at_reach(design, envelope.ground->reach, envelope.ground->value);
+  const auto itself = ground_contact(*design.tether.cross_section,
+                                     shapes_in_flight(there, *design.tether.cross_section));
+  REQUIRE(itself);
+  CHECK(itself->below_station == envelope.ground->contact.below_station);
+
+  design.tether.cross_section.reset();
+  const SweepSpace offsets({{"flight.horizontal_offset_m", std::vector<double>{0, 20},
+                             [](Design& d, double m) { d.flight.horizontal_offset = m; }}});
+  CHECK(ground_contact(offsets, design));
+  design.flight.horizontal_offset = 20;
+  MotorEntry own;
+  own.curve = design.drone.motor;
+  const std::vector<MotorOptimum> motors = compare_motors(design, {own});
+  REQUIRE(motors.front().result.feasible);
+  CHECK(motors.front().ground);
+  CHECK(motors.front().side);
+
+  design.tether.slack = 0.01;
+  design.flight.horizontal_offset = 0;
+  design.flight.airspeed = 0;
+  const SweepSpace voltages({{"supply.voltage_V", std::vector<double>{100, 150},
+                              [](Design& d, double volts) { d.supply.voltage = volts; }}});
+  design.tether.model = TetherModel::straight;
+  CHECK_FALSE(ground_contact(voltages, design));
 }
