@@ -97,7 +97,7 @@ double judged_power(const SweepOutcome& outcome, const Design& design) {
 }
 
 std::optional<GroundContact> ground_contact(const SweepSpace& space, const Design& base) {
-  constexpr std::uint64_t looked_at = 8;  // one on a weak winch may take seconds
+  constexpr std::uint64_t looked_at = 4;  // one on a weak winch may take seconds
   if (space.rows() == 0) return std::nullopt;
   const bool given_area = varies_cross_section(space);
   SweepCursor cursor(space, base);

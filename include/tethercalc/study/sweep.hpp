@@ -71,7 +71,7 @@ struct SweepChunk {
   std::vector<JudgedRow> judged;  ///< one a row
 };
 
-/// Whether a solved tether lies on the ground: the first that does of eight rows spread over a
+/// Whether a solved tether lies on the ground: the first that does of four rows spread over a
 /// sweep.
 [[nodiscard]] std::optional<GroundContact> ground_contact(const SweepSpace& space,
                                                           const Design& base);
