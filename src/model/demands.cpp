@@ -110,18 +110,17 @@ std::string_view demand_name(Demand demand) {
 }
 
 const DemandMargin& Margins::worst() const {
-  // What a converter's rating caps misses its headroom by the same.
-  const auto cause = [](const DemandMargin& margin) {
-    return margin.demand == Demand::converter_rating ? Demand::thrust_headroom : margin.demand;
-  };
-  const auto before = [&](const DemandMargin& a, const DemandMargin& b) {
-    return cause(a) != cause(b) ? a.demand < b.demand : a.demand > b.demand;
+  // What a converter's rating caps misses its headroom by the same, and the rating is the cause.
+  const auto rank = [](const DemandMargin& margin) {
+    const bool caps = margin.demand == Demand::converter_rating && margin.value > -1;
+    return caps ? 2 * static_cast<int>(Demand::thrust_headroom) - 1
+                : 2 * static_cast<int>(margin.demand);
   };
   constexpr double same = 1e-12;
   const DemandMargin* worst = begin();
   for (const DemandMargin& margin : *this) {
     const double more = margin.value - worst->value;
-    if (more < -same || (more <= same && before(margin, *worst))) worst = &margin;
+    if (more < -same || (more <= same && rank(margin) < rank(*worst))) worst = &margin;
   }
   return *worst;
 }
