@@ -601,9 +601,10 @@ std::vector<Warning> spec_warnings(const DesignFile& file) {
   return warnings;
 }
 
-Warning ground_warning(const GroundContact& ground) {
+Warning ground_warning(const GroundContact& ground, const std::string& where) {
   return {WarningKind::tether_touches_ground,
-          fmt::format("with {} mm² the tether lies on the ground in {}: without one it would hang "
+          where + fmt::format(
+                      "with {} mm² the tether lies on the ground in {}: without one it would hang "
                       "{} m below the station; the loads are those without a ground (tethercalc "
                       "shape shows them)",
                       significant(ground.area / unit::square_millimetre, 4),

@@ -71,12 +71,10 @@ std::vector<Warning> envelope_warnings(const DesignFile& file, const EnvelopeStu
   std::vector<Warning> warnings = all_warnings(file, {}, {}, study.side);
   if (study.ground) {
     const ReachWords reach = words_of(study.ground->reach);
-    Warning warning = ground_warning(study.ground->contact);
-    warning.sentence =
-        fmt::format("at the greatest {}, {} {}, ", reach.noun,
-                    fixed(study.ground->value / reach.si_factor, reach.decimals), reach.unit) +
-        warning.sentence;
-    warnings.push_back(std::move(warning));
+    const std::string end = fixed(study.ground->value / reach.si_factor, reach.decimals);
+    warnings.push_back(
+        ground_warning(study.ground->contact,
+                       fmt::format("at the greatest {}, {} {}, ", reach.noun, end, reach.unit)));
   }
   return warnings;
 }

@@ -330,11 +330,7 @@ std::vector<Warning> sweep_warnings(const DesignFile& base, const SweepSpace& sp
                                     const std::optional<GroundContact>& ground) {
   constexpr std::uint64_t looked_at = 32;
   std::vector<Warning> warnings = spec_warnings(base);
-  if (ground) {
-    Warning warning = ground_warning(*ground);
-    warning.sentence = "in some rows: " + warning.sentence;
-    warnings.push_back(std::move(warning));
-  }
+  if (ground) warnings.push_back(ground_warning(*ground, "in some rows: "));
   if (density_warning(base.design) || space.rows() == 0) return warnings;
   SweepCursor cursor(space, base.design);
   for (const std::uint64_t row : spread_rows(space.rows(), looked_at)) {

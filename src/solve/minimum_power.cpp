@@ -623,10 +623,11 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   // The root of a square may miss its end by rounding, beyond which a warm cable runs away or a
   // reserve battery grows by leaps.
   const double area = conductor_area(search.best().radius);
+  if (one_valley) return {area, search.power()};
   for (const double inside : {area, std::nextafter(area, 0), std::nextafter(area, 1),
                               area * (1 - 1e-15), area * (1 + 1e-15)}) {
     const double radius = conductor_radius(inside);
-    if (one_valley || radius == search.best().radius) return {inside, search.power()};
+    if (radius == search.best().radius) return {inside, search.power()};
     const ThrustAt there = thrust_at(flight, radius, search.best().tan_pitch);
     if (total_power(flight, tether, there) <= search.power() * (1 + 1e-9))
       return {inside, search.power()};

@@ -107,11 +107,11 @@ RowRange shard_rows(std::uint64_t rows, std::uint64_t part, std::uint64_t parts)
 }
 
 std::vector<std::uint64_t> spread_rows(std::uint64_t rows, std::uint64_t most) {
-  std::vector<std::uint64_t> spread;
-  const std::uint64_t count = std::min(rows, most);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    const std::uint64_t steps = std::max<std::uint64_t>(count - 1, 1);
-    const std::uint64_t last = rows - 1;
+  if (rows == 0) return {};
+  std::vector<std::uint64_t> spread{0};
+  const std::uint64_t last = rows - 1;
+  const std::uint64_t steps = std::min(rows, most) - 1;
+  for (std::uint64_t k = 1; k <= steps; ++k) {
     spread.push_back(last / steps * k + last % steps * k / steps);
   }
   return spread;

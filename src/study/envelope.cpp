@@ -52,6 +52,22 @@ std::vector<double> tried_values(Design design, Reach reach) {
   return values;
 }
 
+std::optional<GroundAtReach> lowest_on_ground(const Design& design,
+                                              std::span<const ReachResult> greatest) {
+  std::optional<GroundAtReach> lowest;
+  const double area = *design.tether.cross_section;
+  for (const ReachResult& result : greatest) {
+    if (!result.end) continue;
+    const double end = result.end->value;
+    const Design there = at_reach(design, result.reach, end);
+    const auto contact = ground_contact(area, shapes_in_flight(there, area));
+    if (contact && !(lowest && lowest->contact.below_station >= contact->below_station)) {
+      lowest = GroundAtReach{result.reach, end, *contact};
+    }
+  }
+  return lowest;
+}
+
 }  // namespace
 
 double search_start(Reach reach) { return reach == Reach::height ? shortest_length : 0; }
@@ -138,26 +154,6 @@ std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach 
   }
   return curve;
 }
-
-namespace {
-
-std::optional<GroundAtReach> lowest_on_ground(const Design& design,
-                                              std::span<const ReachResult> greatest) {
-  std::optional<GroundAtReach> lowest;
-  const double area = *design.tether.cross_section;
-  for (const ReachResult& result : greatest) {
-    if (!result.end) continue;
-    const double end = result.end->value;
-    const Design there = at_reach(design, result.reach, end);
-    const auto contact = ground_contact(area, shapes_in_flight(there, area));
-    if (contact && !(lowest && lowest->contact.below_station >= contact->below_station)) {
-      lowest = GroundAtReach{result.reach, end, *contact};
-    }
-  }
-  return lowest;
-}
-
-}  // namespace
 
 bool EnvelopeStudy::any() const {
   return std::ranges::any_of(greatest, [](const ReachResult& r) { return r.end.has_value(); });

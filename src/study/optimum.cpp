@@ -222,11 +222,11 @@ std::vector<MotorOptimum> compare_motors(const Design& design, std::vector<Motor
   for (MotorEntry& motor : motors) {
     Design with_motor = design;
     with_motor.drone.motor = motor.curve;
-    const DesignOptimum& optimum =
+    MotorOptimum& entry =
         ranking.emplace_back(MotorOptimum{optimum_of(with_motor), std::move(motor), {}, {}});
-    const double area = optimum.result.area;
-    ranking.back().ground = ground_contact(area, shapes_in_flight(with_motor, area));
-    ranking.back().side = worst_side(with_motor, area);
+    const double area = entry.result.area;
+    entry.ground = ground_contact(area, shapes_in_flight(with_motor, area));
+    entry.side = worst_side(with_motor, area);
   }
   std::ranges::stable_sort(ranking, {}, [&](const MotorOptimum& entry) {
     return entry.result.feasible

@@ -56,6 +56,20 @@ Tried try_areas(const Design& design, const IntervalSet& areas, int count, doubl
   return tried;
 }
 
+/// What `optimize` answers is held by the judge, and no area tried is better.
+void check_answer(const Design& design, const Optimization& result, const Tried& tried,
+                  double tolerance) {
+  if (!result.feasible) {
+    CHECK(tried.power == infinity);
+    return;
+  }
+  const OperatingPoint hover = evaluate(design, result.area, Condition::hover);
+  const OperatingPoint forward = evaluate(design, result.area, Condition::forward);
+  CHECK(demand_margins(design, hover, forward).met());
+  const bool at_hover = design.requirements.power_at == Condition::hover;
+  CHECK((at_hover ? hover : forward).total_power <= tried.power * (1 + tolerance));
+}
+
 void check_against_areas(const Design& design, int count) {
   const Requirements& need = design.requirements;
   const Optimization result = optimize(design);
@@ -70,17 +84,9 @@ void check_against_areas(const Design& design, int count) {
   if (tried.least_power < infinity) {
     CHECK(result.minimum_power.power <= tried.least_power * (1 + rounding));
   }
-  if (!result.feasible) {
-    CHECK(tried.power == infinity);
-    return;
-  }
-  const OperatingPoint hover = evaluate(design, result.area, Condition::hover);
-  const OperatingPoint forward = evaluate(design, result.area, Condition::forward);
-  CHECK(demand_margins(design, hover, forward).met());
-  const double power = (need.power_at == Condition::hover ? hover : forward).total_power;
   // What lies on an edge is met to 1e-9, and areas beyond the edge by as much are cheaper. Without
   // drag but from above the power has a kink where the tilt ends, by the root of such a rounding.
-  CHECK(power <= tried.power * (1 + rounding));
+  check_answer(design, result, tried, rounding);
 }
 
 void check_solved_against_areas(const Design& design, int count) {
@@ -91,15 +97,7 @@ void check_solved_against_areas(const Design& design, int count) {
   if (tried.headroom > 1e-6) {
     CHECK(best_headroom(design, need.headroom_at).value >= tried.headroom * (1 - solved_rounding));
   }
-  if (!result.feasible) {
-    CHECK(tried.power == infinity);
-    return;
-  }
-  const OperatingPoint hover = evaluate(design, result.area, Condition::hover);
-  const OperatingPoint forward = evaluate(design, result.area, Condition::forward);
-  CHECK(demand_margins(design, hover, forward).met());
-  const double power = (need.power_at == Condition::hover ? hover : forward).total_power;
-  CHECK(power <= tried.power * (1 + solved_rounding));
+  check_answer(design, result, tried, solved_rounding);
 }
 
 /// As many as the environment asks for, as once before a release, or as usual.

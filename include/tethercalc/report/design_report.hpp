@@ -85,8 +85,9 @@ namespace tethercalc {
 /// curve should have been scaled to the density of the air.
 [[nodiscard]] std::vector<Warning> spec_warnings(const DesignFile& file);
 
-/// That a solved tether would hang below its station, in which condition and how far.
-[[nodiscard]] Warning ground_warning(const GroundContact& ground);
+/// That a solved tether would hang below its station, in which condition and how far; begins with
+/// `where`, if that is known.
+[[nodiscard]] Warning ground_warning(const GroundContact& ground, const std::string& where = {});
 
 /// How much more another side of the station takes than the one that was judged.
 [[nodiscard]] Warning side_warning(const WorstSide& side);
