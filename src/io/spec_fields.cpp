@@ -592,7 +592,6 @@ bool may_conflict(std::string_view path) {
                                  "tether.length_m",
                                  "tether.insulation.",
                                  "tether.cover.width_mm",
-                                 "tether.cross_section_mm2",
                                  "tether.drum.",
                                  "tether.strength_member.",
                                  "tether.model",
@@ -658,13 +657,14 @@ std::vector<FieldConflict> find_conflicts(const Design& design) {
                          "a wound package has both a core's diameter and a width; give this too"});
   }
   const Tether& tether = design.tether;
-  const double turn = wound_side(tether, conductor_radius(tether.cross_section.value_or(0)),
-                                 insulation_wall(tether.insulation, design.supply.voltage));
-  if (drum.width > 0 && drum.width < turn) {
+  const double turn =
+      wound_side(tether, 0, insulation_wall(tether.insulation, design.supply.voltage));
+  if (drum.width > 0 && drum.width <= turn) {
     conflicts.push_back(
         {"/tether/drum/width_mm",
          fmt::format(
-             "the {:.4g} mm between the flanges hold no turn of a tether that takes {:.4g} mm",
+             "the {:.4g} mm between the flanges hold no turn of a tether that takes {:.4g} mm even "
+             "without its conductors",
              drum.width / unit::millimetre, turn / unit::millimetre)});
   }
   const Insulation& insulation = design.tether.insulation;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "tethercalc/model/drum_package.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -39,6 +41,13 @@ OptionalMargin input_voltage(const Design& design, const OperatingPoint&, Condit
   return converter.max_input_voltage
              ? std::min(above, excess(*converter.max_input_voltage, voltage))
              : above;
+}
+
+OptionalMargin drum_width(const Design& design, const OperatingPoint& point, Condition) {
+  const Tether& tether = design.tether;
+  if (tether.drum.width == 0) return std::nullopt;
+  const double wall = insulation_wall(tether.insulation, design.supply.voltage);
+  return excess(tether.drum.width, wound_side(tether, conductor_radius(point.cross_section), wall));
 }
 
 OptionalMargin thrust_headroom(const Design& design, const OperatingPoint& point,
@@ -88,6 +97,7 @@ constexpr std::array<DemandEntry, demand_count> demands{
      {Demand::takeoff_mass, "takeoff_mass", takeoff_mass},
      {Demand::max_pitch, "max_pitch", max_pitch},
      {Demand::input_voltage, "input_voltage", input_voltage},
+     {Demand::drum_width, "drum_width", drum_width},
      {Demand::thrust_headroom, "thrust_headroom", thrust_headroom},
      {Demand::conductor_temperature, "conductor_temperature", conductor_temperature},
      {Demand::drum_temperature, "drum_temperature", drum_temperature},

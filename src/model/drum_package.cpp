@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/constants.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -66,6 +68,11 @@ bool is_cooling_known(const Drum& drum) {
 double wound_side(const Tether& tether, double radius, double wall) {
   return around_two * (radius + wall) + strength_member_data(tether.strength_member).diameter +
          tether.cover_width;
+}
+
+double widest_wound_radius(const Tether& tether, double wall) {
+  const double width = tether.drum.width;
+  return width > 0 ? (width - wound_side(tether, 0, wall)) / around_two : infinity;
 }
 
 DrumPackage drum_package(const Tether& tether, double radius, double wall, double length) {

@@ -137,13 +137,14 @@ double SteadyFlight::searched_radius(double limit) const {
   double light = -1;
   double heavy = thinnest;
   // Beyond radii at which it cannot hang it may hang again.
-  for (; heavy <= thickest; heavy *= 2) {
+  const double step = tether_.hangs_alike() ? 2 : hanging_step;
+  for (; heavy <= thickest; heavy *= step) {
     const double here = weight(heavy);
     if (here <= limit) light = heavy;
     if (light > 0 && here > limit && here < std::numeric_limits<double>::infinity()) break;
   }
   if (light < 0) return light;
-  if (heavy > thickest) heavy = std::min(2 * light, thickest);
+  if (heavy > thickest) heavy = std::min(step * light, thickest);
   if (weight(heavy) <= limit) return heavy;
   if (!has_battery_ && weight(heavy) < std::numeric_limits<double>::infinity()) {
     return radius_between(limit, light, heavy);

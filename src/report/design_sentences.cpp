@@ -67,7 +67,14 @@ constexpr LimitWords all_limits[] = {
      "the supply is outside the converter's range", "supply outside the converter's range"},
     {"Limited by the tether: any thicker, and {no_way}.",
      "No cross-section works: with 1 mm², a usual size, {no_way}.",
-     "The tether's way up to the drone", "{no_way}", "no way up for the tether"}};
+     "The tether's way up to the drone", "{no_way}", "no way up for the tether"},
+    {"Limited by the drum: any thicker, and no turn of the tether fits into its {drum_mm} mm of "
+     "width.",
+     "No cross-section that meets the other demands has a turn that fits into the drum's {drum_mm} "
+     "mm "
+     "of width.",
+     "The drum's width of {drum_mm} mm", "no turn of the tether fits between the drum's flanges",
+     "drum too narrow"}};
 
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
@@ -114,6 +121,7 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
       fmt::arg("demand", headroom_words(demanded) + " in " + where),
       fmt::arg("headroom", fixed(demanded, 2)),
       fmt::arg("tilt", significant(need.max_pitch / unit::degree, 3)),
+      fmt::arg("drum_mm", significant(design.tether.drum.width / unit::millimetre, 4)),
       fmt::arg("rated_C", significant(design.tether.insulation.rated_temperature_C.value_or(
                                           highest_conductor_temperature_C),
                                       3)),
@@ -243,9 +251,12 @@ std::string condition_words(Condition condition) {
 }
 
 std::string limit_in_short(Limit limit) {
-  static constexpr std::array words{
-      "least power", "power that arrives", "take-off mass",  "motors",         "tilt", "heat",
-      "strength",    "converter's rating", "supply voltage", "tether's way up"};
+  static constexpr std::array words{"least power",    "power that arrives",
+                                    "take-off mass",  "motors",
+                                    "tilt",           "heat",
+                                    "strength",       "converter's rating",
+                                    "supply voltage", "tether's way up",
+                                    "drum's width"};
   return words.at(static_cast<std::size_t>(limit));
 }
 
@@ -324,6 +335,8 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
       return "tilts too far in " + where;
     case Demand::input_voltage:
       return "supply voltage outside the converter's range";
+    case Demand::drum_width:
+      return "too thick for the drum's width";
     case Demand::thrust_headroom: {
       if (point.thermal_runaway) return "overheats without end in " + where;
       const double demanded = demanded_headroom(design.requirements, missed.condition);

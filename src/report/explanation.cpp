@@ -152,7 +152,7 @@ std::vector<std::string> limits_and_demands() {
   const auto add = [&codes](std::string_view code) {
     if (std::ranges::count(codes, code) == 0) codes.emplace_back(code);
   };
-  for (int i = 0; i <= static_cast<int>(Limit::tether_shape); ++i) {
+  for (std::size_t i = 0; i < limit_count; ++i) {
     add(limit_name(static_cast<Limit>(i)));
   }
   for (std::size_t i = 0; i < demand_count; ++i) add(demand_name(static_cast<Demand>(i)));

@@ -256,7 +256,7 @@ SweepRecords::SweepRecords(std::span<const SweepAxis> axes) : axes_(axes.begin()
     }
   }
   std::vector<std::string_view> limits;
-  for (int i = 0; i <= static_cast<int>(Limit::tether_shape); ++i) {
+  for (std::size_t i = 0; i < limit_count; ++i) {
     limits.push_back(limit_name(static_cast<Limit>(i)));
   }
   RecordColumn* words = &columns_[axes_.size()];  // the first three results

@@ -16,6 +16,7 @@
 
 #include "model/constants.hpp"
 #include "solve/thrust_at.hpp"
+#include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/model/operating_point.hpp"
 #include "tethercalc/model/power_line.hpp"
 #include "tethercalc/model/tether_heat.hpp"
@@ -328,6 +329,12 @@ double heaviest_radius(const FlightDemands& demands) {
   return flight.radius_of_weight(flight.design().drone.motor_count * demands.most_thrust());
 }
 
+/// The radius up to which the drum holds a turn.
+double widest_wound(const Design& design) {
+  const double wall = insulation_wall(design.tether.insulation, design.supply.voltage);
+  return std::max(widest_wound_radius(design.tether, wall), 0.0);
+}
+
 /// Thinner solved tethers than this, of those up to `hi`, do not deliver what is demanded.
 double least_delivering(const FlightDemands& demands, double hi) {
   const SteadyFlight& flight = demands.flight();
@@ -373,7 +380,7 @@ IntervalSet headroom_areas(const SteadyFlight& flight, double required) {
 
 IntervalSet areas_meeting_demands(const SteadyFlight& flight, double required) {
   const FlightDemands demands(flight, required, true);
-  const double heaviest = heaviest_radius(demands);
+  const double heaviest = std::min(heaviest_radius(demands), widest_wound(flight.design()));
   return areas_meeting(
       demands, intersection(radii_asked(demands, heaviest), strong_radii(flight, heaviest)));
 }

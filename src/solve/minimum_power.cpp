@@ -73,7 +73,7 @@ class ValleySearch {
     std::size_t piece = piece_at(at);
     for (int step = 1; step < 200; ++step) {
       const Trade trade = trade_at(at, piece);
-      const double excess = near_log(trade.saved, trade.spent);
+      const double excess = trade.excess();
       const bool falls = excess > 0;
       if (falls ? at.radius >= right_.radius : at.radius <= left_.radius) return at;
       (falls ? left_ : right_) = {at.radius, true};
@@ -120,6 +120,12 @@ class ValleySearch {
     double saved = 0;
     double spent = 0;
     [[nodiscard]] bool pays() const { return saved > spent; }
+    /// About ln(saved/spent), within ±2; at its end where a cable that grows longer, on a winch
+    /// that hardly holds it, loses more with more conductor, or pulls less.
+    [[nodiscard]] double excess() const {
+      if (saved >= 0 && spent >= 0) return near_log(saved, spent);
+      return pays() ? 2 : -2;
+    }
   };
 
   /// The trade, were the motor curve to follow `piece` everywhere.

@@ -199,7 +199,7 @@ DemandMargin least_missed(const Flights& flights, const IntervalSet& areas) {
 
 /// Whether the cable has demands of its own to meet, whatever it delivers.
 bool is_cable_judged(const Design& design) {
-  return design.requirements.strength_safety_factor > 0 ||
+  return design.requirements.strength_safety_factor > 0 || design.tether.drum.width > 0 ||
          (is_heated(design.tether) && design.tether.insulation.rated_temperature_C);
 }
 
@@ -305,6 +305,7 @@ Limit limit_of(Demand demand) {
                                                    Limit::takeoff_mass,
                                                    Limit::max_pitch,
                                                    Limit::input_voltage,
+                                                   Limit::drum_width,
                                                    Limit::available_power,
                                                    Limit::conductor_temperature,
                                                    Limit::conductor_temperature,

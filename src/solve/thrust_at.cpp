@@ -110,8 +110,7 @@ void collect_within_tilt(const SteadyFlight& flight, double a, double b, Interva
 void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
                                 IntervalSet& radii) {
   constexpr double close = 1.05;
-  // About as far apart as a cable is solved that some conductors hold up and others do not.
-  const double next = flight.tether().hangs_alike() ? infinity : 1.2;
+  const double next = flight.tether().hangs_alike() ? infinity : hanging_step;
   const auto hangs = [&](double r) { return flight.weight(r) < infinity; };
   const auto within = [&](double r) { return hangs(r) && within_tilt(flight, r, r); };
   if (!hangs(a) && !hangs(b) && b < next * a) return;
@@ -128,14 +127,21 @@ void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
     return;
   }
   if (within(a) && within(b)) return append(radii, {a, b});
-  if (!within(a) && !within(b)) return;
-  double inside = within(a) ? a : b;
-  double outside = within(a) ? b : a;
-  while (std::abs(outside - inside) > kink_rounding * b) {
-    const double middle = 0.5 * (inside + outside);
-    (within(middle) ? inside : outside) = middle;
-  }
-  append(radii, within(a) ? Interval{a, inside} : Interval{inside, b});
+  const auto last = [b](const auto& holds, double inside, double outside) {
+    while (std::abs(outside - inside) > kink_rounding * b) {
+      const double middle = 0.5 * (inside + outside);
+      (holds(middle) ? inside : outside) = middle;
+    }
+    return inside;
+  };
+  if (within(a)) return append(radii, {a, last(within, a, b)});
+  if (within(b)) return append(radii, {last(within, b, a), b});
+  if (hangs(a) == hangs(b)) return;
+  // The tilt may come within its limit just before the tether hangs no more.
+  const double brink = hangs(a) ? last(hangs, a, b) : last(hangs, b, a);
+  if (!within(brink)) return;
+  const double edge = last(within, brink, hangs(a) ? a : b);
+  append(radii, {std::min(edge, brink), std::max(edge, brink)});
 }
 
 /// The first piece of the motor curve, of those that the reserve battery passes to strictly between

@@ -80,6 +80,8 @@ constexpr std::pair<Demand, Movable> relaxations[] = {
     {Demand::converter_rating,
      {"supply.converter.rated_output_W",
       [](Design& d) { return &*d.supply.converter.rated_output_power; }, 1, 0.01, true}},
+    {Demand::drum_width,
+     {"tether.drum.width_mm", [](Design& d) { return &d.tether.drum.width; }, unit::millimetre}},
     {Demand::input_voltage,
      {"supply.converter.max_input_voltage_V",
       [](Design& d) { return &*d.supply.converter.max_input_voltage; }, 1, 0.01, true}}};

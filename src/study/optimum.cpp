@@ -167,6 +167,7 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
     case Limit::converter_rating:
     case Limit::input_voltage:
     case Limit::tether_shape:
+    case Limit::drum_width:
       return refusal;
     default:
       refusal.best = result.best_headroom;

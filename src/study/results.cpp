@@ -48,10 +48,10 @@ std::string_view condition_name(Condition condition) {
 }
 
 std::string_view limit_name(Limit limit) {
-  constexpr std::array<std::string_view, 10> names{
+  constexpr std::array<std::string_view, limit_count> names{
       "minimum_power", "available_power",       "takeoff_mass",    "motor_thrust",
       "max_pitch",     "conductor_temperature", "tether_strength", "converter_rating",
-      "input_voltage", "tether_shape"};
+      "input_voltage", "tether_shape",          "drum_width"};
   return names.at(static_cast<std::size_t>(limit));
 }
 

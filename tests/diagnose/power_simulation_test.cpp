@@ -148,12 +148,25 @@ double value_off_neutral(const SpecField& field, const Design& d) {
   return field.kind == FieldKind::integer ? now + 1 : now * 1.07;
 }
 
-std::vector<const SpecField*> numeric_fields() {
+/// Those that hold a number or a choice.
+std::vector<const SpecField*> changeable_fields() {
   std::vector<const SpecField*> fields;
   for (const SpecField& field : spec_fields()) {
-    if (is_numeric(field)) fields.push_back(&field);
+    if (is_numeric(field) || !field_words(field.kind).empty()) fields.push_back(&field);
   }
   return fields;
+}
+
+/// Puts another value into the field.
+void change(Design& design, const SpecField& field) {
+  if (is_numeric(field)) return set_field(design, field, value_off_neutral(field, design));
+  set_word(design, field, (field_word(design, field) + 1) % field_words(field.kind).size());
+}
+
+/// Some choices are of a tether that hangs only.
+void hang_where_asked_for(Design& design) {
+  const bool asked = design.tether.drag_by_reynolds_number || design.flight.horizontal_offset > 0;
+  if (asked) design.tether.model = TetherModel::solved;
 }
 
 std::string told(const Diagnosis& d) {
@@ -175,10 +188,11 @@ void check_nothing_is_found(const Design& design, unsigned seed) {
 
 /// Every third field, one at a time.
 void check_fields(std::size_t remainder) {
-  const auto fields = numeric_fields();
+  const auto fields = changeable_fields();
   for (std::size_t f = remainder; f < fields.size(); f += 3 * test::stride()) {
     Design design = flown();
-    set_field(design, *fields[f], value_off_neutral(*fields[f], design));
+    change(design, *fields[f]);
+    hang_where_asked_for(design);
     INFO(fields[f]->pointer << ", TETHERCALC_TEST_SEED=" << test::run_seed());
     check_nothing_is_found(design, test::run_seed() + 10 * static_cast<unsigned>(f));
   }
@@ -212,11 +226,12 @@ TEST_CASE("a log of the simulation shows nothing with any set of fields off neut
   test::each_random(test::draws(12), [](test::Random& random) {
     Design design = flown();
     std::string changed;
-    for (const SpecField* field : numeric_fields()) {
+    for (const SpecField* field : changeable_fields()) {
       if (!random.chance(0.5)) continue;
-      set_field(design, *field, value_off_neutral(*field, design));
+      change(design, *field);
       changed += std::string(field->pointer) + " ";
     }
+    hang_where_asked_for(design);
     INFO(changed);
     if (!can_fly(design)) return;
     check_nothing_is_found(design, static_cast<unsigned>(random.integer(0, 1 << 30)));

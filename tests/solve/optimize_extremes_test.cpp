@@ -94,7 +94,9 @@ void check_solved_against_areas(const Design& design, int count) {
   const Optimization result = optimize(design);
   const Tried tried = try_areas(design, result.headroom_areas, count, solved_rounding);
   CHECK(tried.other_headroom == 0);
-  if (tried.headroom > 1e-6) {
+  // A tenth of the thrust that it takes is far from flying, and its cables may be of a few sizes
+  // that nothing but the wind holds up.
+  if (tried.headroom > 0.1) {
     CHECK(best_headroom(design, need.headroom_at).value >= tried.headroom * (1 - solved_rounding));
   }
   check_answer(design, result, tried, solved_rounding);
@@ -112,7 +114,7 @@ TEST_CASE("no area is better than the optimum of any design that a spec can say"
   const int areas = asked_or("TETHERCALC_EXTREME_AREAS", 300);
   test::each_random(asked_or("TETHERCALC_EXTREME_DESIGNS", test::draws(300)),
                     [areas](test::Random& random) {
-                      check_against_areas(test::random_extreme_design(random), areas);
+                      check_against_areas(test::random_whole_range_design(random), areas);
                     });
 }
 
@@ -177,6 +179,25 @@ TEST_CASE("no area is better than the optimum on a solved tether") {
   const int designs = asked_or("TETHERCALC_EXTREME_DESIGNS", test::draws(40));
   test::each_random(designs, [](test::Random& random) {
     check_solved_against_areas(test::random_hanging_design(random), 100);
+  });
+}
+
+TEST_CASE("of the conductors that a winch holds up, which may be a few, none is better") {
+  const int designs = asked_or("TETHERCALC_EXTREME_DESIGNS", test::draws(40));
+  test::each_random(designs, [](test::Random& random) {
+    Design design = test::published_design();
+    Tether& tether = design.tether;
+    tether.model = TetherModel::solved;
+    tether.length = random.uniform(10, 80);
+    // Weaker ones hold, in a wind, conductors of sizes closer than they are looked for.
+    tether.winch_pull = random.magnitude(1, 10);
+    if (random.chance(0.3)) tether.spooled_length = random.magnitude(0.1, 100);
+    design.supply.voltage = random.uniform(60, 300);
+    design.flight.airspeed = random.uniform(0, 12);
+    design.flight.headwind = random.uniform(0, 10);
+    design.flight.horizontal_offset = tether.length * random.uniform(0, 1);
+    design.requirements.thrust_headroom = random.uniform(1, 1.6);
+    check_solved_against_areas(design, 150);
   });
 }
 

@@ -25,7 +25,7 @@ Design demanding_design(test::Random& random) {
   if (random.chance(0.3)) tether.inclination = random.uniform(0, 1.57);
   if (random.chance(0.3)) {
     tether.drum.core_diameter = random.magnitude(0.05, 0.5);
-    tether.drum.width = random.magnitude(0.03, 0.5);
+    tether.drum.width = random.magnitude(0.003, 0.5);
   }
   tether.insulation.thermal_conductivity = random.chance(0.8) ? 0.17 : 0;
   tether.insulation.rated_temperature_C = random.uniform(60, 180);

@@ -6,6 +6,7 @@
 
 #include "support/random.hpp"
 #include "tethercalc/model/design.hpp"
+#include "tethercalc/model/drum_package.hpp"
 
 namespace tethercalc::test {
 
@@ -254,8 +255,35 @@ inline Design random_extreme_design(Random& random) {
   return d;
 }
 
-/// The same on a solved tether as drones have them, in air as it is, with a wind that may grow with
-/// height.
+/// The same, and what it leaves out: cables as long and as short as a spec takes them, covers,
+/// strands and vibration, described drums, benches and losses.
+inline Design random_whole_range_design(Random& random) {
+  Design d = random_extreme_design(random);
+  Tether& tether = d.tether;
+  if (random.chance(0.2)) tether.length = random.magnitude(0.1, 1e4);
+  if (random.chance(0.3)) tether.stranding_factor = random.uniform(1, 2);
+  if (random.chance(0.3)) tether.cover_mass = random.magnitude(1e-5, 1);
+  if (random.chance(0.3)) tether.cover_width = random.magnitude(1e-5, 0.1);
+  if (random.chance(0.2)) tether.vibration_amplitude = random.uniform(0, 2);
+  if (random.chance(0.3)) tether.inclination = random.uniform(0, 90) * unit::degree;
+  if (random.chance(0.2)) tether.drum.derating = random.uniform(0.01, 1);
+  if (random.chance(0.3)) {
+    tether.drum.core_diameter = random.magnitude(1e-3, 10);
+    const double wall = insulation_wall(tether.insulation, d.supply.voltage);
+    tether.drum.width = wound_side(tether, 0, wall) + random.magnitude(1e-5, 1);
+    if (random.chance(0.5)) tether.drum.package_conductivity = random.magnitude(0.01, 10);
+  }
+  if (random.chance(0.3)) d.drone.motor_air_density = random.magnitude(0.1, 10);
+  if (random.chance(0.2)) {
+    const double all_power = d.drone.motor.max_power() * d.drone.motor_count;
+    d.supply.converter.losses = {all_power * random.magnitude(1e-3, 0.5),
+                                 random.magnitude(1e-3, 0.5) / all_power};
+  }
+  return d;
+}
+
+/// An extreme design on a solved tether as drones have them, in air as it is, with a wind that may
+/// grow with height.
 inline Design random_hanging_design(Random& random) {
   Design d = random_extreme_design(random);
   d.tether.model = TetherModel::solved;

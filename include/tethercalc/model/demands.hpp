@@ -18,6 +18,7 @@ enum class Demand {
   takeoff_mass,           ///< a reserve battery can carry itself
   max_pitch,              ///< the tilt is within its limit
   input_voltage,          ///< the supply is within the converter's range
+  drum_width,             ///< the drum's flanges hold a turn of the tether
   thrust_headroom,        ///< the headroom asked for in one condition, and 1 in the other
   conductor_temperature,  ///< in the air, at most the insulation's rated one, and steady
   drum_temperature,       ///< the same on the drum
@@ -26,7 +27,7 @@ enum class Demand {
 };
 
 /// How many there are.
-inline constexpr std::size_t demand_count = 9;
+inline constexpr std::size_t demand_count = 10;
 
 /// "takeoff_mass", "max_pitch" …: the name of the enumerator.
 [[nodiscard]] std::string_view demand_name(Demand demand);

@@ -47,6 +47,10 @@ struct DrumPackage {
 /// holds it, with conductors of `radius` m (≥ 0) in walls of `wall` m.
 [[nodiscard]] double wound_side(const Tether& tether, double radius, double wall);
 
+/// m, the radius of the thickest conductors in walls of `wall` m of which the drum's flanges hold a
+/// turn; below 0 where they hold none, infinite where no width is stated.
+[[nodiscard]] double widest_wound_radius(const Tether& tether, double wall);
+
 /// `length` m (> 0) of `tether` with conductors of `radius` m in walls of `wall` m, on its drum.
 [[nodiscard]] DrumPackage drum_package(const Tether& tether, double radius, double wall,
                                        double length);

@@ -191,6 +191,10 @@ class SimilarCables;
 /// held against many places of the drone that does not pay, and each load is solved by itself.
 enum class ConductorsAsked { many, one };
 
+/// About as far apart, as a ratio, as radii are looked at of a tether that hangs with conductors of
+/// some and not of other sizes (see `TetherInFlight::hangs_alike`).
+inline constexpr double hanging_step = 1.2;
+
 /// The load of a tether that hangs as weight and wind have it (`CableSolver`), as a smooth function
 /// of its conductor's radius. Where length, place and profile of the wind are known, and the cable
 /// does not stretch nor its drag depend on the Reynolds number, drag over weight decides how it

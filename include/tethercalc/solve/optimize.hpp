@@ -20,7 +20,11 @@ enum class Limit {
   converter_rating,       ///< the rated output of the converter
   input_voltage,          ///< the range of the converter's input
   tether_shape,           ///< a winch's pull that holds the tether up between station and drone
+  drum_width,             ///< the width of the drum, whose flanges hold a turn
 };
+
+/// How many there are.
+inline constexpr std::size_t limit_count = 11;
 
 /// The limit that a demand is told as.
 [[nodiscard]] Limit limit_of(Demand demand);
