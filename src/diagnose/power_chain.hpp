@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "diagnose/hanging_loads.hpp"
+#include "model/tether_heat.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/diagnose/power_log.hpp"
 #include "tethercalc/model/design.hpp"
 #include "tethercalc/model/steady_flight.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 

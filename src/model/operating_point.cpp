@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "model/constants.hpp"
+#include "model/tether_heat.hpp"
 #include "tethercalc/model/power_line.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {

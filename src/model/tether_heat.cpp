@@ -1,4 +1,4 @@
-#include "tethercalc/model/tether_heat.hpp"
+#include "model/tether_heat.hpp"
 
 #include <algorithm>
 #include <cmath>

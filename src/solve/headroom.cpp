@@ -15,11 +15,11 @@
 #include <utility>
 
 #include "model/constants.hpp"
+#include "model/tether_heat.hpp"
 #include "solve/thrust_at.hpp"
 #include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/model/operating_point.hpp"
 #include "tethercalc/model/power_line.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {

@@ -11,9 +11,9 @@
 #include <span>
 
 #include "model/constants.hpp"
+#include "model/tether_heat.hpp"
 #include "solve/thrust_at.hpp"
 #include "tethercalc/model/power_line.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 namespace tethercalc {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "model/tether_heat.hpp"
 #include "tethercalc/model/steady_flight.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 #include "tethercalc/solve/interval.hpp"
 
 namespace tethercalc {

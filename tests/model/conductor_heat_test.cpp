@@ -6,11 +6,11 @@
 #include <numbers>
 #include <vector>
 
+#include "model/tether_heat.hpp"
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
 #include "support/straight_tether.hpp"
 #include "tethercalc/model/operating_point.hpp"
-#include "tethercalc/model/tether_heat.hpp"
 
 using namespace tethercalc;
 using std::numbers::pi;

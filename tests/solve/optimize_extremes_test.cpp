@@ -47,7 +47,11 @@ Tried try_areas(const Design& design, const IntervalSet& areas, int count, doubl
     tried.headroom = std::fmax(tried.headroom, judged.headroom);
     const bool enough = judged.headroom >= need.thrust_headroom;
     const bool on_edge = beside(judged.headroom, need.thrust_headroom) ||
-                         beside(std::abs(judged.pitch), need.max_pitch);
+                         beside(std::abs(judged.pitch), need.max_pitch) ||
+                         // Where a cable runs away, the headroom leaps.
+                         std::ranges::any_of(areas, [&](const Interval& range) {
+                           return beside(area, range.lo) || beside(area, range.hi);
+                         });
     if (!on_edge && enough != contains(areas, area)) ++tried.other_headroom;
     if (power < tried.power && demand_margins(design, at_hover, at_forward).met()) {
       tried.power = power;

@@ -50,7 +50,7 @@ struct OperatingPoint {
 /// T_nec = (m_d + m_t)g/(n cosθ); P_drone = converter(n·f·P_motor(T_nec)) + P_aux;
 /// T_avail = motor(converter⁻¹(P_avail − P_aux)/(n·f)); U·I = P_drone + I²R.
 /// The auxiliary power is drawn at the converter's input. Where the tether is heated, resistance,
-/// current and conductor temperature agree with each other (see tether_heat.hpp), and everything
+/// current and conductor temperature agree with each other (see conductor_heat.hpp), and everything
 /// that depends on the resistance with them.
 [[nodiscard]] OperatingPoint evaluate(const Design& design, double area, Condition condition);
 
