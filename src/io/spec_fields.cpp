@@ -193,8 +193,9 @@ const std::array all_spec_fields{
               "that of the wound package, in place of what layers say; 0: not stated.",
               unit::millimetre, at<&Design::tether, &Tether::drum, &Drum::core_diameter>},
     SpecField{"/tether/drum/width_mm", number, "mm", between(0, 1e4), "0",
-              "Width of the drum between its flanges; 0: not stated.", unit::millimetre,
-              at<&Design::tether, &Tether::drum, &Drum::width>},
+              "Width of the drum between its flanges, where a turn of the tether has to fit; 0: "
+              "not stated.",
+              unit::millimetre, at<&Design::tether, &Tether::drum, &Drum::width>},
     SpecField{"/tether/drum/package_conductivity_W_mK", optional_number, "W/(m·K)",
               between(0.01, 10), "null",
               "Thermal conductivity across the wound wires; where unknown, that of the wires with "

@@ -21,6 +21,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "drum_package_unused",
                                                                    "tether_inclination_unknown",
                                                                    "rated_temperature_unknown",
+                                                                   "slack_unused",
                                                                    "tether_touches_ground",
                                                                    "tether_does_not_hang",
                                                                    "offset_is_upwind",

@@ -558,6 +558,19 @@ std::optional<Warning> drag_estimate_warning(const Design& design) {
           significant(drag.top_area, 3), significant(drag.linear_speed, 3), drag_estimate_factor)};
 }
 
+std::optional<Warning> slack_warning(const Design& design) {
+  const Tether& tether = design.tether;
+  const bool straight = tether.model == TetherModel::straight;
+  if (tether.slack == Tether{}.slack || !(straight || hangs_on_winch(tether))) return std::nullopt;
+  return Warning{
+      WarningKind::slack_unused,
+      fmt::format("the slack (tether.slack_percent) counts for nothing: {}",
+                  straight ? "a straight tether is as long as the drone is high (tether.model "
+                             "solved hangs with slack)"
+                           : "how much is out is what the winch's pull makes it "
+                             "(tether.winch_pull_N 0 leaves the slack)")};
+}
+
 Warning motor_mass_warning() {
   return {WarningKind::motor_mass_not_counted,
           "the drone weighs what the spec says (drone.mass_g) with every motor: what a motor, its "
@@ -567,6 +580,7 @@ Warning motor_mass_warning() {
 
 std::vector<Warning> cable_warnings(const Design& design, std::span<const AreaPoints> flown) {
   std::vector<Warning> warnings;
+  if (auto slack = slack_warning(design)) warnings.push_back(std::move(*slack));
   const Tether& tether = design.tether;
   double on_drum = flown.empty() ? tether.spooled_length : 0;
   for (const AreaPoints& row : flown) {

@@ -262,7 +262,7 @@ TEST_CASE("without gnuplot all but PDF and PNG are drawn, and the message for th
   const Kinds kinds;
   for (const auto& [kind, arguments] : kinds.all()) {
     // All kinds go the same way, and the code that draws each has been through a sanitizer above.
-    if (test::stride() > 1 && kind != "optimum") continue;
+    if (tethercalc::test::stride() > 1 && kind != "optimum") continue;
     INFO(kind);
     for (const char* suffix : {".svg", ".txt", ".gp", ".pdf", ".png"}) {
       const bool by_gnuplot = is_drawn_by_gnuplot(suffix);

@@ -253,3 +253,19 @@ TEST_CASE("a drone aside in wind is said to stand on the favourable side") {
     CHECK(std::count(codes.begin(), codes.end(), "offset_is_upwind") == 1);
   }
 }
+
+TEST_CASE("a slack that counts for nothing is told, and one that counts is not") {
+  const auto codes = [](std::vector<std::string> fields) {
+    std::vector<std::string> arguments{"evaluate", published, "--format", "json"};
+    fields.insert(fields.end(), {"tether.slack_percent=5", "tether.cross_section_mm2=1"});
+    for (const std::string& field : fields) arguments.insert(arguments.end(), {"--set", field});
+    const auto all = Json::parse(run_tethercalc(arguments).out).at("warning_codes");
+    return std::count(all.begin(), all.end(), "slack_unused");
+  };
+  CHECK(codes({}) == 1);
+  CHECK(codes({"tether.model=solved", "tether.winch_pull_N=5"}) == 1);
+  CHECK(codes({"tether.model=solved"}) == 0);
+  // A shape is solved whatever the spec's model.
+  const Ran shape = run_tethercalc({"shape", published, "--area-mm2", "1", "--slack", "5"});
+  CHECK_THAT(shape.out, !Contains("counts for nothing"));
+}

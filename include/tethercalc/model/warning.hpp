@@ -25,6 +25,7 @@ enum class WarningKind {
   drum_package_unused,         ///< a drum's package beside a measured heating
   tether_inclination_unknown,  ///< a tether near its rating that may hang steeply
   rated_temperature_unknown,   ///< insulation that no heat limits
+  slack_unused,                ///< a slack of a tether whose length something else decides
   tether_touches_ground,       ///< a solved tether that hangs below its station
   tether_does_not_hang,        ///< a solved tether without a way up to its drone
   offset_is_upwind,            ///< a drone aside of its station, judged on the favourable side
@@ -65,7 +66,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 53;
+inline constexpr std::size_t warning_kind_count = 54;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.

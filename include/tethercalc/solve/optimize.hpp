@@ -58,7 +58,8 @@ struct Optimization : AreaPoints {
 /// and, where the design asks for them,
 /// - keep conductors at or below the insulation's rated temperature, in the air and on the drum, in
 ///   both conditions (an ambient temperature is set),
-/// - have a breaking load of `strength_safety_factor` times the tension, and
+/// - have a breaking load of `strength_safety_factor` times the tension,
+/// - have a turn that the drum's flanges hold, and
 /// - do not ask more of the converter than its rated output.
 ///
 /// This is the paper's larger-of-two rule (section IV-A) where the headroom has only a lower edge;
