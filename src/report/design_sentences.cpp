@@ -71,8 +71,7 @@ constexpr LimitWords all_limits[] = {
     {"Limited by the drum: any thicker, and no turn of the tether fits into its {drum_mm} mm of "
      "width.",
      "No cross-section that meets the other demands has a turn that fits into the drum's {drum_mm} "
-     "mm "
-     "of width.",
+     "mm of width.",
      "The drum's width of {drum_mm} mm", "no turn of the tether fits between the drum's flanges",
      "drum too narrow"}};
 

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
@@ -91,6 +92,27 @@ TEST_CASE("of what a winch leaves on the drum the rating is kept, and nothing ch
     }
   }
   CHECK(bound_by_heat > 0);
+}
+
+TEST_CASE("the drum's width bounds the cross-section where a turn just fits, and is named") {
+  Design design = test::published_design();
+  design.requirements.buffer_battery = true;
+  const double least_power = optimize(design).area;
+  design.tether.drum = {.core_diameter = 0.1, .width = 3.5e-3};
+  const Optimization result = optimize(design);
+  REQUIRE(result.feasible);
+  CHECK(result.limited_by == Limit::drum_width);
+  // Two insulated wires side by side, of which a turn takes the square: √8 times one's radius.
+  const double radius = 3.5e-3 / std::sqrt(8) - design.tether.insulation.thickness;
+  CHECK(result.area == Approx(std::numbers::pi * radius * radius).epsilon(1e-12));
+  CHECK(result.area < least_power);
+  design.requirements.buffer_battery = false;
+  const Optimization refused = optimize(design);
+  CHECK_FALSE(refused.feasible);
+  CHECK(refused.limited_by == Limit::drum_width);
+  // A wide one changes nothing.
+  design.tether.drum.width = 1;
+  CHECK(optimize(design).area == optimize(test::published_design()).area);
 }
 
 TEST_CASE("a tether that cannot bear its tension is refused, and a strength member helps") {
