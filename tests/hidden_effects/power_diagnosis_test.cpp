@@ -334,7 +334,9 @@ TEST_CASE("every effect gets one verdict, and none that is ruled out is there") 
 
 TEST_CASE("two power effects at once are both found, first half of the pairs") { check_pairs(0); }
 
-TEST_CASE("two power effects at once are both found, second half of the pairs") { check_pairs(1); }
+TEST_CASE("two power effects at once are both found, second half of the pairs") {
+  if (!test::leave_rates_out()) check_pairs(1);
+}
 
 TEST_CASE("what no power effect describes is seen, with its channel, and not given a name") {
   constexpr int sizes = 10;

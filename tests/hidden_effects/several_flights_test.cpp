@@ -101,6 +101,7 @@ TEST_CASE("flights of one drone share its drag and have each its own wind") {
 }
 
 TEST_CASE("of several flights that hide nothing, nothing is named") {
+  if (test::leave_rates_out()) return;
   int named = 0;
   for (int draw = 0; draw < test::draws(5); ++draw) {
     named += !diagnosed(flights_of(draw, 3)).findings.empty();
@@ -128,6 +129,7 @@ TEST_CASE("what is hidden in one of several flights is named there") {
 }
 
 TEST_CASE("an effect of the drone that short flights leave in doubt is found in all together") {
+  if (test::leave_rates_out()) return;
   int alone = 0;
   int together = 0;
   const int draws = test::draws(4);

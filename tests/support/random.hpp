@@ -28,6 +28,10 @@ constexpr std::size_t stride() { return 10; }
 constexpr std::size_t stride() { return 1; }
 #endif
 
+/// Whether a test of nothing but rates is left out: under a sanitizer, where other tests fly the
+/// code that it flies.
+constexpr bool leave_rates_out() { return stride() > 1; }
+
 /// How many of `count` ≥ 1 to try where a rate is what is tested.
 constexpr int draws(int count) { return std::max(1, count / static_cast<int>(stride())); }
 
