@@ -73,7 +73,7 @@ TEST_CASE("noise has no spikes as it was logged, and next to none interpolated t
       INFO(faster << " Hz");
       // At 13 Hz some samples lie on a line and others at its corners: the median that spikes are
       // held against is of both, and one of 25 logs of 2600 samples has a corner above it.
-      CHECK(spikes_in(interpolated(log, faster)).size() <= 1);
+      CHECK(spikes_in(interpolated(log, faster)).size() <= (faster == 13 ? 1 : 0));
     }
   });
 }

@@ -46,12 +46,13 @@ Tried try_areas(const Design& design, const IntervalSet& areas, int count, doubl
     tried.least_power = std::fmin(tried.least_power, power);
     tried.headroom = std::fmax(tried.headroom, judged.headroom);
     const bool enough = judged.headroom >= need.thrust_headroom;
-    const bool on_edge = beside(judged.headroom, need.thrust_headroom) ||
-                         beside(std::abs(judged.pitch), need.max_pitch) ||
-                         // Where a cable runs away, the headroom leaps.
-                         std::ranges::any_of(areas, [&](const Interval& range) {
-                           return beside(area, range.lo) || beside(area, range.hi);
-                         });
+    const bool on_edge =
+        beside(judged.headroom, need.thrust_headroom) ||
+        beside(std::abs(judged.pitch), need.max_pitch) ||
+        // Where a cable runs away, the headroom leaps.
+        (is_heated(design.tether) && std::ranges::any_of(areas, [&](const Interval& range) {
+           return beside(area, range.lo) || beside(area, range.hi);
+         }));
     if (!on_edge && enough != contains(areas, area)) ++tried.other_headroom;
     if (power < tried.power && demand_margins(design, at_hover, at_forward).met()) {
       tried.power = power;
@@ -93,14 +94,12 @@ void check_against_areas(const Design& design, int count) {
   check_answer(design, result, tried, rounding);
 }
 
-void check_solved_against_areas(const Design& design, int count) {
+void check_solved_against_areas(const Design& design, int count, double least_compared = 1e-6) {
   const Requirements& need = design.requirements;
   const Optimization result = optimize(design);
   const Tried tried = try_areas(design, result.headroom_areas, count, solved_rounding);
   CHECK(tried.other_headroom == 0);
-  // A tenth of the thrust that it takes is far from flying, and its cables may be of a few sizes
-  // that nothing but the wind holds up.
-  if (tried.headroom > 0.1) {
+  if (tried.headroom > least_compared) {
     CHECK(best_headroom(design, need.headroom_at).value >= tried.headroom * (1 - solved_rounding));
   }
   check_answer(design, result, tried, solved_rounding);
@@ -201,7 +200,9 @@ TEST_CASE("of the conductors that a winch holds up, which may be a few, none is 
     design.flight.headwind = random.uniform(0, 10);
     design.flight.horizontal_offset = tether.length * random.uniform(0, 1);
     design.requirements.thrust_headroom = random.uniform(1, 1.6);
-    check_solved_against_areas(design, 150);
+    // A tenth of the thrust that it takes is far from flying, and its cables may be of a few sizes
+    // that nothing but the wind holds up.
+    check_solved_against_areas(design, 150, 0.1);
   });
 }
 
