@@ -2,6 +2,7 @@
 // drag law, κ gain of the vertical acceleration a_D.
 #include "diagnose/flight_prediction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -86,6 +87,7 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   for (std::size_t i = 0; i < observations.size(); ++i) {
     record.sideward_thrust.push_back(std::tan(observations.roll[i]) /
                                      std::cos(observations.tilt[i]));
+    record.cos_sideward.push_back(cosine_of(record.sideward_thrust[i]));
   }
   record.mean_heading = mean_heading(observations);
   for (const double yaw : observations.yaw) {
@@ -113,7 +115,7 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
         &FlightRecord::place_along, &FlightRecord::place_right, &FlightRecord::forward_speed,
         &FlightRecord::right_speed, &FlightRecord::headwind, &FlightRecord::crosswind,
         &FlightRecord::down_speed, &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
-        &FlightRecord::yaw_rate}) {
+        &FlightRecord::cos_sideward, &FlightRecord::yaw_rate}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),
@@ -187,10 +189,15 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
       p.cos_tilt[i] = cosine_of(p.tan_tilt[i]);
     }
   }
+  if (base.roll_trim != 0) {
+    for (double& thrust : p.sideward_thrust) thrust -= base.roll_trim;
+  }
+  p.cos_sideward = record.cos_sideward;
+  if (p.sideward_thrust != record.sideward_thrust) {
+    std::ranges::transform(p.sideward_thrust, p.cos_sideward.begin(), cosine_of);
+  }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
-    p.sideward_thrust[i] -= base.roll_trim;
-    p.cos_sideward[i] = cosine_of(p.sideward_thrust[i]);
     const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
     p.drag[i] = drag.forward;
     p.side_drag[i] = drag.right;

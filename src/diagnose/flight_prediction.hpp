@@ -35,6 +35,7 @@ struct FlightRecord {
   std::vector<double> down_speed;  ///< m/s
   std::vector<double> down_acceleration;  ///< m/s²
   std::vector<double> sideward_thrust;  ///< tan φ/cos θ: of what the thrust carries, to the right
+  std::vector<double> cos_sideward;     ///< of the lean to the side, whose tangent that is
   /// rad/s. A frame that turns carries one speed into the other, force or no force.
   std::vector<double> yaw_rate;
   double mean_heading = 0;  ///< rad in (−π, π], of the whole flight

@@ -133,9 +133,11 @@ TEST_CASE("what happens ahead happens to the side alike") {
   FlightRecord ahead = swinging_flight();
   ahead.both_axes = true;
   ahead.sideward_thrust.assign(ahead.size(), 0.0);
+  ahead.cos_sideward.assign(ahead.size(), 1.0);
   FlightRecord aside = ahead;
   std::swap(aside.forward_speed, aside.right_speed);
   std::swap(aside.tan_tilt, aside.sideward_thrust);
+  std::swap(aside.cos_tilt, aside.cos_sideward);
   aside.tilt.assign(aside.size(), 0.0);
   for (double& x : aside.right_of_heading) x = -x;  // as in a mirror
   FlightBase alike = base;
