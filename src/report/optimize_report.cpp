@@ -299,11 +299,11 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
   }
   for (const AreaPoints& row : study.table) {
     const std::string fault = shortcoming(file.design, row);
-    if (!fault.empty()) {
-      out += fmt::format("\n{} does not meet the requirements: {}", area_words(row.area), fault);
-    }
+    out +=
+        "\n" + area_words(row.area) +
+        (fault.empty() ? " meets every requirement" : " does not meet the requirements: " + fault);
   }
-  if (out.back() != '\n') out += "\n";
+  out += "\n" + wrapped(unchecked_sentence(file.design));
   return out + notes_text(evaluation_warnings(file, study), style);
 }
 
