@@ -115,7 +115,7 @@ void add_delays_alike(const std::vector<FlightData>& flights, const FlightModel&
   for (SelectedGroup& found : selection.selected) {
     const std::size_t flight = model.log_of(found.group).value_or(0);
     const double late = selection.complete.values[model.first_parameter(found.group)];
-    if (!model.effect(found.group).is_delay || std::abs(late) >= flights[flight].step / 2) continue;
+    if (!model.effect(found.group).is_delay || std::abs(late) >= flights[flight].step) continue;
     std::erase_if(selection.open, [&](const Selection::Open& open) {
       const bool is_like = model.effect(open.group).is_delay &&
                            model.log_of(open.group) == model.log_of(found.group);

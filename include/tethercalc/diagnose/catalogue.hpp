@@ -121,8 +121,7 @@ struct Effect {
   /// where every spec has.
   std::string (*lacking_in)(const Design&) = nullptr;
   /// Its first parameter is a time by which a channel of a flight is late. What is late by less
-  /// than half the time between samples is told together with its like: the log does not show
-  /// which.
+  /// than the time between samples is told together with its like: the log does not show which.
   bool is_delay = false;
 };
 
