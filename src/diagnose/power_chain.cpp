@@ -21,6 +21,50 @@ FlightState state_at(const PowerModel& model, const PowerLog& log, std::size_t i
   return flight_state_at(model.design, deployed, log.airspeed[i], ambient);
 }
 
+/// m/s upwards at each sample: the slope of a straight line through the heights nearby, which
+/// averages what an altimeter adds.
+std::vector<double> climb_speed(const PowerLog& log) {
+  constexpr double nearby = 4;  // s, less than lies between flights that are judged together
+  const std::vector<double>& time = log.time;
+  const std::vector<double>& height = log.height;
+  std::vector<double> speed(time.size());
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    while (time[first] < time[i] - nearby) ++first;
+    double n = 0, t = 0, h = 0, tt = 0, th = 0;
+    for (std::size_t k = first; k < time.size() && time[k] <= time[i] + nearby; ++k) {
+      const double later = time[k] - time[i];
+      const double higher = height[k] - height[i];
+      n += 1;
+      t += later;
+      h += higher;
+      tt += later * later;
+      th += later * higher;
+    }
+    const double spread = n * tt - t * t;
+    if (spread > 0) speed[i] = (n * th - t * h) / spread;
+  }
+  return speed;
+}
+
+/// °C of a cable without heat at each sample, `share` of the way from the spec's temperature to the
+/// air's: as the air was over a minute before and after, no faster does a cable follow.
+std::vector<double> temperature_in_air(const PowerLog& log, double in_spec, double share) {
+  constexpr double nearby = 60;  // s
+  const std::vector<double>& air = log.ambient_temperature_C;
+  std::vector<double> temperature(log.time.size(), in_spec);
+  if (share == 0 || air.empty()) return temperature;
+  std::size_t first = 0;
+  std::size_t end = 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < temperature.size(); ++i) {
+    while (end < air.size() && log.time[end] <= log.time[i] + nearby) sum += air[end++] - in_spec;
+    while (log.time[first] < log.time[i] - nearby) sum -= air[first++] - in_spec;
+    temperature[i] += share * sum / static_cast<double>(end - first);
+  }
+  return temperature;
+}
+
 /// The data sheet's curve, continued straight above its last point.
 double motor_curve_power(const MotorCurve& motor, double thrust) {
   if (thrust <= motor.max_thrust()) return motor.power(thrust);
@@ -167,6 +211,8 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
   const auto* warm = is_heated(tether) && !measured
                          ? &memory.heat.temperatures(model, log, memory.loads)
                          : nullptr;
+  const std::vector<double> in_air =
+      temperature_in_air(log, tether.conductor_temperature_C, model.air_share);
   double rise = 0;  // K over the air, of a cable whose heating was measured
   std::vector<double> resistance(log.time.size());
   FlownDesign flown(model.design, memory.loads);
@@ -179,7 +225,8 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
       continue;
     }
     if (!is_heated(tether)) {
-      resistance[i] = hangs->resistance(radius);
+      resistance[i] = model.air_share == 0 ? hangs->resistance(radius)
+                                           : hangs->resistance(radius, in_air[i], in_air[i]);
     } else if (measured) {
       const double temperature = state.ambient_temperature_C + rise;
       resistance[i] = hangs->resistance(radius, temperature, temperature);
@@ -214,6 +261,8 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log, Ha
 
   std::vector<double> power(log.time.size());
   const double duration = log.time.back() - log.time.front();
+  const std::vector<double> climb =
+      model.climb_work == 0 ? std::vector<double>{} : climb_speed(log);
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     const bool dropped = model.dropped_mass != 0 && log.time[i] >= model.drop_time;
@@ -232,6 +281,7 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log, Ha
     power[i] = grown * steady.output_power(motor_curve_power(steady.motor(), thrust),
                                            steady.power_share(tan_pitch).value) +
                beside_motors;
+    if (!climb.empty()) power[i] += model.climb_work * weight * climb[i];
     const double rest = power[i];
     for (const auto& added : model.added_power) power[i] += added(model, log, i, rest);
   }

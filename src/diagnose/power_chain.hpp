@@ -37,7 +37,9 @@ struct PowerInstruments {
 struct PowerModel {
   Design design;  ///< with a cable cross-section, unless the log is of a free flight
   PowerInstruments instruments{};
-  double slack = 0;               ///< length of the cable in the air over the height, less 1
+  double slack = 0;       ///< length of the cable in the air over the height, less 1
+  double air_share = 0;   ///< of the way from the spec's temperature of the cable to the air's
+  double climb_work = 0;  ///< of the work against the weight that a climb takes, at the bus
   double motor_power_growth = 0;  ///< from the first to the last sample, steadily, over the first
   double dropped_mass = 0;        ///< kg that the drone is lighter by from `drop_time` on
   double drop_time = 0;           ///< s of the log's clock

@@ -93,7 +93,7 @@ std::vector<Effect> power_effects() {
        .shows_in = {Stage::tether}},
 
       {.id = "conductor_resistivity",
-       .title = "The conductor resists more than its material should",
+       .title = "The conductor resists more, or less, than its material should",
        .mechanism = "Alloy, stranding or damage make the resistivity another than the spec's, so "
                     "the voltage lost grows in proportion to deployed length and current.",
        .stage = Stage::tether,
@@ -126,6 +126,25 @@ std::vector<Effect> power_effects() {
            [](PowerModel& m, Values x) {
              m.design.tether.heating = {x[0], x[1], x[2]};
            }},
+
+      {.id = "cable_temperature",
+       .title = "The cable has the temperature of the air",
+       .mechanism =
+           "Without heat in the spec the cable counts at one temperature, whatever the air "
+           "has: on a cold day it resists less, by 4 % for every 10 K.",
+       .stage = Stage::tether,
+       .parameters = {{"air_share", "1", 1, 0, -0.5, 1.5, 0.3}},
+       .needs = {"ambient_temperature_C"},
+       .to_separate = "Fly on days of different temperature, or give "
+                      "tether.conductor_temperature_C as it was",
+       .change = "T = T_spec + s·(T_air − T_spec)",
+       .channel = "current_height",
+       .on_power = [](PowerModel& m, Values x) { m.air_share += x[0]; },
+       .lacking_in = [](const Design& design) -> std::string {
+         return is_heated(design.tether)
+                    ? "a spec whose cable has one temperature: this one has heat computed"
+                    : "";
+       }},
 
       {.id = "contact_resistance",
        .title = "Plugs or slip rings add resistance",
@@ -246,7 +265,7 @@ std::vector<Effect> power_effects() {
        .shows_in = {Stage::converter, Stage::motors}},
 
       {.id = "motor_power_scale",
-       .title = "The motors need more power than their data sheet says",
+       .title = "The motors need more, or less, power than their data sheet says",
        .mechanism = "Worn bearings, other propellers or thin air scale the power for every thrust "
                     "by one factor.",
        .stage = Stage::motors,
@@ -257,7 +276,7 @@ std::vector<Effect> power_effects() {
        .on_power = [](PowerModel& m, Values x) { m.design.drone.motor_power_factor *= x[0]; }},
 
       {.id = "motor_ageing",
-       .title = "The motors need more power from minute to minute",
+       .title = "The motors need more, or less, power from minute to minute",
        .mechanism = "Warming windings, wear or a propeller that suffers raise the power for the "
                     "same thrust steadily from the first sample to the last.",
        .stage = Stage::motors,
@@ -266,6 +285,18 @@ std::vector<Effect> power_effects() {
        .change = "P·(1 + a·t/t_log)",
        .channel = "time",
        .on_power = [](PowerModel& m, Values x) { m.motor_power_growth += x[0]; }},
+
+      {.id = "climb_power",
+       .title = "Climbing takes power, and sinking gives some back",
+       .mechanism = "Every metre of height is work against the weight, which the simulation of "
+                    "steady flight leaves out; rotors that climb have a little less to induce.",
+       .stage = Stage::motors,
+       .parameters = {{"climb_work_factor", "1", 1, 0, -1, 5, 0.3}},
+       .needs = {"height_m"},
+       .to_separate = "Climb and sink at several speeds, with hover between",
+       .change = "P + f·W·dh/dt",
+       .channel = "height",
+       .on_power = [](PowerModel& m, Values x) { m.climb_work += x[0]; }},
 
       {.id = "air_density",
        .title = "The air is thinner, or denser, than the spec says",
@@ -308,7 +339,7 @@ std::vector<Effect> power_effects() {
            }},
 
       {.id = "extra_mass",
-       .title = "The drone is heavier than the spec says",
+       .title = "The drone is heavier, or lighter, than the spec says",
        .mechanism = "More weight needs more thrust at every height and airspeed.",
        .stage = Stage::airframe,
        .parameters = {{"extra_mass_kg", "kg", 1, 0, -0.5, 5, 0.05, "drone.mass_g"}},
@@ -406,7 +437,8 @@ std::vector<Effect> power_effects() {
   for (Effect& effect : effects) {
     effect.log = LogKind::power;
     if (effect.shows_in.empty()) effect.shows_in = shown_by(effect.stage);
-    effect.needs = channels_needed(effect.shows_in);
+    const std::vector<std::string> channels = channels_needed(effect.shows_in);
+    effect.needs.insert(effect.needs.end(), channels.begin(), channels.end());
     effect.parameters.front().start = effect.parameters.front().scale;
   }
   return effects;

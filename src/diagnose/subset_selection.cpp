@@ -19,6 +19,9 @@ constexpr double rival_excess = 6;
 /// mechanism that is known to exist is the likelier cause, and the true shape of a named effect
 /// differs a little from the idealised one. e⁻⁴ = 2 % of the likelihood.
 constexpr double name_preference = 8;
+/// What has no size but begins with a leap, as a cable that is at the air's temperature once its
+/// heat is counted, comes behind those that explain as much.
+constexpr double leap_alone = rival_excess;
 /// Part of what unnamed shapes remove that they may miss of the unknown. A name beside them must
 /// explain more than that, or it might name the unknown's rest.
 constexpr double missed_by_shapes = 0.1;
@@ -162,6 +165,13 @@ class SubsetSearch {
     return more;
   }
 
+  /// Whether nothing but the leap with which it begins is left of it.
+  [[nodiscard]] bool has_no_size(std::size_t g, const std::vector<double>& values) const {
+    constexpr double none = 1e-3;  // of a change that matters
+    const ModelParameter& size = problem_.groups[g].parameters.front();
+    return std::abs(values[record_.first_parameter(g)] - size.neutral) <= none * size.scale;
+  }
+
   /// Its length is infinite where it misfits.
   [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near,
                             FitUse use = FitUse::search) const {
@@ -175,6 +185,7 @@ class SubsetSearch {
     result.length += result.fit.squared_error() + shape_price_ * static_cast<double>(shapes.size());
     for (const std::size_t g : named) {
       result.length += name_price_ + 2 * std::log(chances(problem_.groups[g]));
+      if (has_no_size(g, result.fit.values)) result.length += leap_alone;
     }
     if (named.empty() || shapes.empty()) return result;
     const double missed =

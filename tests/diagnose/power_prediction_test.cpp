@@ -17,7 +17,7 @@ namespace {
 PowerLog drawn_log(test::Random& random) {
   PowerLog log;
   for (int i = 0; i < 40; ++i) {
-    log.time.push_back(5.0 * i);
+    log.time.push_back(4.0 * i);
     log.height.push_back(random.uniform(5, 30));
     log.airspeed.push_back(random.uniform(0, 9));
     log.ambient_temperature_C.push_back(random.uniform(5, 30));
@@ -104,6 +104,7 @@ TEST_CASE("a power effect at its neutral values changes no prediction, beyond it
       PowerModel neutral = model;
       effect.on_power(neutral, values);
       CHECK(largest_change(plain, predictions(neutral, log)) < 1e-12);
+      if (effect.lacking_in && !effect.lacking_in(model.design).empty()) continue;
       values[0] += effect.parameters[0].scale * effect.parameters[0].unit_SI;
       PowerModel changed = model;
       effect.on_power(changed, values);

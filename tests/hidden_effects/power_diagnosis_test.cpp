@@ -126,6 +126,7 @@ bool degenerate(const std::string& a, const std::string& b) {
 }
 
 void check_pairs(std::size_t remainder) {
+  if (test::leave_rates_out()) return;
   // Those of the drone and its line; each instrument is paired with them through its rivals.
   const auto effects = std::span(hidden_effects()).first(mechanisms);
   int pairs = 0;
@@ -135,7 +136,6 @@ void check_pairs(std::size_t remainder) {
   for (std::size_t a = 0; a < effects.size(); ++a) {
     for (std::size_t b = a + 1; b < effects.size(); ++b) {
       if (degenerate(effects[a].id, effects[b].id) || number++ % 2 != remainder) continue;
-      if (number / 2 % test::stride() != 0) continue;
       Scenario scenario;
       scenario.seed = seed(200'000 + number);
       effects[a].hide(scenario.hidden, 0.6);
@@ -150,7 +150,7 @@ void check_pairs(std::size_t remainder) {
   INFO(failures);
   // Seen: 89 % of 315 pairs, most misses a translational lift beside another. Of 31 pairs nine are
   // missed by a chance of one in 200.
-  CHECK(found >= 0.72 * pairs - may_miss);
+  CHECK(found >= 0.72 * pairs);
 }
 
 constexpr int quiet_logs = test::draws(60);
@@ -169,6 +169,7 @@ TEST_CASE("a power log without hidden effects yields findings in at most 5 %, fi
 }
 
 TEST_CASE("a power log without hidden effects yields findings in at most 5 %, second half") {
+  if (test::leave_rates_out()) return;
   CHECK(false_alarms(quiet_logs, 100) <= most_alarms);
 }
 
@@ -297,7 +298,11 @@ TEST_CASE("a wrong height, airspeed or length of the cable is named and its size
 }
 
 TEST_CASE("ageing motors, thin air, a drop and a winch are named and their size is covered") {
-  check_detection(mechanisms + 7, hidden_effects().size());
+  check_detection(mechanisms + 7, mechanisms + 11);
+}
+
+TEST_CASE("a cable as cold as its air, and the work of climbing, are named and sized") {
+  check_detection(mechanisms + 11, hidden_effects().size());
 }
 
 TEST_CASE("every effect gets one verdict, and none that is ruled out is there") {
@@ -334,9 +339,7 @@ TEST_CASE("every effect gets one verdict, and none that is ruled out is there") 
 
 TEST_CASE("two power effects at once are both found, first half of the pairs") { check_pairs(0); }
 
-TEST_CASE("two power effects at once are both found, second half of the pairs") {
-  if (!test::leave_rates_out()) check_pairs(1);
-}
+TEST_CASE("two power effects at once are both found, second half of the pairs") { check_pairs(1); }
 
 TEST_CASE("what no power effect describes is seen, with its channel, and not given a name") {
   constexpr int sizes = 10;

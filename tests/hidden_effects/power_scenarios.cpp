@@ -116,6 +116,14 @@ const std::vector<HiddenEffect>& hidden_effects() {
        [](const HiddenEffects& h) { return h.payload_drop; }},
       {"winch_tension", [](HiddenEffects& h, double s) { h.winch_pull = between(0.2, 4, s); },
        [](const HiddenEffects& h) { return h.winch_pull; }},
+      {"cable_temperature",
+       [](HiddenEffects& h, double s) {
+         h.air_share = 1;
+         h.colder_air = between(4, 30, s);
+       },
+       [](const HiddenEffects& h) { return h.air_share; }},
+      {"climb_power", [](HiddenEffects& h, double s) { h.climb_work = between(0.3, 1.5, s); },
+       [](const HiddenEffects& h) { return h.climb_work; }},
   };
   return effects;
 }

@@ -150,8 +150,9 @@ Log simulate(const Scenario& scenario) {
   const double duration = scenario.duration > 0 ? scenario.duration : 1480 + 140 * uniform(engine);
   const bool tracked = !scenario.track.airspeed.empty();
   const auto n = tracked ? scenario.track.airspeed.size() : static_cast<std::size_t>(duration / dt);
-  const double ambient =
-      scenario.ambient_temperature != 0 ? scenario.ambient_temperature : 17 + 5 * uniform(engine);
+  const double ambient = (scenario.ambient_temperature != 0 ? scenario.ambient_temperature
+                                                            : 17 + 5 * uniform(engine)) -
+                         hidden.colder_air;
 
   // The six plateaus in random order, each held equally long; a new airspeed every 40 s or so.
   std::array<double, 6> plateau{};
@@ -176,7 +177,8 @@ Log simulate(const Scenario& scenario) {
     const double t = static_cast<double>(i) * dt;
     const double share = t / duration;
     const double goal = plateau[std::min<std::size_t>(5, static_cast<std::size_t>(6 * share))];
-    h += std::clamp(goal - h, -0.8 * dt, 0.8 * dt);
+    const double higher = std::clamp(goal - h, -0.8 * dt, 0.8 * dt);
+    h += higher;
     if (t >= next_change) {
       target_speed = speeds[static_cast<std::size_t>(pick(4))];
       next_change = t + 25 + 30 * uniform(engine);
@@ -202,6 +204,8 @@ Log simulate(const Scenario& scenario) {
     power *= 1 + hidden.motor_power_per_height * (h / rig.length) * (h / rig.length);
     power *= 1 + hidden.motor_power_growth * share;
     power *= 1 + hidden.motor_power_swing * std::sin(2 * pi * t / 600);
+    power += hidden.climb_work * ((rig.mass + hidden.extra_mass - dropped) * gravity + pull.down) *
+             higher / dt;
 
     const double converter_input =
         hidden.converter_fixed_loss > 0
@@ -211,7 +215,8 @@ Log simulate(const Scenario& scenario) {
 
     const double cable =
         hidden.spooled_length >= 0 ? rig.length + hidden.spooled_length : pull.length;
-    const double temperature = hidden.heating > 0 ? ambient + rise : 20;
+    const double temperature =
+        hidden.heating > 0 ? ambient + rise : 20 + hidden.air_share * (ambient - 20);
     const double ohm_per_metre = ohm_per_metre_20C(rig) * hidden.resistivity_factor *
                                  (1 + temperature_coefficient * (temperature - 20));
     double resistance = ohm_per_metre * cable + hidden.contact_resistance;

@@ -33,6 +33,9 @@ struct HiddenEffects {
   double motor_power_growth = 0;  ///< relative, steadily over the log
   double air_density_factor = 1;  ///< truth over the spec's
   double payload_drop = 0;        ///< kg, from `step_at` on
+  double air_share = 0;           ///< of the way from 20 °C to the air's: the cable's temperature
+  double colder_air = 0;          ///< K below the scenario's, in the log as well
+  double climb_work = 0;          ///< W at the bus over weight times climbing speed
 
   // What instruments make of the truth.
   double supply_current_gain = 1;    ///< reading over truth
