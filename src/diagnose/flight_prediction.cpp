@@ -194,7 +194,8 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   }
   p.cos_sideward = record.cos_sideward;
   if (p.sideward_thrust != record.sideward_thrust) {
-    std::ranges::transform(p.sideward_thrust, p.cos_sideward.begin(), cosine_of);
+    std::transform(p.sideward_thrust.begin(), p.sideward_thrust.end(), p.cos_sideward.begin(),
+                   cosine_of);
   }
   for (std::size_t i = 0; i < size; ++i) {
     p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
