@@ -49,11 +49,12 @@ std::vector<double> climb_speed(const PowerLog& log) {
 
 /// °C of a cable without heat at each sample, `share` of the way from the spec's temperature to the
 /// air's: as the air was over a minute before and after, no faster does a cable follow.
+/// Empty where that is the spec's.
 std::vector<double> temperature_in_air(const PowerLog& log, double in_spec, double share) {
   constexpr double nearby = 60;  // s
   const std::vector<double>& air = log.ambient_temperature_C;
+  if (share == 0 || air.empty()) return {};
   std::vector<double> temperature(log.time.size(), in_spec);
-  if (share == 0 || air.empty()) return temperature;
   std::size_t first = 0;
   std::size_t end = 0;
   double sum = 0;
@@ -225,8 +226,8 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
       continue;
     }
     if (!is_heated(tether)) {
-      resistance[i] = model.air_share == 0 ? hangs->resistance(radius)
-                                           : hangs->resistance(radius, in_air[i], in_air[i]);
+      resistance[i] = in_air.empty() ? hangs->resistance(radius)
+                                     : hangs->resistance(radius, in_air[i], in_air[i]);
     } else if (measured) {
       const double temperature = state.ambient_temperature_C + rise;
       resistance[i] = hangs->resistance(radius, temperature, temperature);

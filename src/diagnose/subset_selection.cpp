@@ -168,8 +168,13 @@ class SubsetSearch {
   /// Whether nothing but the leap with which it begins is left of it.
   [[nodiscard]] bool has_no_size(std::size_t g, const std::vector<double>& values) const {
     constexpr double none = 1e-3;  // of a change that matters
-    const ModelParameter& size = problem_.groups[g].parameters.front();
-    return std::abs(values[record_.first_parameter(g)] - size.neutral) <= none * size.scale;
+    const std::vector<ModelParameter>& parameters = problem_.groups[g].parameters;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const ModelParameter& p = parameters[k];
+      const double change = values[record_.first_parameter(g) + k] - p.neutral;
+      if (!p.shape_only && std::abs(change) > none * p.scale) return false;
+    }
+    return true;
   }
 
   /// Its length is infinite where it misfits.

@@ -303,7 +303,9 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
         "\n" + area_words(row.area) +
         (fault.empty() ? " meets every requirement" : " does not meet the requirements: " + fault);
   }
-  out += "\n" + wrapped(unchecked_sentence(file.design));
+  out += "\n";
+  const std::string unchecked = unchecked_sentence(file.design);
+  if (!unchecked.empty()) out += wrapped(unchecked);
   return out + notes_text(evaluation_warnings(file, study), style);
 }
 

@@ -104,7 +104,8 @@ TEST_CASE("a power effect at its neutral values changes no prediction, beyond it
       PowerModel neutral = model;
       effect.on_power(neutral, values);
       CHECK(largest_change(plain, predictions(neutral, log)) < 1e-12);
-      if (effect.lacking_in && !effect.lacking_in(model.design).empty()) continue;
+      // A cable that heats has a temperature of its own.
+      if (effect.id == "cable_temperature" && is_heated(model.design.tether)) continue;
       values[0] += effect.parameters[0].scale * effect.parameters[0].unit_SI;
       PowerModel changed = model;
       effect.on_power(changed, values);
