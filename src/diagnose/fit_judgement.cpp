@@ -280,6 +280,45 @@ bool earns_a_name(const Record& record, std::size_t group, const Gain& gain, dou
          gain.percent > student_factor(record, group) * gain.se;
 }
 
+bool is_at_bound(const Record& record, const BlockFit& fit, std::size_t group) {
+  const std::vector<ModelParameter>& parameters = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const ModelParameter& p = parameters[k];
+    const double value = fit.values[record.first_parameter(group) + k];
+    if (p.lower < p.upper && !p.product_with && value != p.neutral &&
+        (value <= p.lower || value >= p.upper)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool spoils_a_kind(const Record& record, const BlockFit& without, const BlockFit& with) {
+  constexpr double by_chance = 0.05;
+  const std::vector<std::vector<bool>>& kinds = record.problem().kinds;
+  const auto is_spoilt = [&](const std::vector<bool>& kind) {
+    std::vector<double> more;  // squared error, of each block
+    for (std::size_t b = 0; b < record.blocks(); ++b) {
+      double sum = 0;
+      bool any = false;
+      for (Index i = 0; i < record.block_size(b); ++i) {
+        const Index row = record.block_begin(b) + i;
+        if (!kind[record.row_in_problem(row)]) continue;
+        any = true;
+        sum += std::pow(with.holdout_residual[row], 2) - std::pow(without.holdout_residual[row], 2);
+      }
+      if (any) more.push_back(sum);
+    }
+    if (more.size() < fewest_blocks) return false;
+    const auto count = static_cast<double>(more.size());
+    const VectorXd each = VectorXd::Map(more.data(), static_cast<Index>(more.size()));
+    const double spread = std::sqrt((each.array() - each.mean()).square().sum() / (count - 1));
+    return each.mean() > 0 && student_tail(each.mean() * std::sqrt(count) / spread, count - 1) <
+                                  by_chance / static_cast<double>(kinds.size());
+  };
+  return std::any_of(kinds.begin(), kinds.end(), is_spoilt);
+}
+
 std::optional<Unearned> weakest_unearned(const Record& record, std::span<const NamedGains> names,
                                          double least_percent) {
   std::optional<Unearned> weakest;
@@ -508,6 +547,8 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
     candidate.gain_percent = gained.percent;
     candidate.gain_se_percent = gained.se;
     candidate.largest_block_share = largest_block_share(record, freed, g);
+    candidate.at_bound = is_at_bound(record, freed, g);
+    candidate.spoils_kind = spoils_a_kind(record, fit, freed);
     candidate.freed = neutral_fit(record);
     add_fit(record, freed, {}, candidate.freed);
     if (is_placed(record.problem().groups[g])) {

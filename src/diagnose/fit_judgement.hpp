@@ -35,6 +35,16 @@ struct Gain {
 [[nodiscard]] bool earns_a_name(const Record& record, std::size_t group, const Gain& gain,
                                 double least_percent);
 
+/// Whether a size or a place of the group is at the end of its range, where no effect ends but the
+/// range. A ratio may end there: of drag that is all linear.
+[[nodiscard]] bool is_at_bound(const Record& record, const BlockFit& fit, std::size_t group);
+
+/// Whether a fit has a larger held-out error in the rows of a kind than `without` has, beyond
+/// chance: by Student's test over the blocks that have such rows, at 5 % over all kinds
+/// (Bonferroni). What changes a cause for the better makes no kind of row worse but by chance.
+[[nodiscard]] bool spoils_a_kind(const Record& record, const BlockFit& without,
+                                 const BlockFit& with);
+
 /// A name with what it gains beside those told before it, and beside all others.
 struct NamedGains {
   std::size_t group = 0;

@@ -248,6 +248,7 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
     add_readings(k, Axis::right, flights[k].observations.right_acceleration);
   }
   problem.noise.assign(problem.measured.size(), 1.0);
+  add_kinds();
   problem.predict = [this, predictions = std::move(predictions)](std::span<const double> values,
                                                                  std::span<double> out) mutable {
     for (std::size_t k = 0; k < predictions.size(); ++k) {
@@ -259,6 +260,46 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
                      rows_of(r, out));
     }
   };
+}
+
+/// Along each axis the samples of turns and of straight flight, and those that gain or lose speed
+/// fast and all others. Where gusts push and the controller leans against them, what follows the
+/// lean less mends straight and even flight, in which all of it answers gusts, and spoils the rest.
+void FlightModel::add_kinds() {
+  constexpr double fastest_part = 0.2;
+  constexpr double slowest_turn = 0.15;  // rad/s, beyond what a yaw held against gusts moves by
+  for (const Axis axis : {Axis::forward, Axis::right}) {
+    if (std::ranges::none_of(readings_, [axis](const Readings& r) { return r.axis == axis; })) {
+      continue;
+    }
+    std::vector<bool> turns(problem.measured.size());
+    std::vector<bool> speeds_up = turns;
+    std::vector<bool> along = turns;
+    for (const Readings& r : readings_) {
+      if (r.axis != axis) continue;
+      const Observations& o = flights_[r.flight].observations;
+      std::vector<double> change(o.size());
+      for (std::size_t i = 0; i < o.size(); ++i) {
+        change[i] = std::hypot(o.forward_acceleration[i], o.right_acceleration[i]);
+      }
+      std::vector<double> sorted = change;
+      std::sort(sorted.begin(), sorted.end());
+      const double fast =
+          sorted[static_cast<std::size_t>((1 - fastest_part) * static_cast<double>(sorted.size()))];
+      for (std::size_t i = 0; i < o.size(); ++i) {
+        const std::size_t row = r.first_row + i;
+        along[row] = true;
+        turns[row] = std::abs(flights_[r.flight].record.yaw_rate[i]) > slowest_turn;
+        speeds_up[row] = change[i] > fast;
+      }
+    }
+    for (const std::vector<bool>& kind : {turns, speeds_up}) {
+      std::vector<bool> rest = along;
+      for (std::size_t row = 0; row < rest.size(); ++row) rest[row] = along[row] && !kind[row];
+      problem.kinds.push_back(kind);
+      problem.kinds.push_back(std::move(rest));
+    }
+  }
 }
 
 /// What the flight cannot show of the group added last stays neutral.

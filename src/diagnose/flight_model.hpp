@@ -90,6 +90,7 @@ class FlightModel : public LogModel {
                                             std::span<const double> values) const override;
 
  private:
+  void add_kinds();
   void hold_hidden(const Effect& effect, const FlightData& flight);
 
   const std::vector<FlightData>& flights_;

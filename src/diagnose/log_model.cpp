@@ -208,6 +208,12 @@ std::string what_is_missing(const Effect& effect, const Selection::Open& open, d
     sure = fmt::format("a gain of {:g} % or more, below which nothing is named", least_gain);
   } else if (open.largest_block_share > most_of_one_block) {
     sure = "more than one stretch of the log that shows it";
+  } else if (open.at_bound) {
+    sure = "a size within its range: at the end of that something else is at work";
+  } else if (open.spoils_kind) {
+    sure =
+        "a gain in every kind of flying: of turns, straight flight, changing and even speed it "
+        "mends some and spoils others, as gusts do against which the controller leans";
   }
   return effect.to_separate.empty() ? sure : fmt::format("{}; {}", sure, effect.to_separate);
 }

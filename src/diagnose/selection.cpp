@@ -226,24 +226,10 @@ class Search {
                          (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed)) &&
         trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
             options_.false_alarm_probability &&
-        largest_block_share(record_, with, g) <= most_of_one_block && !is_at_bound(with, g);
+        largest_block_share(record_, with, g) <= most_of_one_block &&
+        !is_at_bound(record_, with, g) && !spoils_a_kind(record_, without, with);
     trial.fit = std::move(with);
     return trial;
-  }
-
-  /// Whether a size or a place is at the end of its range, where no effect ends but the range. A
-  /// ratio may end there: of drag that is all linear.
-  [[nodiscard]] bool is_at_bound(const BlockFit& with, std::size_t g) const {
-    const std::vector<ModelParameter>& parameters = group(g).parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      const ModelParameter& p = parameters[k];
-      const double value = with.values[record_.first_parameter(g) + k];
-      if (p.lower < p.upper && !p.product_with && value != p.neutral &&
-          (value <= p.lower || value >= p.upper)) {
-        return true;
-      }
-    }
-    return false;
   }
 
   /// Whether the group may be freed beside the selected ones.

@@ -101,6 +101,10 @@ struct SelectionProblem {
   /// off, in any unit. Of no name may it make that clearly larger. Empty: rows are readings.
   std::function<std::vector<double>(std::span<const double>)> left_of_readings{};
 
+  /// Kinds of rows, such as those of turns: one element a row, whether it is one. What mends some
+  /// rows by spoiling those of a kind is not what was at work, and gets no name.
+  std::vector<std::vector<bool>> kinds{};
+
   std::vector<UnnamedRegressor> unnamed{};  ///< shapes to look for in what is left
 
   /// Errors that are the same in all blocks, so that the spread between blocks cannot show them:
@@ -182,6 +186,8 @@ struct Selection {
     ModelFit freed{};            ///< with it freed
     /// Of what the record knows of it as freed, the part of the block that knows most.
     double largest_block_share = 0;
+    bool at_bound = false;     ///< as freed, see `is_at_bound`
+    bool spoils_kind = false;  ///< by being freed, see `spoils_a_kind`
   };
   std::vector<Open> open{};       ///< in their order
   double least_gain_percent = 0;  ///< that was asked of a name

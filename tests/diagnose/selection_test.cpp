@@ -94,6 +94,30 @@ TEST_CASE("what one block alone shows is no finding, however certain it seems") 
   }
 }
 
+TEST_CASE("what mends most rows and spoils those of a kind is no finding but suspected") {
+  Random random(61);
+  const auto is_of_kind = [](std::size_t row) { return row % 5 == 0; };
+  for (const bool acts_in_all : {true, false}) {
+    LinearRecord record(random, {2.0, 0.0, 1.0, 0.0}, 0.8);
+    std::vector<bool> kind(rows);
+    std::vector<bool> rest(rows);
+    for (std::size_t i = 0; i < rows; ++i) {
+      (is_of_kind(i) ? kind : rest)[i] = true;
+      if (is_of_kind(i) && !acts_in_all) record.problem.measured[i] -= 1.5 * record.columns[2][i];
+    }
+    CHECK(select_effects(record.problem).selected.size() == 1);
+    record.problem.kinds = {kind, rest};
+    const Selection found = select_effects(record.problem);
+    CHECK(found.selected.size() == (acts_in_all ? 1 : 0));
+    if (acts_in_all) continue;
+    const auto open = std::find_if(found.open.begin(), found.open.end(),
+                                   [](const Selection::Open& o) { return o.group == 2; });
+    REQUIRE(open != found.open.end());
+    CHECK(open->suspected);
+    CHECK(open->spoils_kind);
+  }
+}
+
 TEST_CASE("the candidate that was put in is selected and its interval holds the truth") {
   int covered = 0;
   constexpr int trials = 40;
