@@ -147,6 +147,7 @@ std::vector<double> without_shapes(const MatrixXd& shapes, const std::vector<dou
 struct Autoregression {
   std::vector<double> memory;
   double innovation = 1;  ///< standard deviation of the white part over that of `x`
+  double criterion = 0;   ///< BIC, less that of white noise
 };
 
 /// Of `x`, which is 0 where it is not usable; `samples` of it are.
@@ -162,7 +163,6 @@ Autoregression autoregression(const VectorXd& x, double samples) {
   covariance /= covariance[0];
   VectorXd phi;
   double variance = 1;
-  double best_criterion = 0;
   for (Index order = 1; order <= orders; ++order) {
     const double reflected =
         (covariance[order] - phi.dot(covariance.segment(1, order - 1).reverse())) / variance;
@@ -173,12 +173,56 @@ Autoregression autoregression(const VectorXd& x, double samples) {
     if (!(variance > 0)) break;
     const double criterion =
         samples * std::log(variance) + static_cast<double>(order) * std::log(samples);
-    if (criterion < best_criterion) {
-      best_criterion = criterion;
-      best = {{phi.begin(), phi.end()}, std::sqrt(variance)};
+    if (criterion < best.criterion) {
+      best = {{phi.begin(), phi.end()}, std::sqrt(variance), criterion};
     }
   }
   return best;
+}
+
+/// `x` less the wave in it that has most of its squares, with `half_turns` at most over all of it;
+/// 0 where it is not usable.
+VectorXd without_strongest_wave(const VectorXd& x, const std::vector<char>& usable,
+                                int half_turns) {
+  VectorXd best = x;
+  MatrixXd wave(x.size(), 2);
+  for (int k = 2; k <= half_turns; ++k) {
+    const double turn = std::numbers::pi * k / static_cast<double>(x.size());
+    for (Index i = 0; i < x.size(); ++i) {
+      const double used = usable[static_cast<std::size_t>(i)] ? 1 : 0;
+      wave.row(i) << used * std::cos(turn * static_cast<double>(i)),
+          used * std::sin(turn * static_cast<double>(i));
+    }
+    VectorXd rest = x - wave * pseudo_solution(gram_matrix(wave), inner_products_with(wave, x));
+    if (rest.squaredNorm() < best.squaredNorm()) best = std::move(rest);
+  }
+  return best;
+}
+
+/// The memory of noise, and not of a load that comes and goes, which an autoregression follows as
+/// well: waves are left out for as long as what is left has the lesser BIC, each counted with its
+/// size, its phase and its period, one of so many.
+struct Noise {
+  VectorXd values;
+  Autoregression memory;
+};
+Noise noise_in(VectorXd x, const std::vector<char>& usable, double samples) {
+  constexpr int most_waves = 3;
+  const int half_turns = std::min(most_half_turns, static_cast<int>(samples / 2));
+  const double price = 3 * std::log(samples) + 2 * std::log(std::max(1, half_turns));
+  Noise noise{std::move(x), {}};
+  noise.memory = autoregression(noise.values, samples);
+  for (int waves = 0; waves < most_waves; ++waves) {
+    Noise less{without_strongest_wave(noise.values, usable, half_turns), {}};
+    const double all = noise.values.squaredNorm();
+    if (!(all > 0) || !(less.values.squaredNorm() > 0)) break;
+    less.memory = autoregression(less.values, samples);
+    const double gained = noise.memory.criterion - less.memory.criterion -
+                          samples * std::log(less.values.squaredNorm() / all);
+    if (!(gained > price)) break;
+    noise = std::move(less);
+  }
+  return noise;
 }
 
 /// Airspeed noise must be averaged before the memory of the motors' noise is taken out: that takes
@@ -229,10 +273,10 @@ void set_noise(std::vector<double> noise, double parameters, PowerStage& stage) 
   set_usable_rows(stage);
   const VectorXd averaged = usable_part(row_means(stage, noise), stage.usable_rows);
   const double rows = count_of(stage.usable_rows);
-  const Autoregression fitted = autoregression(averaged, rows);
+  const auto [values, fitted] = noise_in(averaged, stage.usable_rows, rows);
   stage.memory = fitted.memory;
   // The parameters took as many degrees of freedom from the means as from the samples.
-  stage.innovation = fitted.innovation * deviation_of(averaged, rows, parameters);
+  stage.innovation = fitted.innovation * deviation_of(values, rows, parameters);
   if (!(stage.innovation > 0)) stage.innovation = 1;
 }
 
@@ -282,7 +326,6 @@ void PowerResiduals::estimate_reading_noise(const PowerModel& base) {
     readings_.supply_voltage =
         std::max(0.0, fast(log.supply_voltage, log.supply_voltage) - of_supply);
   }
-  // A current that changes is seen in the voltage lost on the way, its noise is not.
   std::vector<double> lost(log.drone_voltage);
   for (std::size_t i = 0; i < lost.size(); ++i) {
     lost[i] = (log.supply_voltage.empty() ? 0 : log.supply_voltage[i]) - log.drone_voltage[i];
@@ -290,15 +333,45 @@ void PowerResiduals::estimate_reading_noise(const PowerModel& base) {
   const double resistance =
       mean_of(loop_resistance(base, without_errors(log, base.instruments), memory_), usable);
   const double all_current = fast(log.supply_current, log.supply_current);
-  const double true_current =
-      resistance > 0 ? std::clamp(fast(log.supply_current, lost) / resistance, 0.0, all_current)
-                     : all_current;
+  const double all_lost = fast(lost, lost) - readings_.supply_voltage;
+  const auto of_converter = std::ranges::find(stages_, Stage::converter, &PowerStage::stage);
+  double noise = all_current;
+  if (of_converter != stages_.end()) {
+    // The power at the converter's input has the noise of both readings; that of the voltage is
+    // what the line leaves of it.
+    const auto [total, output_share, slope] = converter_noise(base, of_converter->usable);
+    const double current = square(readings_.mean_current);
+    const double of_voltage = all_lost - square(resistance) * all_current;
+    noise = (total * (1 - output_share) - current * of_voltage) /
+            (square(readings_.mean_voltage) + current * square(resistance));
+  } else if (resistance > 0) {
+    // A current that changes is seen in the voltage lost on the way, its noise is not.
+    noise -= std::max(0.0, fast(log.supply_current, lost) / resistance);
+  }
   constexpr double least = 1e-12;  // V² and A², of a log without noise
-  readings_.supply_current = std::max(least, all_current - true_current);
-  readings_.drone_voltage = std::max(
-      least, fast(lost, lost) - readings_.supply_voltage - resistance * resistance * true_current);
+  readings_.supply_current = std::clamp(noise, least, std::max(least, all_current));
+  const double true_current = std::max(0.0, all_current - readings_.supply_current);
+  readings_.drone_voltage = std::max(least, all_lost - square(resistance) * true_current);
   lost_voltage_variance_ = lost_voltage_variance(base.instruments, resistance);
   input_power_variance_ = input_power_variance(base.instruments);
+}
+
+PowerResiduals::ConverterNoise PowerResiduals::converter_noise(
+    const PowerModel& base, const std::vector<char>& usable) const {
+  // Input and output share the true power and have noise of their own, so the covariance of their
+  // fast changes holds the former and what exceeds it the latter.
+  const PowerLog& log = screened_.log;
+  const std::vector<double> input = product(log.drone_voltage, log.supply_current);
+  std::vector<double> slopes(samples());
+  std::transform(bus_power_.begin(), bus_power_.end(), slopes.begin(), [&base](double power) {
+    return input_slope(base.design.supply.converter, power);
+  });
+  const double slope = mean_of(slopes, usable);
+  const double out = slope * slope * fast_covariance(bus_power_, bus_power_, usable);
+  const double both = slope * fast_covariance(input, bus_power_, usable);
+  const double total = fast_covariance(input, input, usable) + out - 2 * both;
+  if (!(total > 0) || !(slope > 0)) return {};
+  return {total, std::clamp((out - both) / total, 0.02, 0.98), slope};
 }
 
 double PowerResiduals::lost_voltage_variance(const PowerInstruments& instruments,
@@ -320,23 +393,9 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
   if (stage.stage == Stage::converter) {
-    // Input and output share the true power and have noise of their own, so the covariance of their
-    // fast changes holds the former and what exceeds it the latter.
-    const std::vector<double> input = product(log.drone_voltage, log.supply_current);
-    std::vector<double> slopes(n);
-    std::transform(bus_power_.begin(), bus_power_.end(), slopes.begin(), [&base](double power) {
-      return input_slope(base.design.supply.converter, power);
-    });
-    const double slope = mean_of(slopes, stage.usable);
-    const double out = fast_covariance(bus_power_, bus_power_, stage.usable);
-    const double both = fast_covariance(input, bus_power_, stage.usable);
-    const double total =
-        fast_covariance(input, input, stage.usable) + slope * slope * out - 2 * slope * both;
-    if (total > 0 && slope > 0) {
-      const double of_output = std::clamp((slope * slope * out - slope * both) / total, 0.02, 0.98);
-      output_variance_ = of_output / (slope * slope);
-      input_variance_ = 1 - of_output;
-    }
+    const ConverterNoise noise = converter_noise(base, stage.usable);
+    output_variance_ = noise.output_share / square(noise.slope);
+    input_variance_ = 1 - noise.output_share;
   }
 
   std::vector<double> raw(n);

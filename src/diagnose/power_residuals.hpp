@@ -11,6 +11,11 @@
 
 namespace tethercalc {
 
+/// Waves that are looked for in a log have so many half turns in it at most, from two on. They are
+/// so near to each other that of one between two of them the nearer one, off by an eighth of a turn
+/// at either end, sees nine tenths.
+inline constexpr int most_half_turns = 100;
+
 /// One comparison of the chain.
 struct PowerStage {
   Stage stage = Stage::tether;  ///< which part of the chain
@@ -46,7 +51,8 @@ struct PowerStage {
 /// only because its noise shrinks with it.
 ///
 /// Noise and its memory are estimated from what a flexible smooth function of time, height and
-/// airspeed leaves of the base model's residuals, so that what is hidden does not pass for noise.
+/// airspeed leaves of the base model's residuals, less the waves in it that no memory explains as
+/// well, so that what is hidden does not pass for noise.
 class PowerResiduals {
  public:
   /// Stages whose channels are missing do not appear. The design must have a cable cross-section.
@@ -86,6 +92,14 @@ class PowerResiduals {
     double mean_current = 0;    ///< A
   };
 
+  /// Of the difference of the powers before and behind the converter.
+  struct ConverterNoise {
+    double total = 0;         ///< W²
+    double output_share = 0;  ///< of that, the part that the power behind it brings in
+    double slope = 1;         ///< W of input a W of output
+  };
+  [[nodiscard]] ConverterNoise converter_noise(const PowerModel& base,
+                                               const std::vector<char>& usable) const;
   void estimate_reading_noise(const PowerModel& base);
   /// Variances in V² of the voltage lost, at a mean resistance in Ω, and in W² of the power at the
   /// converter's input, by `readings_`.

@@ -70,6 +70,8 @@ void add_time(std::vector<Shape>& shapes, const Series& time) {
 /// Steps that are tried throughout the log.
 constexpr int coarse_steps = 40;
 
+constexpr double fastest_wave = 30;  // s, of which the motors' rows of 8 s see the half
+
 Shape step_at(const PowerLog& log, double share) {
   const double at = log.time.front() + share * (log.time.back() - log.time.front());
   return {"time_s", fmt::format("a step at {:.0f} s", at),
@@ -85,10 +87,12 @@ std::vector<Shape> shapes_of(const PowerLog& log) {
   }
   const std::string part = fmt::format("(time - {:.3f}) / {:.3f}", log.time.front(), duration);
   shapes.push_back({"time_s", "a steady drift", share, 1, part});
-  for (int k = 1; k <= 8; ++k) {
-    const std::string words = fmt::format("a wave of {:.0f} s", duration / k);
-    const Series phase = 2 * std::numbers::pi * k * share;
-    const std::string turns = fmt::format("({} * 2 * _pi * {})", k, part);
+  const int half_turns =
+      static_cast<int>(std::min<double>(most_half_turns, 2 * duration / fastest_wave));
+  for (int k = 2; k <= half_turns; ++k) {
+    const std::string words = fmt::format("a wave of {:.0f} s", 2 * duration / k);
+    const Series phase = std::numbers::pi * k * share;
+    const std::string turns = fmt::format("({} * _pi * {})", k, part);
     shapes.push_back({"time_s", words, phase.cos(), 1, "cos" + turns});
     shapes.push_back({"time_s", words, phase.sin(), 1, "sin" + turns});
   }
