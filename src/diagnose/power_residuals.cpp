@@ -334,24 +334,24 @@ void PowerResiduals::estimate_reading_noise(const PowerModel& base) {
       mean_of(loop_resistance(base, without_errors(log, base.instruments), memory_), usable);
   const double all_current = fast(log.supply_current, log.supply_current);
   const double all_lost = fast(lost, lost) - readings_.supply_voltage;
-  const auto of_converter = std::ranges::find(stages_, Stage::converter, &PowerStage::stage);
-  double noise = all_current;
-  if (of_converter != stages_.end()) {
-    // The power at the converter's input has the noise of both readings; that of the voltage is
-    // what the line leaves of it.
-    const auto [total, output_share, slope] = converter_noise(base, of_converter->usable);
-    const double current = square(readings_.mean_current);
-    const double of_voltage = all_lost - square(resistance) * all_current;
-    noise = (total * (1 - output_share) - current * of_voltage) /
-            (square(readings_.mean_voltage) + current * square(resistance));
-  } else if (resistance > 0) {
-    // A current that changes is seen in the voltage lost on the way, its noise is not.
-    noise -= std::max(0.0, fast(log.supply_current, lost) / resistance);
-  }
+  // A current that changes is seen in the voltage lost on the way, its noise is not.
+  const double true_current =
+      resistance > 0 ? std::clamp(fast(log.supply_current, lost) / resistance, 0.0, all_current)
+                     : all_current;
   constexpr double least = 1e-12;  // V² and A², of a log without noise
-  readings_.supply_current = std::clamp(noise, least, std::max(least, all_current));
-  const double true_current = std::max(0.0, all_current - readings_.supply_current);
+  readings_.supply_current = std::max(least, all_current - true_current);
   readings_.drone_voltage = std::max(least, all_lost - square(resistance) * true_current);
+  // Over an ohm it hardly tells; the power at the converter's input has all of it. With the larger
+  // one the line would be judged too mildly where heights drift, and a contact be told for a
+  // voltmeter.
+  const auto of_converter = std::ranges::find(stages_, Stage::converter, &PowerStage::stage);
+  if (of_converter != stages_.end()) {
+    const auto [total, output_share, slope] = converter_noise(base, of_converter->usable);
+    readings_.current_at_converter = std::max(
+        least,
+        (total * (1 - output_share) - readings_.drone_voltage * square(readings_.mean_current)) /
+            square(readings_.mean_voltage));
+  }
   lost_voltage_variance_ = lost_voltage_variance(base.instruments, resistance);
   input_power_variance_ = input_power_variance(base.instruments);
 }
@@ -386,7 +386,7 @@ double PowerResiduals::input_power_variance(const PowerInstruments& instruments)
   const double current = (readings_.mean_current - instruments.supply_current_offset) / gain;
   const double voltage = readings_.mean_voltage - instruments.drone_voltage_offset;
   return readings_.drone_voltage * square(current) +
-         readings_.supply_current * square(voltage / gain);
+         readings_.current_at_converter * square(voltage / gain);
 }
 
 void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k) {
