@@ -394,6 +394,7 @@ Record::Record(const SelectionProblem& problem)
     demand_rows(regressor.column, "the regressor \"" + regressor.shape + "\"");
   }
   for (const auto& column : problem.systematic) demand_rows(column, "a systematic error");
+  for (const auto& kind : problem.kinds) demand_rows(kind, "a kind of rows");
   for (const ParameterGroup& group : problem.groups) {
     first_.push_back(parameters_.size());
     for (const ModelParameter& p : group.parameters) {

@@ -254,6 +254,13 @@ double gain_percent(double before, double after) {
   return before > 0 ? 100 * (1 - std::sqrt(after / before)) : 0;
 }
 
+BlockDifference difference(const VectorXd& a, const VectorXd& b) {
+  const VectorXd d = a - b;
+  const auto blocks = static_cast<double>(d.size());
+  const double spread = (d.array() - d.mean()).square().sum();
+  return {d.sum(), std::sqrt(blocks / (blocks - 1) * spread)};
+}
+
 Gain gain_between(const BlockFit& before, const BlockFit& after) {
   const double all_before = before.squared_error();
   const double all_after = after.squared_error();
@@ -296,8 +303,9 @@ bool is_at_bound(const Record& record, const BlockFit& fit, std::size_t group) {
 bool spoils_a_kind(const Record& record, const BlockFit& without, const BlockFit& with) {
   constexpr double by_chance = 0.05;
   const std::vector<std::vector<bool>>& kinds = record.problem().kinds;
-  const auto is_spoilt = [&](const std::vector<bool>& kind) {
-    std::vector<double> more;  // squared error, of each block
+  // Of the blocks that have such rows.
+  const auto errors = [&](const std::vector<bool>& kind, const BlockFit& fit) {
+    std::vector<double> squared;
     for (std::size_t b = 0; b < record.blocks(); ++b) {
       double sum = 0;
       bool any = false;
@@ -305,16 +313,19 @@ bool spoils_a_kind(const Record& record, const BlockFit& without, const BlockFit
         const Index row = record.block_begin(b) + i;
         if (!kind[record.row_in_problem(row)]) continue;
         any = true;
-        sum += std::pow(with.holdout_residual[row], 2) - std::pow(without.holdout_residual[row], 2);
+        sum += std::pow(fit.holdout_residual[row], 2);
       }
-      if (any) more.push_back(sum);
+      if (any) squared.push_back(sum);
     }
-    if (more.size() < fewest_blocks) return false;
-    const auto count = static_cast<double>(more.size());
-    const VectorXd each = VectorXd::Map(more.data(), static_cast<Index>(more.size()));
-    const double spread = std::sqrt((each.array() - each.mean()).square().sum() / (count - 1));
-    return each.mean() > 0 && student_tail(each.mean() * std::sqrt(count) / spread, count - 1) <
-                                  by_chance / static_cast<double>(kinds.size());
+    return VectorXd(VectorXd::Map(squared.data(), static_cast<Index>(squared.size())));
+  };
+  const auto is_spoilt = [&](const std::vector<bool>& kind) {
+    const VectorXd before = errors(kind, without);
+    if (before.size() < static_cast<Index>(fewest_blocks)) return false;
+    const BlockDifference more = difference(errors(kind, with), before);
+    const auto degrees = static_cast<double>(before.size() - 1);
+    return more.sum > 0 && student_tail(more.sum / more.se, degrees) <
+                               by_chance / static_cast<double>(kinds.size());
   };
   return std::any_of(kinds.begin(), kinds.end(), is_spoilt);
 }

@@ -22,6 +22,13 @@ inline constexpr double rival_gain = 0.5;
 /// 100·(1 − √(after/before)) for squared errors; 0 where there was none.
 [[nodiscard]] double gain_percent(double before, double after);
 
+/// Sum of the differences of block errors and its standard error over blocks.
+struct BlockDifference {
+  double sum = 0;
+  double se = 0;
+};
+[[nodiscard]] BlockDifference difference(const VectorXd& a, const VectorXd& b);
+
 /// By how much a fit lowers the held-out error of another.
 struct Gain {
   double percent = 0;  ///< as `gain_percent`
@@ -41,7 +48,7 @@ struct Gain {
 
 /// Whether a fit has a larger held-out error in the rows of a kind than `without` has, beyond
 /// chance: by Student's test over the blocks that have such rows, at 5 % over all kinds
-/// (Bonferroni). What changes a cause for the better makes no kind of row worse but by chance.
+/// (Bonferroni). A true cause makes no kind of row worse but by chance.
 [[nodiscard]] bool spoils_a_kind(const Record& record, const BlockFit& without,
                                  const BlockFit& with);
 

@@ -272,9 +272,11 @@ void FlightModel::add_kinds() {
     if (std::ranges::none_of(readings_, [axis](const Readings& r) { return r.axis == axis; })) {
       continue;
     }
-    std::vector<bool> turns(problem.measured.size());
-    std::vector<bool> speeds_up = turns;
-    std::vector<bool> along = turns;
+    const std::vector<bool> none(problem.measured.size());
+    std::vector<bool> turning = none;
+    std::vector<bool> straight = none;
+    std::vector<bool> changing_speed = none;
+    std::vector<bool> even = none;
     for (const Readings& r : readings_) {
       if (r.axis != axis) continue;
       const Observations& o = flights_[r.flight].observations;
@@ -282,23 +284,14 @@ void FlightModel::add_kinds() {
       for (std::size_t i = 0; i < o.size(); ++i) {
         change[i] = std::hypot(o.forward_acceleration[i], o.right_acceleration[i]);
       }
-      std::vector<double> sorted = change;
-      std::sort(sorted.begin(), sorted.end());
-      const double fast =
-          sorted[static_cast<std::size_t>((1 - fastest_part) * static_cast<double>(sorted.size()))];
+      const double fast = quantile(change, 1 - fastest_part);
       for (std::size_t i = 0; i < o.size(); ++i) {
-        const std::size_t row = r.first_row + i;
-        along[row] = true;
-        turns[row] = std::abs(flights_[r.flight].record.yaw_rate[i]) > slowest_turn;
-        speeds_up[row] = change[i] > fast;
+        const bool is_turning = std::abs(flights_[r.flight].record.yaw_rate[i]) > slowest_turn;
+        (is_turning ? turning : straight)[r.first_row + i] = true;
+        (change[i] > fast ? changing_speed : even)[r.first_row + i] = true;
       }
     }
-    for (const std::vector<bool>& kind : {turns, speeds_up}) {
-      std::vector<bool> rest = along;
-      for (std::size_t row = 0; row < rest.size(); ++row) rest[row] = along[row] && !kind[row];
-      problem.kinds.push_back(kind);
-      problem.kinds.push_back(std::move(rest));
-    }
+    problem.kinds.insert(problem.kinds.end(), {turning, straight, changing_speed, even});
   }
 }
 

@@ -193,19 +193,20 @@ VectorXd without_strongest_wave(const VectorXd& x, const std::vector<char>& usab
       wave.row(i) << used * std::cos(turn * static_cast<double>(i)),
           used * std::sin(turn * static_cast<double>(i));
     }
-    VectorXd rest = x - wave * pseudo_solution(gram_matrix(wave), inner_products_with(wave, x));
+    VectorXd rest = left_by(wave, x);
     if (rest.squaredNorm() < best.squaredNorm()) best = std::move(rest);
   }
   return best;
 }
 
-/// The memory of noise, and not of a load that comes and goes, which an autoregression follows as
-/// well: waves are left out for as long as what is left has the lesser BIC, each counted with its
-/// size, its phase and its period, one of so many.
 struct Noise {
-  VectorXd values;
+  VectorXd values;  ///< 0 where they are not usable
   Autoregression memory;
 };
+
+/// Noise alone, and not a load that comes and goes, which an autoregression follows as well: waves
+/// are left out of `x` for as long as what is left has the lesser BIC, each counted with its size,
+/// its phase and its period, one of so many.
 Noise noise_in(VectorXd x, const std::vector<char>& usable, double samples) {
   constexpr int most_waves = 3;
   const int half_turns = std::min(most_half_turns, static_cast<int>(samples / 2));
@@ -347,9 +348,11 @@ void PowerResiduals::estimate_reading_noise(const PowerModel& base) {
   const auto of_converter = std::ranges::find(stages_, Stage::converter, &PowerStage::stage);
   if (of_converter != stages_.end()) {
     const auto [total, output_share, slope] = converter_noise(base, of_converter->usable);
+    output_variance_ = output_share / square(slope);
+    input_variance_ = 1 - output_share;
     readings_.current_at_converter = std::max(
         least,
-        (total * (1 - output_share) - readings_.drone_voltage * square(readings_.mean_current)) /
+        (total * input_variance_ - readings_.drone_voltage * square(readings_.mean_current)) /
             square(readings_.mean_voltage));
   }
   lost_voltage_variance_ = lost_voltage_variance(base.instruments, resistance);
@@ -392,12 +395,6 @@ double PowerResiduals::input_power_variance(const PowerInstruments& instruments)
 void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, std::size_t k) {
   const PowerLog& log = screened_.log;
   const std::size_t n = log.time.size();
-  if (stage.stage == Stage::converter) {
-    const ConverterNoise noise = converter_noise(base, stage.usable);
-    output_variance_ = noise.output_share / square(noise.slope);
-    input_variance_ = 1 - noise.output_share;
-  }
-
   std::vector<double> raw(n);
   standardised(k, base, raw);
   for (std::size_t i = 0; i < n; ++i) {

@@ -85,12 +85,12 @@ class PowerResiduals {
  private:
   /// What the noise of a comparison hangs on.
   struct ReadingNoise {
-    double supply_voltage = 0;            ///< V², variance of one reading
-    double drone_voltage = 0;             ///< V²
-    double supply_current = 0;            ///< A², as the line shows it
-    double current_at_converter = 1e-12;  ///< A², as the power at the converter's input shows it
-    double mean_voltage = 0;              ///< V at the drone
-    double mean_current = 0;              ///< A
+    double supply_voltage = 0;        ///< V², variance of one reading
+    double drone_voltage = 0;         ///< V²
+    double supply_current = 0;        ///< A², as the line shows it
+    double current_at_converter = 0;  ///< A², as the power at the converter's input shows it
+    double mean_voltage = 0;          ///< V at the drone
+    double mean_current = 0;          ///< A
   };
 
   /// Of the difference of the powers before and behind the converter.

@@ -22,19 +22,6 @@ constexpr double gain_beside_unnamed = 2.5;
 /// the squared error. A small one disturbs them less without it than its chosen shape does with it.
 constexpr double structure_that_disturbs = 0.25;
 
-/// Sum of the differences of block errors and its standard error over blocks.
-struct BlockDifference {
-  double sum = 0;
-  double se = 0;
-};
-
-BlockDifference difference(const VectorXd& a, const VectorXd& b) {
-  const VectorXd d = a - b;
-  const auto blocks = static_cast<double>(d.size());
-  const double spread = (d.array() - d.mean()).square().sum();
-  return {d.sum(), std::sqrt(blocks / (blocks - 1) * spread)};
-}
-
 /// Of the fitted parameters, larger is better: −Σ log of the standard errors of those that every
 /// fit frees.
 double precision(const BlockFit& fit) {
