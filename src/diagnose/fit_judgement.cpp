@@ -15,7 +15,7 @@ constexpr double alike = 0.1;
 
 /// Chance of an open effect's size below which it is suspected.
 constexpr double suspicious = 0.05;
-/// A gain that is printed as 0.0 % would not help.
+/// What is printed as 0.0 % would not help, and is not there.
 constexpr double least_worth_telling = 0.05;
 /// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
 /// enough to be judged does not gain a tenth of the error.
@@ -628,14 +628,15 @@ void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systemat
 
 UnnamedStructure unnamed_in(const Record& record, const BlockFit& complete, const BlockFit& named) {
   UnnamedStructure unnamed;
-  if (complete.freed.unnamed.empty()) return unnamed;
+  const double share = 100 * (1 - complete.squared_error() / named.squared_error());
+  if (complete.freed.unnamed.empty() || share < least_worth_telling) return unnamed;
+  unnamed.share_percent = share;
   unnamed.regressors = complete.freed.unnamed;
   unnamed.coefficients.assign(complete.coefficients.begin(), complete.coefficients.end());
   for (const std::size_t u : unnamed.regressors) {
     const std::string& channel = record.problem().unnamed[u].channel;
     if (!contains(unnamed.channels, channel)) unnamed.channels.push_back(channel);
   }
-  unnamed.share_percent = 100 * std::max(0.0, 1 - complete.squared_error() / named.squared_error());
   return unnamed;
 }
 

@@ -310,6 +310,22 @@ DragByTilt drag_by_tilt(const std::vector<FlightData>& flights, const FlightMode
   return shown;
 }
 
+/// Where the areas are small beside their errors, the design that they are put into has hardly any
+/// drag, which the flight does not say.
+void tell_drag_that_may_be_none(const DragByTilt& shown, std::vector<Warning>& notes) {
+  const auto [mean, error] = mean_drag_over_mass(shown);
+  const auto blocks = static_cast<double>(shown.over_mass.size());
+  const double half_width = student_quantile(blocks - 1, 0.975) * error;
+  if (mean > half_width) return;
+  notes.push_back(
+      {WarningKind::drag_may_be_none,
+       fmt::format(
+           "the flight does not even tell that there is drag: in its mean {:.2g} ± {:.2g} "
+           "m/s² of drag over mass (95 %); fly longer, faster and in both directions before "
+           "its areas are put into a design",
+           mean, half_width)});
+}
+
 void report(const std::vector<FlightData>& flights, const FlightModel& model,
             const Selection& selection, const FlightDiagnosisOptions& options,
             const std::vector<const Effect*>& effects, Diagnosis& d) {
@@ -329,6 +345,7 @@ void report(const std::vector<FlightData>& flights, const FlightModel& model,
   size_up(selection, d.unexplained);
   d.spec_changes = spec_changes(model, selection.complete);
   d.drag_by_tilt = drag_by_tilt(flights, model, selection.complete);
+  tell_drag_that_may_be_none(*d.drag_by_tilt, d.notes);
   d.further.push_back(
       {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),
        "m/s", speed_rmse(flights, model, selection.base, options.speed_window),

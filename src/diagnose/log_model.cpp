@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -423,6 +424,7 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
     diagnosis.not_identifiable.push_back(not_identifiable(log, aliased));
   }
   for (const Selection::Open& open : selection.open) tell_open(log, selection, open, diagnosis);
+  std::ranges::stable_sort(diagnosis.suspected, std::ranges::greater{}, &Suspected::gain_percent);
   diagnosis.budget = error_budget(selection);
   const UnnamedStructure& unnamed = selection.unnamed;
   if (unnamed.regressors.empty()) return;

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -30,6 +32,9 @@ constexpr std::size_t beam = 4;         ///< subsets of one size that are tried 
 /// Subsets of one size that are fitted: those that lower the squared error most where the model is
 /// linear, which it nearly is.
 constexpr std::size_t tried_sets = 12;
+
+/// Exchanged for one name, those that leave the least error.
+constexpr std::size_t exchanged_for_one = 3;
 
 /// A name may leave so many times as much of the readings themselves: slow noise of a dozen
 /// correlation times lets a true one leave a little more by chance.
@@ -111,6 +116,73 @@ class LinearisedGains {
   std::map<std::size_t, std::vector<Index>> columns_;
   MatrixXd gram_;   ///< of all slopes beside what is free in the fit
   VectorXd along_;  ///< the residual along each of them
+};
+
+/// What exchanging names would come to if the prediction were linear between their neutral values
+/// and those of the fit.
+class LinearisedExchange {
+ public:
+  /// `candidates` with those that are freed in the fit.
+  LinearisedExchange(const Record& record, const BlockFit& fit, const Groups& candidates)
+      : squared_residual_(fit.weight.dot(fit.residual.cwiseAbs2())) {
+    const VectorXd weight = fit.weight.cwiseSqrt();
+    MatrixXd slopes = fit.jacobian;
+    for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
+      Columns own;
+      for (std::size_t k = 0; k < fit.active.size(); ++k) {
+        const std::size_t first = record.first_parameter(g);
+        const std::size_t p = fit.active[k];
+        if (p < first || p >= first + record.problem().groups[g].parameters.size()) continue;
+        const ModelParameter& parameter = record.parameters()[p];
+        own.index.push_back(static_cast<Index>(k));
+        own.off_neutral.push_back((fit.values[p] - parameter.neutral) / parameter.scale);
+      }
+      const bool freed = contains(fit.freed.groups, g);
+      if (freed && !contains(candidates, g))
+        always_.insert(always_.end(), own.index.begin(), own.index.end());
+      if (!contains(candidates, g)) continue;
+      if (!freed) {
+        const MatrixXd at_start = slopes_at_start(record, fit.values, g);
+        for (Index k = 0; k < at_start.cols(); ++k) own.index.push_back(slopes.cols() + k);
+        slopes.conservativeResize(Eigen::NoChange, slopes.cols() + at_start.cols());
+        slopes.rightCols(at_start.cols()) = at_start;
+      }
+      columns_.emplace(g, std::move(own));
+    }
+    slopes = weight.asDiagonal() * slopes;
+    gram_ = gram_matrix(slopes);
+    along_ = inner_products_with(slopes, weight.cwiseProduct(fit.residual));
+  }
+
+  /// The squared error with `named` freed, of which the fit frees some, and `out` back at neutral.
+  [[nodiscard]] double squared_error(const Groups& named, const Groups& out) const {
+    VectorXd back = VectorXd::Zero(gram_.cols());
+    for (const std::size_t g : out) {
+      const Columns& own = columns_.at(g);
+      for (std::size_t k = 0; k < own.off_neutral.size(); ++k)
+        back[own.index[k]] = own.off_neutral[k];
+    }
+    std::vector<Index> free = always_;
+    for (const std::size_t g : named) {
+      const std::vector<Index>& own = columns_.at(g).index;
+      free.insert(free.end(), own.begin(), own.end());
+    }
+    const VectorXd moved = gram_ * back;
+    const VectorXd along = (along_ + moved)(free);
+    return squared_residual_ + 2 * back.dot(along_) + back.dot(moved) -
+           along.dot(pseudo_solution(gram_(free, free), along));
+  }
+
+ private:
+  struct Columns {
+    std::vector<Index> index;
+    std::vector<double> off_neutral;  ///< in scales; none where it is not freed
+  };
+  std::map<std::size_t, Columns> columns_;
+  std::vector<Index> always_;  ///< columns of what every fit frees
+  double squared_residual_;
+  MatrixXd gram_;
+  VectorXd along_;
 };
 
 class SubsetSearch {
@@ -210,8 +282,9 @@ class SubsetSearch {
     if (candidate.length + handicap < best_.length) best_ = std::move(candidate);
   }
 
-  /// Sets of one candidate more than `parents`, or two where that is none, that promise most.
-  [[nodiscard]] std::map<Groups, const Model*> promising(const std::vector<Model>& parents) const {
+  /// Sets of one candidate more than `parents`, or two, that promise most.
+  [[nodiscard]] std::map<Groups, const Model*> promising(const std::vector<Model>& parents,
+                                                         bool two_more) const {
     std::vector<std::tuple<double, Groups, const Model*>> sets;
     for (const Model& parent : parents) {
       Groups open;
@@ -225,10 +298,8 @@ class SubsetSearch {
         sets.emplace_back(parent.fit.residual.squaredNorm() - gains.of(more), named, &parent);
       };
       for (std::size_t a = 0; a < open.size(); ++a) {
-        if (!parent.named.empty()) add({open[a]});
-        for (std::size_t b = a + 1; parent.named.empty() && b < open.size(); ++b) {
-          add({open[a], open[b]});
-        }
+        if (!two_more) add({open[a]});
+        for (std::size_t b = a + 1; two_more && b < open.size(); ++b) add({open[a], open[b]});
       }
     }
     std::sort(sets.begin(), sets.end());
@@ -249,7 +320,7 @@ class SubsetSearch {
     for (std::size_t size = 2; size <= std::min(options_.most_findings, candidates_.size());
          ++size) {
       std::vector<Model> next;
-      for (const auto& [named, parent] : promising(level)) {
+      for (const auto& [named, parent] : promising(level, size == 2)) {
         next.push_back(model(named, {}, &parent->fit));
       }
       level = std::move(next);
@@ -264,6 +335,88 @@ class SubsetSearch {
         consider(more, adds ? 0 : rival_excess);
       }
       if (level.size() > beam) level.erase(level.begin() + beam, level.end());
+    }
+    exchange_names();
+  }
+
+  /// The best names with one in the place of each that explains nearly as much as it does.
+  [[nodiscard]] std::vector<Model> exchanged(const Model& now) const {
+    std::vector<Model> all;
+    for (const std::size_t out : now.named) {
+      const std::vector<Model> rest{model(without_group(now.named, out), {}, &now.fit)};
+      std::vector<Model> instead;
+      for (const auto& [named, parent] : promising(rest, false)) {
+        if (named != now.named) instead.push_back(model(named, {}, &parent->fit));
+      }
+      std::ranges::sort(instead, {}, [](const Model& m) { return m.fit.squared_error(); });
+      if (instead.size() > exchanged_for_one) instead.resize(exchanged_for_one, base_);
+      std::ranges::move(instead, std::back_inserter(all));
+    }
+    return all;
+  }
+
+  /// Sets that differ from the parent's by up to two names less and up to two more and promise the
+  /// shortest descriptions.
+  [[nodiscard]] std::vector<Groups> promising_exchanges(const Model& parent) const {
+    const LinearisedExchange linear(record_, parent.fit, candidates_);
+    Groups open;
+    for (const std::size_t g : candidates_) {
+      if (!contains(parent.named, g)) open.push_back(g);
+    }
+    std::vector<std::pair<double, Groups>> sets;
+    for (const Groups& out : none_one_or_two_of(parent.named)) {
+      Groups rest = parent.named;
+      for (const std::size_t g : out) rest = without_group(rest, g);
+      for (const Groups& in : none_one_or_two_of(open)) {
+        Groups named = rest;
+        for (const std::size_t g : in) named = with_group(named, g);
+        if (named.empty() || named.size() > options_.most_findings) continue;
+        const double names = name_price_ * static_cast<double>(named.size());
+        sets.emplace_back(linear.squared_error(named, out) + names, std::move(named));
+      }
+    }
+    std::sort(sets.begin(), sets.end());
+    std::vector<Groups> best;
+    for (auto& [length, named] : sets) {
+      if (best.size() < tried_sets) best.push_back(std::move(named));
+    }
+    return best;
+  }
+
+  [[nodiscard]] static std::vector<Groups> none_one_or_two_of(const Groups& groups) {
+    std::vector<Groups> all{{}};
+    for (std::size_t a = 0; a < groups.size(); ++a) {
+      all.push_back({groups[a]});
+      for (std::size_t b = a + 1; b < groups.size(); ++b) all.push_back({groups[a], groups[b]});
+    }
+    return all;
+  }
+
+  /// From the best names to better ones by exchanging some. A name that mimics two together is
+  /// found before either of them, alone they may not fit at all, and names added to it mend what it
+  /// does wrong.
+  void exchange_names() {
+    if (best_.named.size() < 2) return;
+    if (progress_) progress_("exchanging effects");
+    std::vector<Model> known = exchanged(best_);
+    for (const Model& other : known) consider(other, rival_excess);
+    known.push_back(best_);
+    std::set<Groups> fitted;
+    for (const Model& m : known) fitted.insert(m.named);
+    std::set<Groups> left;  // of which all neighbours that promise most are known
+    for (bool anew = true; anew;) {
+      anew = false;
+      std::ranges::sort(known, {}, &Model::length);
+      if (known.size() > beam) known.resize(beam, base_);
+      for (const Model& parent : std::vector<Model>(known)) {
+        if (!left.insert(parent.named).second) continue;
+        for (const Groups& named : promising_exchanges(parent)) {
+          if (!fitted.insert(named).second) continue;
+          known.push_back(model(named, {}, &parent.fit));
+          consider(known.back(), rival_excess);
+          anew = true;
+        }
+      }
     }
   }
 

@@ -37,17 +37,6 @@ double height_of_drag(const PowerLog& log) {
   return weights > 0 ? sum / weights : mean;
 }
 
-double mean_of(std::span<const double> x) {
-  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
-}
-
-double deviation_of_mean(std::span<const double> x, double mean) {
-  double sum = 0;
-  for (const double value : x) sum += (value - mean) * (value - mean);
-  const auto n = static_cast<double>(x.size());
-  return std::sqrt(sum / (n - 1) / n);
-}
-
 }  // namespace
 
 double drag_over_mass(const AirframeDrag& law, double mass, double air_density, double gravity,
@@ -61,14 +50,23 @@ double drag_over_mass(const AirframeDrag& law, double mass, double air_density, 
   return sum / static_cast<double>(airspeed.size());
 }
 
+MeanAndError mean_drag_over_mass(const DragByTilt& shown) {
+  const std::vector<double>& x = shown.over_mass;
+  const auto n = static_cast<double>(x.size());
+  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  double sum = 0;
+  for (const double value : x) sum += (value - mean) * (value - mean);
+  return {mean, std::sqrt(sum / (n - 1) / n)};
+}
+
 std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const PowerModel& base,
                                                  const PowerLog& log,
                                                  double false_alarm_probability,
                                                  std::vector<Warning>& notes) {
   TiltComparison tilt(shown, height_of_drag(log), log.free_flight);
   const auto blocks = static_cast<double>(shown.over_mass.size());
-  tilt.mean_ = mean_of(shown.over_mass);
-  const double error = deviation_of_mean(shown.over_mass, tilt.mean_);
+  const auto [mean, error] = mean_drag_over_mass(shown);
+  tilt.mean_ = mean;
   const double common = common_error * std::abs(tilt.mean_);
   constexpr double normal_95 = 1.96;
   tilt.half_width_ = std::hypot(student_quantile(blocks - 1, 0.975) * error, normal_95 * common);

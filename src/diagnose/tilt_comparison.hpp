@@ -17,6 +17,14 @@ namespace tethercalc {
 [[nodiscard]] double drag_over_mass(const AirframeDrag& law, double mass, double air_density,
                                     double gravity, std::span<const double> airspeed);
 
+/// What blocks that tell it alike come to.
+struct MeanAndError {
+  double mean = 0;
+  double error = 0;  ///< standard error of the mean
+};
+/// Of the drag over mass that a flight shows, m/s².
+[[nodiscard]] MeanAndError mean_drag_over_mass(const DragByTilt& shown);
+
 /// Rows of independent noise of size 1, as those of `PowerResiduals`.
 class TiltComparison {
  public:

@@ -66,7 +66,7 @@ ordered_json before_after(const BeforeAfter& pair) {
   return ordered_json::array({number_or_null(pair.before), number_or_null(pair.after)});
 }
 
-/// Value and uncertainty with as many digits as two of the interval's half width.
+/// Value and uncertainty, with as many digits as two of the interval's half width.
 std::string with_interval(const ParameterEstimate& p) {
   const double half_width = (p.ci95_upper - p.ci95_lower) / 2;
   int decimals = 2 - static_cast<int>(std::floor(std::log10(std::abs(p.value) + 1e-300))) + 1;
@@ -75,8 +75,11 @@ std::string with_interval(const ParameterEstimate& p) {
   }
   decimals = std::clamp(decimals, 0, 9);
   const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-  return fmt::format("{} = {}{} (95 %: {} to {})", p.name, fixed(p.value, decimals), unit,
-                     fixed(p.ci95_lower, decimals), fixed(p.ci95_upper, decimals));
+  const std::string value = fmt::format("{} = {}{}", p.name, fixed(p.value, decimals), unit);
+  // Only a bound holds a size alike in all blocks.
+  if (half_width == 0) return value + " (the end of its range)";
+  return fmt::format("{} (95 %: {} to {})", value, fixed(p.ci95_lower, decimals),
+                     fixed(p.ci95_upper, decimals));
 }
 
 /// An effect by its id, with the flight where it belongs to one of several.
@@ -274,7 +277,9 @@ class Story {
     heading("What is left");
     if (!d_.unexplained.detected) {
       paragraph(d_.unexplained.would_have_shown()
-                    ? "No structure against any channel or time: what is left looks like noise."
+                    ? fmt::format("No structure against any channel or time: what is left looks "
+                                  "like noise{}.",
+                                  d_.suspected.empty() ? "" : ", but for what is suspected")
                     : fmt::format("No structure against any channel or time was found. What makes "
                                   "up less than {:.0f} % of the squared error left would not have "
                                   "shown in a log this short, so it is not said to be noise.",
