@@ -91,19 +91,21 @@ Preliminary preliminary_fit(const Design& design, const std::vector<FlightData>&
 std::vector<UnnamedRegressor> shapes_of(const std::vector<FlightData>& flights,
                                         const FlightModel& model, const Preliminary& preliminary) {
   std::vector<UnnamedRegressor> shapes;
-  for (std::size_t k = 0; k < flights.size(); ++k) {
-    for (UnnamedRegressor& own : flight_shapes(flights[k].observations, preliminary.wind[k])) {
+  for (const FlightModel::Readings& readings : model.readings()) {
+    const std::size_t k = readings.flight;
+    for (UnnamedRegressor& own : flight_shapes(flights[k].observations, flights[k].record,
+                                               preliminary.wind[k], readings.axis)) {
       const bool of_time = own.channel == "time_s";
       if (of_time && flights.size() > 1) own.shape += fmt::format(" of flight {}", k + 1);
       auto shape = std::find_if(shapes.begin(), shapes.end(), [&](const UnnamedRegressor& s) {
-        return !of_time && s.shape == own.shape;
+        return !of_time && s.shape == own.shape && s.quantity == own.quantity;
       });
       if (shape == shapes.end()) {
         shape = shapes.insert(shapes.end(), own);
         shape->column.assign(model.problem.measured.size(), 0.0);
       }
       std::copy(own.column.begin(), own.column.end(),
-                model.rows_of(model.readings()[k], shape->column).begin());
+                model.rows_of(readings, shape->column).begin());
     }
   }
   return shapes;
@@ -125,14 +127,13 @@ void add_delays_alike(const std::vector<FlightData>& flights, const FlightModel&
   }
 }
 
-void size_up(const Selection& selection, Unexplained& unexplained) {
+void size_up(const FlightModel& model, const Selection& selection, Unexplained& unexplained) {
   if (!unexplained.detected) return;
   unexplained.size = selection.extended.holdout_rmse * std::sqrt(unexplained.share_percent / 100);
   unexplained.size_unit = unit_of_flights;
   unexplained.shape = fmt::format(
-      "the forward acceleration that is left follows {}; no effect of the catalogue does, so it "
-      "stays unnamed",
-      unexplained.regressor);
+      "{} that is left follows {}; no effect of the catalogue does, so it stays unnamed",
+      model.problem.unnamed[selection.unnamed.regressors.front()].quantity, unexplained.regressor);
 }
 
 std::vector<SpecChange> spec_changes(const FlightModel& model, const ModelFit& fit) {
@@ -180,6 +181,9 @@ double speed_rmse(const std::vector<FlightData>& flights, const FlightModel& mod
 
 double effective_samples(const std::vector<FlightData>& flights, const FlightModel& model,
                          const ModelFit& fit) {
+  // Of the axes of a flight the mean: their gusts are of one air.
+  const auto axes =
+      static_cast<double>(model.readings().size()) / static_cast<double>(flights.size());
   double sum = 0;
   for (const FlightModel::Readings& readings : model.readings()) {
     const auto left = model.rows_of(readings, fit.holdout_residual);
@@ -189,7 +193,7 @@ double effective_samples(const std::vector<FlightData>& flights, const FlightMod
     }
     sum += effective_sample_size(residuals);
   }
-  return sum;
+  return sum / axes;
 }
 
 ComparedSeries compared(const FlightData& data, const FlightModel& model,
@@ -342,7 +346,7 @@ void report(const std::vector<FlightData>& flights, const FlightModel& model,
   for (const FlightModel::Readings& readings : model.readings()) {
     d.compared.push_back(compared(flights[readings.flight], model, readings, selection));
   }
-  size_up(selection, d.unexplained);
+  size_up(model, selection, d.unexplained);
   d.spec_changes = spec_changes(model, selection.complete);
   d.drag_by_tilt = drag_by_tilt(flights, model, selection.complete);
   tell_drag_that_may_be_none(*d.drag_by_tilt, d.notes);

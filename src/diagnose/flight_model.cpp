@@ -53,7 +53,7 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
   if (log.down_velocity.empty()) log.down_velocity.assign(log.time.size(), 0.0);
   validate(log);
   const double gravity = design.flight.gravity;
-  FlightSamples samples = flight.range ? FlightSamples{std::move(log), *flight.range, {}}
+  FlightSamples samples = flight.range ? FlightSamples{std::move(log), *flight.range, {}, {}}
                                        : flown_samples(std::move(log), gravity);
 
   FlightData data;
@@ -62,8 +62,8 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
   if (auto note = even_out_stamps(samples.log)) samples.notes.push_back(std::move(*note));
   data.faults.notes.insert(data.faults.notes.begin(), samples.notes.begin(), samples.notes.end());
   data.observations = observe(samples.log, samples.range, pitch_offset, gravity);
-  data.record =
-      flight_record(data.observations, design.drone.mass, design.flight.air_density, gravity);
+  data.record = flight_record(data.observations, design.drone.mass, design.flight.air_density,
+                              gravity, samples.taken_out);
   if (data.observations.size() < 3) {
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "identify/flight_units.hpp"
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -23,30 +24,53 @@ constexpr int picard_iterations = 16;
 
 double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
 
-/// A speed added up, less its mean.
-std::vector<double> place(const std::vector<double>& time, const std::vector<double>& speed) {
+/// A speed added up from the first sample on; between two samples as far as `detour` has it where
+/// that is a number.
+std::vector<double> added_up(const std::vector<double>& time, const std::vector<double>& speed,
+                             const std::vector<double>& detour) {
   std::vector<double> place(speed.size(), 0.0);
   for (std::size_t i = 1; i < speed.size(); ++i) {
-    place[i] = place[i - 1] + (speed[i - 1] + speed[i]) / 2 * (time[i] - time[i - 1]);
+    const double straight_on = (speed[i - 1] + speed[i]) / 2 * (time[i] - time[i - 1]);
+    place[i] = place[i - 1] + (std::isnan(detour[i]) ? straight_on : detour[i]);
   }
-  const double mean =
-      std::accumulate(place.begin(), place.end(), 0.0) / static_cast<double>(place.size());
-  for (double& x : place) x -= mean;
   return place;
 }
 
-/// Fills `place_along` and `place_right`.
-void add_places(FlightRecord& record) {
+std::vector<double> less_its_mean(std::vector<double> x) {
+  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+  for (double& value : x) value -= mean;
+  return x;
+}
+
+/// Fills `place_along`, `place_right` and `height`.
+void add_places(FlightRecord& record, std::span<const Detour> detours) {
   std::vector<double> along(record.size());
   std::vector<double> right(record.size());
+  std::vector<double> up(record.size());
   for (std::size_t i = 0; i < record.size(); ++i) {
     const OverGround speed =
         over_ground(record, i, {record.forward_speed[i], record.right_speed[i]});
     along[i] = speed.along;
     right[i] = speed.right;
+    up[i] = -record.down_speed[i];
   }
-  record.place_along = place(record.time, along);
-  record.place_right = place(record.time, right);
+  const std::vector<double> none(record.size(), nan);
+  std::vector<double> to_along = none;
+  std::vector<double> to_right = none;
+  std::vector<double> to_up = none;
+  const double c = std::cos(record.mean_heading);
+  const double s = std::sin(record.mean_heading);
+  for (const Detour& d : detours) {
+    const auto after = std::ranges::upper_bound(record.time, (d.begin + d.end) / 2);
+    if (after == record.time.begin() || after == record.time.end()) continue;
+    const auto i = static_cast<std::size_t>(after - record.time.begin());
+    to_along[i] = d.north * c + d.east * s;
+    to_right[i] = d.east * c - d.north * s;
+    to_up[i] = d.up;
+  }
+  record.place_along = less_its_mean(added_up(record.time, along, to_along));
+  record.place_right = less_its_mean(added_up(record.time, right, to_right));
+  record.height = added_up(record.time, up, to_up);
 }
 
 }  // namespace
@@ -64,7 +88,7 @@ OverGround over_ground(const FlightRecord& record, std::size_t i, const AtDrone&
 }
 
 FlightRecord flight_record(const Observations& observations, double mass, double air_density,
-                           double gravity) {
+                           double gravity, std::span<const Detour> detours) {
   FlightRecord record;
   record.time = observations.time;
   record.tilt = observations.tilt;
@@ -94,7 +118,7 @@ FlightRecord flight_record(const Observations& observations, double mass, double
     record.along_heading.push_back(std::cos(yaw - record.mean_heading));
     record.right_of_heading.push_back(std::sin(yaw - record.mean_heading));
   }
-  add_places(record);
+  add_places(record, detours);
   record.yaw_rate = yaw_rate(observations);
   record.both_axes = shows_both_axes(observations, gravity);
   record.mass = mass;
@@ -112,10 +136,10 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
   for (auto series :
        {&FlightRecord::time, &FlightRecord::tilt, &FlightRecord::tan_tilt, &FlightRecord::cos_tilt,
         &FlightRecord::yaw, &FlightRecord::along_heading, &FlightRecord::right_of_heading,
-        &FlightRecord::place_along, &FlightRecord::place_right, &FlightRecord::forward_speed,
-        &FlightRecord::right_speed, &FlightRecord::headwind, &FlightRecord::crosswind,
-        &FlightRecord::down_speed, &FlightRecord::down_acceleration, &FlightRecord::sideward_thrust,
-        &FlightRecord::cos_sideward, &FlightRecord::yaw_rate}) {
+        &FlightRecord::place_along, &FlightRecord::place_right, &FlightRecord::height,
+        &FlightRecord::forward_speed, &FlightRecord::right_speed, &FlightRecord::headwind,
+        &FlightRecord::crosswind, &FlightRecord::down_speed, &FlightRecord::down_acceleration,
+        &FlightRecord::sideward_thrust, &FlightRecord::cos_sideward, &FlightRecord::yaw_rate}) {
     const auto begin = (record.*series).begin();
     (part.*series)
         .assign(begin + static_cast<std::ptrdiff_t>(first),

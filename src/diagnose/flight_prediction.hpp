@@ -28,6 +28,7 @@ struct FlightRecord {
   /// over ground, added up. As exact as that: an error of 0.1 m/s for a minute is 6 m.
   std::vector<double> place_along;
   std::vector<double> place_right;
+  std::vector<double> height;         ///< m above the first sample, likewise
   std::vector<double> forward_speed;  ///< m/s over ground
   std::vector<double> right_speed;    ///< m/s over ground
   std::vector<double> headwind;    ///< m/s along the forward axis, as measured; 0 where it was not
@@ -66,9 +67,19 @@ struct OverGround {
 [[nodiscard]] AtDrone at_drone(const FlightRecord& record, std::size_t i, const OverGround& x);
 [[nodiscard]] OverGround over_ground(const FlightRecord& record, std::size_t i, const AtDrone& x);
 
+/// Where a flight went between two samples, in m, other than straight on.
+struct Detour {
+  double begin = 0;  ///< s, the time of the sample before
+  double end = 0;    ///< s, of the sample after
+  double north = 0;
+  double east = 0;
+  double up = 0;
+};
+
 /// `mass` kg > 0, `air_density` kg/m³ > 0, `gravity` m/s² > 0.
 [[nodiscard]] FlightRecord flight_record(const Observations& observations, double mass,
-                                         double air_density, double gravity);
+                                         double air_density, double gravity,
+                                         std::span<const Detour> detours = {});
 
 /// Parameters that every drag flight needs and that are no effects.
 struct FlightBase {

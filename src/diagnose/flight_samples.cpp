@@ -146,6 +146,25 @@ double marked_seconds(const FlightLog& log, const SampleRange& part, const Marks
   return sum;
 }
 
+/// Where the marked samples of first ≤ i < last led, of which the ends are not marked.
+std::vector<Detour> detours(const FlightLog& log, std::size_t first, std::size_t last,
+                            const Marks& marks) {
+  std::vector<Detour> result;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    if (!marks[i] && !marks[i - 1]) continue;
+    if (marks[i] && !marks[i - 1]) result.emplace_back().begin = log.time[i - 1];
+    const double half_step = (log.time[i] - log.time[i - 1]) / 2;
+    const auto led = [&](const std::vector<double>& velocity) {
+      return half_step * (velocity[i - 1] + velocity[i]);
+    };
+    result.back().end = log.time[i];
+    result.back().north += led(log.north_velocity);
+    result.back().east += led(log.east_velocity);
+    result.back().up -= led(log.down_velocity);
+  }
+  return result;
+}
+
 }  // namespace
 
 FlightSamples flown_samples(FlightLog log, double gravity) {
@@ -198,12 +217,16 @@ FlightSamples flown_samples(FlightLog log, double gravity) {
   // What lies before and after stays for the derivatives at the ends.
   samples.range = {first, first + static_cast<std::size_t>(kept)};
   const bool whole = std::find(out.begin(), out.end(), true) == out.end();
+  std::size_t from = first;
+  while (out[from]) ++from;
+  samples.taken_out = detours(log, from, last, out);
   samples.log = whole ? std::move(log) : without(log, out);
   return samples;
 }
 
 void average_fast_samples(FlightSamples& samples, std::vector<bool>& faulty) {
-  const auto& [log, range, notes] = samples;
+  const FlightLog& log = samples.log;
+  const SampleRange range = samples.range;
   if (range.size() < 3) return;
   const double rate =
       1 / median_step({iterator_at(log.time, range.first), iterator_at(log.time, range.last)});

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "diagnose/flight_prediction.hpp"
 #include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/warning.hpp"
 
@@ -12,8 +13,9 @@ namespace tethercalc {
 /// A log and what of it is judged.
 struct FlightSamples {
   FlightLog log;
-  SampleRange range;           ///< of `log`
-  std::vector<Warning> notes;  ///< what was left out, and why
+  SampleRange range;              ///< of `log`
+  std::vector<Warning> notes;     ///< what was left out, and why
+  std::vector<Detour> taken_out;  ///< between samples of the range, where no sample is left
 };
 
 /// The log with all its flights: of its `moving_parts` the longest, and others that last, in which

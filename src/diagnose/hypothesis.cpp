@@ -14,7 +14,7 @@
 namespace tethercalc {
 namespace {
 
-constexpr std::array<FormulaChannel, 13> flight_formula_channels{{
+constexpr std::array<FormulaChannel, 14> flight_formula_channels{{
     {"time", "s", "of the log's clock"},
     {"tilt", "rad", "positive leaning forward, as the thrust had it"},
     {"roll", "rad", "positive to the right"},
@@ -28,6 +28,7 @@ constexpr std::array<FormulaChannel, 13> flight_formula_channels{{
     {"mass", "kg", "of the drone"},
     {"air_density", "kg/m³", "of the air"},
     {"gravity", "m/s²", "of the place"},
+    {"yaw_rate", "rad/s", "clockwise"},
 }};
 
 constexpr std::array<FormulaChannel, 8> power_formula_channels{{
@@ -45,12 +46,12 @@ constexpr std::array<FormulaChannel, 8> power_formula_channels{{
 /// act only high up, fast or late.
 std::vector<std::vector<double>> probes(LogKind kind) {
   if (kind == LogKind::flight) {
-    return {{12, 0.15, 0.03, 1.1, 6, 0.4, -0.3, 8, 7, 0.5, 1.6, 1.2, 9.8},
-            {95, -0.21, -0.05, 4.2, 9, -0.7, 0.6, 23, 8, -0.6, 1.6, 1.2, 9.8},
-            {240, 0.32, 0.08, 2.7, -11, 1.2, 0.1, 2.5, -10, 1.3, 1.6, 1.2, 9.8},
-            {410, -0.08, -0.02, 5.9, -3, -0.2, -1.1, 61, -4, -0.1, 1.6, 1.2, 9.8},
-            {2000, 0.6, -0.5, 0.2, 25, 6, 4, 400, 28, 7, 1.6, 1.2, 9.8},
-            {50000, -0.6, 0.5, 3.5, -25, -6, -5, 0, -22, -5, 1.6, 1.2, 9.8}};
+    return {{12, 0.15, 0.03, 1.1, 6, 0.4, -0.3, 8, 7, 0.5, 1.6, 1.2, 9.8, 0.1},
+            {95, -0.21, -0.05, 4.2, 9, -0.7, 0.6, 23, 8, -0.6, 1.6, 1.2, 9.8, -0.3},
+            {240, 0.32, 0.08, 2.7, -11, 1.2, 0.1, 2.5, -10, 1.3, 1.6, 1.2, 9.8, 0.7},
+            {410, -0.08, -0.02, 5.9, -3, -0.2, -1.1, 61, -4, -0.1, 1.6, 1.2, 9.8, -0.05},
+            {2000, 0.6, -0.5, 0.2, 25, 6, 4, 400, 28, 7, 1.6, 1.2, 9.8, 2},
+            {50000, -0.6, 0.5, 3.5, -25, -6, -5, 0, -22, -5, 1.6, 1.2, 9.8, -1.5}};
   }
   return {{12, 8, 2, 310, 21, 1.6, 1.2, 9.8},
           {240, 31, 9, 420, 15, 1.6, 1.2, 9.8},
@@ -105,6 +106,21 @@ bool is_size(const Hypothesis& h, std::size_t k) {
   return false;
 }
 
+/// Whether the parameter changes the formula anywhere.
+bool acts(const Hypothesis& h, std::size_t k) {
+  constexpr double apart = 0.3;  // of the way from neutral to a bound
+  std::vector<double> values = neutral_values(h);
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    const auto [lower, upper] = std::pair{h.parameters[p].lower, h.parameters[p].upper};
+    values[p] += apart * ((upper > values[p] ? upper : lower) - values[p]);
+  }
+  std::vector<double> others = values;
+  others[k] = h.parameters[k].neutral;
+  return std::ranges::any_of(probes(h.log), [&](const std::vector<double>& probe) {
+    return h.formula(probe, values) != h.formula(probe, others);
+  });
+}
+
 /// The formula, with parameters in the order of an effect: sizes first.
 struct Ordered {
   Hypothesis hypothesis;
@@ -126,11 +142,7 @@ struct Ordered {
 
 void push(const Ordered& ordered, FlightPrediction& p, std::span<const double> values) {
   const FlightRecord& r = p.record;
-  double height = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
-    if (i > 0) {
-      height -= (r.down_speed[i - 1] + r.down_speed[i]) / 2 * (r.time[i] - r.time[i - 1]);
-    }
     const std::array<double, flight_formula_channels.size()> channels{
         r.time[i],
         p.tilt[i],
@@ -139,12 +151,13 @@ void push(const Ordered& ordered, FlightPrediction& p, std::span<const double> v
         r.forward_speed[i],
         r.right_speed[i],
         r.down_speed[i],
-        height,
+        r.height[i],
         p.airspeed[i],
         p.aside[i],
         r.mass,
         r.air_density,
-        r.gravity};
+        r.gravity,
+        r.yaw_rate[i]};
     p.drag[i] -= ordered.at(channels, values);
   }
 }
@@ -198,6 +211,12 @@ Effect effect_of(const Hypothesis& hypothesis) {
     refuse(hypothesis,
            "has no parameter that changes its formula by itself: of a size times a "
            "shape, the shape needs a neutral value that lets the size act");
+  }
+  for (std::size_t k = 0; k < hypothesis.parameters.size(); ++k) {
+    if (acts(hypothesis, k)) continue;
+    refuse(hypothesis, fmt::format("has a formula that {} does not change: no log can tell its "
+                                   "value",
+                                   hypothesis.parameters[k].name));
   }
   if (hypothesis.log == LogKind::flight) {
     effect.channel = "forward_speed";

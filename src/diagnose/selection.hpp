@@ -76,6 +76,7 @@ struct UnnamedRegressor {
   double least_gain_factor = 1;  ///< must gain so many times the usual minimum, as in `Effect`
   std::string formula{};         ///< of c times it, as a `Hypothesis` has one; empty: has none
   double formula_unit = 1;       ///< c where the coefficient is 1
+  std::string quantity{};        ///< in words, what follows the shape, where that does not say it
 };
 
 /// A record and the model that should explain it. Readings of several instruments are stacked: one

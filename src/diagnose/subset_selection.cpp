@@ -14,16 +14,19 @@
 namespace tethercalc {
 namespace {
 
-/// A rival whose description is longer by less than this is not ruled out: e⁻³ = 5 % of the
-/// likelihood.
-constexpr double rival_excess = 6;
+/// Sets that were not made of the best one by adding must be shorter than it by this much: e⁻³ = 5
+/// % of the likelihood.
+constexpr double clearly_shorter = 6;
+/// A rival whose description is longer by less than this is not ruled out: e⁻⁴·⁵ = 1 % of the
+/// likelihood, as at most one name in a hundred may be wrong.
+constexpr double rival_excess = 9;
 /// Shapes take the place of names only where they shorten the description by this much more: a
 /// mechanism that is known to exist is the likelier cause, and the true shape of a named effect
 /// differs a little from the idealised one. e⁻⁴ = 2 % of the likelihood.
 constexpr double name_preference = 8;
 /// What has no size but begins with a leap, as a cable that is at the air's temperature once its
 /// heat is counted, comes behind those that explain as much.
-constexpr double leap_alone = rival_excess;
+constexpr double leap_alone = clearly_shorter;
 /// Part of what unnamed shapes remove that they may miss of the unknown. A name beside them must
 /// explain more than that, or it might name the unknown's rest.
 constexpr double missed_by_shapes = 0.1;
@@ -332,7 +335,7 @@ class SubsetSearch {
       for (const Model& more : level) {
         const bool adds =
             std::includes(more.named.begin(), more.named.end(), fewer.begin(), fewer.end());
-        consider(more, adds ? 0 : rival_excess);
+        consider(more, adds ? 0 : clearly_shorter);
       }
       if (level.size() > beam) level.erase(level.begin() + beam, level.end());
     }
@@ -399,7 +402,7 @@ class SubsetSearch {
     if (best_.named.size() < 2) return;
     if (progress_) progress_("exchanging effects");
     std::vector<Model> known = exchanged(best_);
-    for (const Model& other : known) consider(other, rival_excess);
+    for (const Model& other : known) consider(other, clearly_shorter);
     known.push_back(best_);
     std::set<Groups> fitted;
     for (const Model& m : known) fitted.insert(m.named);
@@ -413,7 +416,7 @@ class SubsetSearch {
         for (const Groups& named : promising_exchanges(parent)) {
           if (!fitted.insert(named).second) continue;
           known.push_back(model(named, {}, &parent.fit));
-          consider(known.back(), rival_excess);
+          consider(known.back(), clearly_shorter);
           anew = true;
         }
       }

@@ -24,16 +24,6 @@ struct Shape {
 
 bool varies(const Series& x) { return (x != x[0]).any(); }
 
-Series height_gained(const Observations& o) {
-  Series height = Series::Zero(static_cast<Index>(o.size()));
-  for (std::size_t i = 1; i < o.size(); ++i) {
-    const auto k = static_cast<Index>(i);
-    height[k] =
-        height[k - 1] - (o.down_speed[i - 1] + o.down_speed[i]) / 2 * (o.time[i] - o.time[i - 1]);
-  }
-  return height;
-}
-
 /// `x` is the channel that formulas call `variable`.
 void add_powers(std::vector<Shape>& shapes, const std::string& channel, const std::string& name,
                 const Series& x, const std::string& variable) {
@@ -144,14 +134,16 @@ UnnamedRegressor regressor(const PowerResiduals& residuals, std::size_t k, const
 
 }  // namespace
 
-std::vector<UnnamedRegressor> flight_shapes(const Observations& o, double wind) {
+std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightRecord& record,
+                                            double wind, Axis axis) {
+  const bool forward = axis == Axis::forward;
   std::vector<Shape> shapes;
   add_powers(shapes, "roll_deg", "roll", as_series(o.roll), "roll");
   add_powers(shapes, "pitch_deg", "pitch", as_series(o.tilt), "tilt");
   add_powers(shapes, "lateral_speed_m_s", "lateral speed", as_series(o.right_speed), "right_speed");
   add_powers(shapes, "vd_m_s", "vertical speed", as_series(o.down_speed), "down_speed");
   if (varies(as_series(o.down_speed))) {
-    Series height = height_gained(o);
+    Series height = as_series(record.height);
     const std::string above = fmt::format("(height - {:.3f})", height.mean());
     height -= height.mean();
     shapes.push_back({"height_m", "height", height, 1, above});
@@ -161,8 +153,13 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, double wind) 
   if (const Series yaw = as_series(o.yaw); varies(yaw)) {
     shapes.push_back({"yaw_deg", "the cosine of the yaw", yaw.cos(), 1, "cos(yaw)"});
     shapes.push_back({"yaw_deg", "the sine of the yaw", yaw.sin(), 1, "sin(yaw)"});
+    // As iron beside a compass bends what it reads twice a turn.
+    shapes.push_back(
+        {"yaw_deg", "the cosine of twice the yaw", (2 * yaw).cos(), 1, "cos(2 * yaw)"});
+    shapes.push_back({"yaw_deg", "the sine of twice the yaw", (2 * yaw).sin(), 1, "sin(2 * yaw)"});
   }
-  add_time(shapes, as_series(o.time));
+  add_powers(shapes, "yaw_deg", "yaw rate", as_series(record.yaw_rate), "yaw_rate");
+  if (forward) add_time(shapes, as_series(o.time));
 
   const Series u = as_series(o.forward_speed) - wind;
   const std::tuple<const char*, const char*, Series> carriers[] = {
@@ -171,13 +168,15 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, double wind) 
       {", times the magnitude of the airspeed", " * abs(airspeed)", u.abs()},
       {", times the airspeed and its magnitude", " * airspeed * abs(airspeed)", u * u.abs()}};
   std::vector<UnnamedRegressor> regressors;
-  const auto add = [&regressors](const std::string& channel, const std::string& words,
+  const auto add = [&regressors, forward](const std::string& channel, const std::string& words,
                                  const Series& column,
                                  const std::string& formula) -> UnnamedRegressor& {
-    return regressors.emplace_back(UnnamedRegressor{.channel = channel,
-                                                    .shape = words,
-                                                    .column = {column.begin(), column.end()},
-                                                    .formula = "mass * c * " + formula});
+    return regressors.emplace_back(UnnamedRegressor{
+        .channel = channel,
+        .shape = words,
+        .column = {column.begin(), column.end()},
+        .formula = forward ? "mass * c * " + formula : "",
+        .quantity = forward ? "the forward acceleration" : "the acceleration to the right"});
   };
   for (const Shape& shape : shapes) {
     for (const auto& [words, factor, carrier] : carriers) {

@@ -3,17 +3,21 @@
 
 #include <vector>
 
+#include "diagnose/flight_prediction.hpp"
 #include "diagnose/power_residuals.hpp"
 #include "diagnose/selection.hpp"
+#include "identify/flight_units.hpp"
 #include "tethercalc/identify/observations.hpp"
 
 namespace tethercalc {
 
-/// Functions of each channel of the flight (roll, pitch, yaw, speeds, height, time, with steps in
-/// time), alone and times the airspeed and its powers, since a force of the air grows with it. The
-/// forward acceleration is no channel. `wind` in m/s: airspeed is forward speed − wind.
+/// Functions of each channel of the flight (roll, pitch, yaw and its rate, speeds, height, time),
+/// alone and times the forward airspeed and its powers, since a force of the air grows with it. No
+/// acceleration is a channel. `wind` in m/s: airspeed is forward speed − wind. Only forward there
+/// are steps in time as well, and formulas, whose force acts there.
 [[nodiscard]] std::vector<UnnamedRegressor> flight_shapes(const Observations& observations,
-                                                          double wind);
+                                                          const FlightRecord& record, double wind,
+                                                          Axis axis);
 
 /// Unnamed regressors over the rows of `residuals`, each in one stage and of one channel: steps,
 /// drift and waves in time; bends in height, airspeed, current and ambient temperature. In the

@@ -146,10 +146,27 @@ std::vector<EffectParameter> read_parameters(const JsonPlace& list, LogKind kind
   return parameters;
 }
 
+/// Whether the formula sets a name to a value, where it may have meant to compare.
+bool assigns(const std::string& formula) {
+  for (std::size_t i = formula.find('='); i != std::string::npos; i = formula.find('=', i + 1)) {
+    if (formula.substr(i).starts_with("==")) {
+      ++i;
+    } else if (i == 0 || std::string_view("<>!").find(formula[i - 1]) == std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// The formula as something to call; nothing, with the reason among the problems, where it is none.
 decltype(Hypothesis::formula) read_formula(const JsonPlace& place, const Hypothesis& hypothesis,
                                            Problems& problems) {
   const auto channels = formula_channels(hypothesis.log);
+  if (assigns(hypothesis.words)) {
+    problems.add(place.where(),
+                 fmt::format("\"{}\" sets a value with =; to compare write ==", hypothesis.words));
+    return {};
+  }
   try {
     const auto formula =
         std::make_shared<Formula>(hypothesis.words, channels, hypothesis.parameters);

@@ -33,6 +33,10 @@ std::pair<double, double> to_heading(double yaw, double north, double east) {
   return {cos_yaw * north + sin_yaw * east, cos_yaw * east - sin_yaw * north};
 }
 
+double horizontal_speed(const FlightLog& log, std::size_t i) {
+  return std::hypot(log.north_velocity[i], log.east_velocity[i]);
+}
+
 double forward_speed(const FlightLog& log, std::size_t i) {
   return to_heading(log.yaw[i], log.north_velocity[i], log.east_velocity[i]).first;
 }
@@ -182,10 +186,9 @@ std::vector<SampleRange> moving_parts(const FlightLog& log) {
   const auto& time = log.time;
   std::vector<SampleRange> parts;
   for (std::size_t i = 0; i < time.size(); ++i) {
-    if (std::abs(forward_speed(log, i)) < moving_speed) continue;
+    if (horizontal_speed(log, i) < moving_speed) continue;
     SampleRange stretch{i, i + 1};
-    while (stretch.last < time.size() &&
-           std::abs(forward_speed(log, stretch.last)) >= moving_speed) {
+    while (stretch.last < time.size() && horizontal_speed(log, stretch.last) >= moving_speed) {
       ++stretch.last;
     }
     i = stretch.last;
@@ -200,7 +203,7 @@ std::vector<SampleRange> moving_parts(const FlightLog& log) {
   }
   if (parts.empty()) {
     throw UnsuitableFlight(
-        fmt::format("the drone never flies forward or backward at {} m/s for {} s: there is no "
+        fmt::format("the drone never flies at {} m/s over ground for {} s: there is no "
                     "drag to learn from; give a flight with passes in both directions, or a range",
                     moving_speed, moving_duration));
   }

@@ -508,7 +508,7 @@ TEST_CASE("a drag command that cannot work says why, and prints nothing else") {
            {{"no-such.bin", "--mass-g", "1550"}, "no-such.bin: cannot be opened"},
            {{empty, "--mass-g", "1550"}, "empty.bin:1: the file is empty"},
            {{text, "--mass-g", "1550"}, "column \"time_s\" is missing"},
-           {{hover, "--mass-g", "1550"}, "never flies forward or backward"},
+           {{hover, "--mass-g", "1550"}, "never flies at"},
            {{folder.path().string(), "--mass-g", "1550"}, "is a directory"},
            {{example, "--mass-gr", "1550"}, "did you mean \"--mass-g\"?"},
            {{}, "LOG is required"}}) {

@@ -99,8 +99,8 @@ struct LogPosition {
 [[nodiscard]] SampleRange select_range(const FlightLog& log, std::optional<LogPosition> from,
                                        std::optional<LogPosition> to);
 
-/// The parts of the log that are flown forward and backward, in their order: each from the first to
-/// the last time that the forward speed stays at 1 m/s or more, in magnitude, for at least 1 s.
+/// The parts of the log that are flown from place to place, in their order: each from the first to
+/// the last time that the horizontal speed stays at 1 m/s or more for at least 1 s.
 /// Such stretches with less than 30 s between them belong together (a pause in the air is data
 /// too); a longer pause may be a landing, and on the ground attitude is no thrust. Throws
 /// UnsuitableFlight where the drone never moves so.
