@@ -15,23 +15,18 @@
 namespace tethercalc {
 namespace {
 
-/// A yaw that stays within this never turned; its noise would only be a regressor of noise.
-constexpr double steady_yaw = 0.1;  // rad
-
-/// Whether the nose turns so little from sample to sample that the acceleration is known within
-/// what noise leaves of it. A speed v that turns with the rate ω, differenced over ±Δt, is off by
-/// ω·v·(ωΔt)²/6, the next term of sin(ωΔt)/Δt.
-bool turns_slowly(const Observations& o, std::size_t i) {
+/// Whether the nose turns so little from sample to sample that what the lean does between them is
+/// known: a force f that turns by an angle α is up to f·α²/8 more than a straight line has it.
+bool turns_slowly(const FlightRecord& r, std::size_t i) {
   constexpr double tolerated = 0.05;  // m/s²: a fifth of what a good log leaves unexplained
-  const double turned = 0.5 * (o.yaw[i + 1] - o.yaw[i - 1]);
-  const double rate = 2 * turned / (o.time[i + 1] - o.time[i - 1]);
-  const double speed = std::hypot(o.forward_speed[i], o.right_speed[i]);
-  return std::abs(rate) * speed * turned * turned / 6 <= tolerated;
+  const double turned = 0.5 * (r.yaw[i + 1] - r.yaw[i - 1]);
+  const double lean = r.gravity * std::hypot(r.tan_tilt[i], r.sideward_thrust[i]);
+  return lean * turned * turned / 8 <= tolerated;
 }
 
 /// Samples whose central difference and average rest on three trustworthy samples.
 std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
-                                 const Observations& o, double step) {
+                                 const FlightRecord& o, double step) {
   std::vector<bool> trusted(o.size());
   std::size_t in_log = 0;
   for (std::size_t i = 0; i < o.size(); ++i) {
@@ -69,8 +64,7 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
   }
   data.step = median_step(data.observations.time);
   check_flight_units(data.observations, gravity);
-  const std::vector<bool> usable =
-      usable_samples(samples.log, data.faults, data.observations, data.step);
+  const std::vector<bool> usable = usable_samples(samples.log, data.faults, data.record, data.step);
   for (const bool use : usable) data.block.push_back(use ? 0 : -1);
   data.usable = static_cast<double>(std::count(usable.begin(), usable.end(), true)) * data.step;
   if (!(data.usable > 0)) {
@@ -113,8 +107,6 @@ Effect drag_areas(const std::vector<FlightData>& flights) {
 /// What each flight fits beside its effects.
 std::vector<Effect> instrument_gains(const FlightData& data) {
   const double known = data.faults.height_unknown ? 0 : 1;
-  const auto [least, most] = std::minmax_element(data.record.yaw.begin(), data.record.yaw.end());
-  const double turns = *most - *least > steady_yaw ? 1 : 0;
   const double measured = data.observations.forward_wind.empty() ? 0 : 1;
   const double aside = data.record.both_axes ? 1 : 0;
   return {{.title = "vertical acceleration",
@@ -123,8 +115,6 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
                            .neutral = known,
                            .upper = 1.5 * known,
                            .scale = 0.2}}},
-          {.title = "turning frame",
-           .parameters = {{.name = "turn_gain", .unit = "1", .upper = 1.5 * turns, .scale = 0.2}}},
           {.title = "measured wind",
            .parameters = {{.name = "wind_gain",
                            .unit = "1",
@@ -140,17 +130,31 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
                            .scale = 0.5}}}};
 }
 
-/// Mean over the two intervals around each sample of a quantity that is straight between samples,
-/// with the weights that the three-point derivative gives to the intervals.
-void average_around(const std::vector<double>& time, const std::vector<double>& a,
-                    std::span<double> out) {
-  const std::size_t size = a.size();
-  out[0] = a[0];
-  out[size - 1] = a[size - 1];
-  for (std::size_t i = 1; i + 1 < size; ++i) {
-    const double before = time[i] - time[i - 1];
-    const double after = time[i + 1] - time[i];
-    out[i] = ((a[i - 1] + a[i]) / 2 * after + (a[i] + a[i + 1]) / 2 * before) / (before + after);
+/// Along one axis of each sample's heading, the mean over the two intervals around it of an
+/// acceleration over ground that is straight between samples, with the weights that the three-point
+/// derivative gives to the intervals.
+void average_around(const FlightPrediction& p, Axis axis, std::span<double> out) {
+  const FlightRecord& record = p.record;
+  const std::size_t size = record.size();
+  std::vector<OverGround> a(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    a[i] = over_ground(record, i, {p.acceleration[i], p.side_acceleration[i]});
+  }
+  const auto along_axis = [&](std::size_t i, const OverGround& x) {
+    const AtDrone here = at_drone(record, i, x);
+    return axis == Axis::forward ? here.forward : here.right;
+  };
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i == 0 || i + 1 == size) {
+      out[i] = along_axis(i, a[i]);
+      continue;
+    }
+    const double before = record.time[i] - record.time[i - 1];
+    const double after = record.time[i + 1] - record.time[i];
+    const double earlier = after / (2 * (before + after));
+    const double later = before / (2 * (before + after));
+    out[i] = along_axis(i, {earlier * a[i - 1].along + a[i].along / 2 + later * a[i + 1].along,
+                            earlier * a[i - 1].right + a[i].right / 2 + later * a[i + 1].right});
   }
 }
 
@@ -256,8 +260,7 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
     }
     for (const Readings& r : readings_) {
       const FlightPrediction& p = predictions[r.flight];
-      average_around(p.record.time, r.axis == Axis::forward ? p.acceleration : p.side_acceleration,
-                     rows_of(r, out));
+      average_around(p, r.axis, rows_of(r, out));
     }
   };
 }
@@ -314,9 +317,8 @@ FlightBase FlightModel::base(std::size_t flight, std::span<const double> values)
           .top_area = values[1],
           .side_area = values[0] * (base_[0].parameters.size() > 2 ? values[2] : 1),
           .vertical_acceleration_gain = values[gains],
-          .turn_gain = values[gains + 1],
-          .wind_gain = values[gains + 2],
-          .roll_trim = values[gains + 3]};
+          .wind_gain = values[gains + 1],
+          .roll_trim = values[gains + 2]};
 }
 
 std::vector<EffectValues> FlightModel::freed(std::size_t flight,

@@ -235,12 +235,6 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
     p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass;
   }
   act(p, effects, FlightPhase::reading);
-  // However the velocity was read, the frame turns what was read.
-  for (std::size_t i = 0; i < size; ++i) {
-    const double turning = base.turn_gain * record.yaw_rate[i];
-    p.acceleration[i] += turning * record.right_speed[i];
-    p.side_acceleration[i] -= turning * record.forward_speed[i];
-  }
 }
 
 std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase& base,
@@ -250,7 +244,9 @@ std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase&
   FlightPrediction prediction(simulated);
   for (int iteration = 0; iteration < picard_iterations; ++iteration) {
     predict_acceleration(prediction, base, effects);
-    const std::vector<double>& a = prediction.acceleration;
+    std::vector<double> a = prediction.acceleration;
+    // The nose turns into what flies to the side.
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += record.yaw_rate[i] * record.right_speed[i];
     std::vector<double>& v = simulated.forward_speed;
     double window_start = record.size() > 0 ? record.time.front() : 0;
     for (std::size_t i = 1; i < record.size(); ++i) {

@@ -91,9 +91,6 @@ struct FlightBase {
   /// (Fuller, Measurement Error Models, 1987, section 1.1). Left at 1, its noise times tan θ would
   /// enter every prediction.
   double vertical_acceleration_gain = 1;
-  /// Part of the turning frame's acceleration that the logged speed shows: 1 for a drone that moves
-  /// through space, less where the speed to the right is noise, 0 where the log never knew a frame.
-  double turn_gain = 0;
   /// Part of the measured wind's changes that the drag follows. The sensor is beside the
   /// propellers, and noisy; of its mean the effect `wind` tells how wrong it is.
   double wind_gain = 0;
@@ -135,12 +132,13 @@ struct EffectValues {
 
 /// Fills `prediction.acceleration` = (g − κ·a_D)·tanθ − F_D/m with F_D the forward part of the drag
 /// (`airframe_drag_along`) at the airspeed v − w, as changed by `effects`, and with both axes
-/// `prediction.side_acceleration` = (g − κ·a_D)·tanφ/cosθ − F_S/m alike, both with what the turning
-/// of the frame adds. A thrust along the body's z-axis turned by yaw, pitch and roll in this order
-/// points so, exactly; the published 1/cos φ is not in it. Where the acceleration to the right is
-/// not predicted, the airspeed there is the speed over ground, less a measured wind: a crosswind
-/// that is fitted mimics linear drag, since both drag in proportion to a small speed forward.
-/// Effects act in the order given within each phase; those at their neutral values change nothing.
+/// `prediction.side_acceleration` = (g − κ·a_D)·tanφ/cosθ − F_S/m alike, of the velocity over
+/// ground, which the turning of the nose does not change. A thrust along the body's z-axis turned
+/// by yaw, pitch and roll in this order points so, exactly; the published 1/cos φ is not in it.
+/// Where the acceleration to the right is not predicted, the airspeed there is the speed over
+/// ground, less a measured wind: a crosswind that is fitted mimics linear drag, since both drag in
+/// proportion to a small speed forward. Effects act in the order given within each phase; those at
+/// their neutral values change nothing.
 void predict_acceleration(FlightPrediction& prediction, const FlightBase& base,
                           std::span<const EffectValues> effects);
 

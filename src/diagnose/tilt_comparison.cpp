@@ -22,6 +22,10 @@ constexpr double steepest_tan = 6;
 /// simulated flights come out 2.2 % too large in the mean (docs/diagnosis-power.md).
 constexpr double common_error = 0.02;
 
+/// Of the drag over mass, the half width of its 95 % interval beyond which the tilt tells it no
+/// better than a guess by the mass does, which may be off by a factor of two.
+constexpr double most_uncertain = 0.5;
+
 /// Height where the drag shows, which grows with the square of the airspeed.
 double height_of_drag(const PowerLog& log) {
   if (log.height.empty() || log.airspeed.empty()) return 0;
@@ -75,10 +79,12 @@ std::optional<TiltComparison> TiltComparison::of(const DragByTilt& shown, const 
   const double tails = student_quantile(blocks - 1, false_alarm_probability / 2) /
                        student_quantile(many, false_alarm_probability / 2);
   tilt.noise_ = std::hypot(tails * error, common) * std::sqrt(blocks);
-  if (!(error > 0) || !std::isfinite(tilt.mean_) || !(tilt.half_width_ < tilt.predicted(base))) {
+  const double least_known = most_uncertain * std::min(tilt.mean_, tilt.predicted(base));
+  if (!(error > 0) || !std::isfinite(tilt.mean_) || !(tilt.half_width_ < least_known)) {
     notes.push_back(
         {WarningKind::tilt_tells_nothing,
-         "the tilt tells no drag of this drone from none, so it does not say whether the drone is "
+         "the tilt tells the drag of this drone no better than a guess does, so it does not say "
+         "whether the drone is "
          "heavier or its motors are hungrier, and the design keeps its drag: that takes passes at "
          "speed, there and back"});
     return std::nullopt;

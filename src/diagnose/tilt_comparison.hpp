@@ -32,8 +32,8 @@ class TiltComparison {
   static constexpr const char* unit = "m/s²";
 
   /// What `shown` comes to for a drone that flies as high as `log`, with `false_alarm_probability`
-  /// the chance that one row's noise may pass for an effect. Nothing where the flight does not tell
-  /// the drag of `base` from none, which is then noted.
+  /// the chance that one row's noise may pass for an effect. Nothing where the flight tells
+  /// the drag no better than a guess does, which is then noted.
   static std::optional<TiltComparison> of(const DragByTilt& shown, const PowerModel& base,
                                           const PowerLog& log, double false_alarm_probability,
                                           std::vector<Warning>& notes);

@@ -64,7 +64,6 @@ Samples to_samples(const Observations& flight, double gravity) {
   Samples samples{
       std::vector<Sample>(flight.size()), exact && shows_both_axes(flight, gravity), {}};
   const std::vector<double> drag = forward_drag_over_mass(flight);
-  const std::vector<double> turning = yaw_rate(flight);
   if (samples.both_axes && turns(flight)) samples.wind_heading = mean_heading(flight);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Sample& s = samples.all[i];
@@ -78,9 +77,8 @@ Samples to_samples(const Observations& flight, double gravity) {
     s.lift = gravity - flight.down_acceleration[i];
     const double thrust = std::tan(flight.roll[i]) / cosine;  // of what it carries
     const double level = 1 / std::sqrt(1 + thrust * thrust);
-    s.right = {
-        level, std::abs(thrust) * level, flight.right_speed[i],
-        s.lift * thrust - flight.right_acceleration[i] - turning[i] * flight.forward_speed[i]};
+    s.right = {level, std::abs(thrust) * level, flight.right_speed[i],
+               s.lift * thrust - flight.right_acceleration[i]};
   }
   return samples;
 }

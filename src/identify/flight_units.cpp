@@ -41,16 +41,13 @@ struct LevelSeries {
   std::vector<double> right;
 };
 
-/// m/s², by forces: without what the turning of the frame does to the speeds.
+/// m/s², by forces.
 LevelSeries seen_accelerations(const Observations& flight) {
+  LevelSeries seen{flight.forward_acceleration, flight.right_acceleration};
+  if (flight.kinematics == Kinematics::exact) return seen;
   const std::vector<double> turning = yaw_rate(flight);
-  const bool both_axes = flight.right_acceleration.size() == flight.size();
-  LevelSeries seen;
-  for (std::size_t i = 0; i < flight.size(); ++i) {
-    seen.forward.push_back(flight.forward_acceleration[i] - turning[i] * flight.right_speed[i]);
-    if (!both_axes) continue;
-    seen.right.push_back(flight.right_acceleration[i] + turning[i] * flight.forward_speed[i]);
-  }
+  for (std::size_t i = 0; i < flight.size(); ++i)
+    seen.forward[i] -= turning[i] * flight.right_speed[i];
   return seen;
 }
 

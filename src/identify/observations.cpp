@@ -284,22 +284,23 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
       out.forward_wind.push_back(ahead);
       out.right_wind.push_back(aside);
     }
-    out.forward_acceleration.push_back(derivative(log.time, forward, i, use));
-    out.right_acceleration.push_back(derivative(log.time, right, i, use));
+    const auto [ahead, aside] =
+        to_heading(log.yaw[i], derivative(log.time, log.north_velocity, i, use),
+                   derivative(log.time, log.east_velocity, i, use));
+    const bool exact = kinematics == Kinematics::exact;
+    out.forward_acceleration.push_back(exact ? ahead : derivative(log.time, forward, i, use));
+    out.right_acceleration.push_back(aside);
     out.down_acceleration.push_back(down_acceleration);
-    const double published = kinematics == Kinematics::published ? std::cos(log.roll[i]) : 1;
+    const double published = exact ? 1 : std::cos(log.roll[i]);
     out.expected_acceleration.push_back((gravity - down_acceleration) * std::tan(tilt) / published);
   }
   return out;
 }
 
 std::vector<double> forward_drag_over_mass(const Observations& flight) {
-  const double turned = flight.kinematics == Kinematics::exact ? 1 : 0;
-  const std::vector<double> turning = yaw_rate(flight);
   std::vector<double> drag(flight.size());
   for (std::size_t i = 0; i < drag.size(); ++i) {
-    drag[i] = flight.expected_acceleration[i] - flight.forward_acceleration[i] +
-              turned * turning[i] * flight.right_speed[i];
+    drag[i] = flight.expected_acceleration[i] - flight.forward_acceleration[i];
   }
   return drag;
 }

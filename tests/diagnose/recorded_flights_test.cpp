@@ -162,6 +162,9 @@ std::optional<AnsweredFlight> answered_flight(int number) {
   flight.true_of_it = flight.answer["present"];
   // Of another cause, with the same effect in this flight.
   for (const std::string near : flight.answer["near"]) flight.true_of_it.push_back(near);
+  // The answers are older than the step, which tells of a wandering wind as much as the drift does.
+  if (std::ranges::count(flight.true_of_it, "wind_drift") > 0)
+    flight.true_of_it.push_back("wind_step");
   flight.true_of_it.push_back(flight.hidden);
   return flight;
 }

@@ -104,7 +104,25 @@ TEST_CASE("speeds turn with the yaw") {
   for (std::size_t i = 0; i < 20; ++i) {
     CHECK(o.forward_speed[i] == Approx(5));
     CHECK(o.right_speed[i] == Approx(2));
-    CHECK(o.forward_acceleration[i] == Approx(0).margin(rounding));  // of the rotated speed
+  }
+  // Of the published kinematics the acceleration is that of the forward speed, turned or not.
+  const Observations published =
+      observe(log, whole(log), 0, standard_gravity, Kinematics::published);
+  for (const double a : published.forward_acceleration) CHECK(a == Approx(0).margin(rounding));
+}
+
+TEST_CASE("what goes on straight accelerates nowhere, however its nose turns") {
+  FlightLog log = still_log(20);
+  std::mt19937_64 random(test::run_seed());
+  for (std::size_t i = 0; i < 20; ++i) {
+    log.yaw[i] = std::uniform_real_distribution<double>(-3, 3)(random);
+    log.north_velocity[i] = 5;
+    log.east_velocity[i] = -2;
+  }
+  const Observations o = observe(log, whole(log), 0);
+  for (std::size_t i = 0; i < 20; ++i) {
+    CHECK(o.forward_acceleration[i] == Approx(0).margin(rounding));
+    CHECK(o.right_acceleration[i] == Approx(0).margin(rounding));
   }
 }
 

@@ -36,13 +36,9 @@ const DragStudy& fitted() {
   return drag;
 }
 
-/// What leaning gives less what is seen, beside what the turning frame carries from one speed into
-/// the other.
+/// What leaning gives less what is seen.
 double missing_acceleration(const Observations& o, std::size_t i) {
-  const bool inside = i > 0 && i + 1 < o.size();
-  const double turn =
-      inside ? (o.yaw[i + 1] - o.yaw[i - 1]) / (o.time[i + 1] - o.time[i - 1]) : 0.0;
-  return o.expected_acceleration[i] - (o.forward_acceleration[i] - turn * o.right_speed[i]);
+  return o.expected_acceleration[i] - o.forward_acceleration[i];
 }
 
 }  // namespace

@@ -56,20 +56,23 @@ enum class Kinematics {
 /// Time series in the stabilised frame, which turns with the yaw but neither pitches nor rolls: its
 /// forward and right axes are horizontal, down is down. One element a sample in every vector.
 struct Observations {
-  std::vector<double> time;                   ///< s, the log's own clock
-  std::vector<double> tilt;                   ///< rad, θ: positive leaning forward (nose down)
-  std::vector<double> roll;                   ///< rad
-  std::vector<double> yaw;                    ///< rad
-  std::vector<double> forward_speed;          ///< m/s over ground
-  std::vector<double> right_speed;            ///< m/s over ground
-  std::vector<double> down_speed;             ///< m/s
-  std::vector<double> forward_wind{};         ///< m/s over ground; empty where not measured
-  std::vector<double> right_wind{};           ///< likewise
-  std::vector<double> forward_acceleration;   ///< m/s², rate of change of forward_speed
-  std::vector<double> right_acceleration;     ///< m/s², rate of change of right_speed
+  std::vector<double> time;            ///< s, the log's own clock
+  std::vector<double> tilt;            ///< rad, θ: positive leaning forward (nose down)
+  std::vector<double> roll;            ///< rad
+  std::vector<double> yaw;             ///< rad
+  std::vector<double> forward_speed;   ///< m/s over ground
+  std::vector<double> right_speed;     ///< m/s over ground
+  std::vector<double> down_speed;      ///< m/s
+  std::vector<double> forward_wind{};  ///< m/s over ground; empty where not measured
+  std::vector<double> right_wind{};    ///< likewise
+  /// m/s², of the velocity over ground, along the heading at each sample: what forces do, however
+  /// the nose turns. In the published kinematics the rate of change of forward_speed, which a turn
+  /// changes as well.
+  std::vector<double> forward_acceleration;
+  std::vector<double> right_acceleration;     ///< m/s², of the velocity over ground, to the right
   std::vector<double> down_acceleration;      ///< m/s²
   std::vector<double> expected_acceleration;  ///< m/s² forward if there were no drag
-  Kinematics kinematics = Kinematics::exact;  ///< of `expected_acceleration`
+  Kinematics kinematics = Kinematics::exact;  ///< of the accelerations forward
 
   /// Number of samples.
   [[nodiscard]] std::size_t size() const { return time.size(); }
