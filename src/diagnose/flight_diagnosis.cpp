@@ -27,6 +27,7 @@ namespace {
 constexpr double time_stamp_uncertainty = 0.05;
 
 constexpr const char* unit_of_flights = "m/s²";
+constexpr const char* linear_speed_field = "drone.drag.linear_m_s";
 /// What a fit with linear drag and wind tells before the search: good enough for the airspeed in
 /// regressors and for what an error of the time stamps does.
 struct Preliminary {
@@ -136,14 +137,51 @@ void size_up(const FlightModel& model, const Selection& selection, Unexplained& 
       model.problem.unnamed[selection.unnamed.regressors.front()].quantity, unexplained.regressor);
 }
 
-std::vector<SpecChange> spec_changes(const FlightModel& model, const ModelFit& fit) {
-  std::vector<SpecChange> out{{"drone.drag.front_area_m2", fit.values[0]},
-                              {"drone.drag.top_area_m2", fit.values[1]}};
+/// rms of what the design's own drag leaves of the accelerations, all else as in the fit.
+double left_by_drag_of(const Design& design, const FlightModel& model, const ModelFit& fit) {
+  const SelectionProblem& problem = model.problem;
+  std::vector<double> values = fit.values;
+  values[0] = design.drone.drag.front_area;
+  values[1] = design.drone.drag.top_area;
+  if (const auto linear = model.index_of_field(linear_speed_field)) {
+    values[*linear] = design.drone.drag.linear_speed;
+  }
+  std::vector<double> predicted(problem.measured.size());
+  problem.predict(values, predicted);
+  double sum = 0;
+  double rows = 0;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    if (problem.block[i] < 0) continue;
+    sum += std::pow(problem.measured[i] - predicted[i], 2);
+    ++rows;
+  }
+  return std::sqrt(sum / rows);
+}
+
+/// What turns the spec into the extended one. The drag stays where it predicts the flight better
+/// than what the flight tells of it, as a flight of one speed tells of the linear part nothing.
+std::vector<SpecChange> spec_changes(const Design& design, const FlightModel& model,
+                                     const ModelFit& fit, std::vector<Warning>& notes) {
+  const double left = left_by_drag_of(design, model, fit);
+  const bool kept = left < fit.holdout_rmse;
+  if (kept) {
+    notes.push_back(
+        {WarningKind::drag_kept,
+         fmt::format(
+             "the extended spec keeps its drag: it predicts this flight better than the drag that "
+             "is fitted to the rest of it, {:.3g} against {:.3g} m/s²",
+             left, fit.holdout_rmse)});
+  }
+  std::vector<SpecChange> out;
+  if (!kept) {
+    out = {{"drone.drag.front_area_m2", fit.values[0]}, {"drone.drag.top_area_m2", fit.values[1]}};
+  }
   for (std::size_t g = 0; g < model.effects().size(); ++g) {
     for (std::size_t k = 0; k < model.effect(g).parameters.size(); ++k) {
       const EffectParameter& p = model.effect(g).parameters[k];
       // Also where neutral: the fitted areas belong to a drag law without it.
       if (p.spec_field.empty()) continue;
+      if (kept && p.spec_field == linear_speed_field) continue;
       out.push_back({p.spec_field, fit.values[model.first_parameter(g) + k] / p.unit_SI});
     }
   }
@@ -330,7 +368,7 @@ void tell_drag_that_may_be_none(const DragByTilt& shown, std::vector<Warning>& n
            mean, half_width)});
 }
 
-void report(const std::vector<FlightData>& flights, const FlightModel& model,
+void report(const Design& design, const std::vector<FlightData>& flights, const FlightModel& model,
             const Selection& selection, const FlightDiagnosisOptions& options,
             const std::vector<const Effect*>& effects, Diagnosis& d) {
   for (const Effect& effect : effect_catalogue(LogKind::power)) {
@@ -347,7 +385,7 @@ void report(const std::vector<FlightData>& flights, const FlightModel& model,
     d.compared.push_back(compared(flights[readings.flight], model, readings, selection));
   }
   size_up(model, selection, d.unexplained);
-  d.spec_changes = spec_changes(model, selection.complete);
+  d.spec_changes = spec_changes(design, model, selection.complete, d.notes);
   d.drag_by_tilt = drag_by_tilt(flights, model, selection.complete);
   tell_drag_that_may_be_none(*d.drag_by_tilt, d.notes);
   d.further.push_back(
@@ -427,7 +465,7 @@ Diagnosis diagnose_flights(const Design& design, std::span<const MeasuredFlight>
     model.problem.systematic = std::move(preliminary.time_stamp_error);
     Selection selection = select_effects(model.problem, options.selection, progress);
     add_delays_alike(read, model, selection);
-    report(read, model, selection, options, effects, d);
+    report(design, read, model, selection, options, effects, d);
   }
   d.kind = LogKind::flight;
   d.unit = unit_of_flights;

@@ -621,7 +621,8 @@ class Planning {
     }
 
     const double weight = terms.row_variance * terms.correlated;
-    std::vector<MatrixXd> columns{group_slopes(rows, fitted, values)};
+    // As they would have to do without it: a drag area carries the linear drag that is asked about.
+    std::vector<MatrixXd> columns{group_slopes(rows, fitted, without(joint, target, values))};
     Groups rivals;
     q.nuisances = columns.front().cols();
     Index next = q.nuisances;
@@ -722,17 +723,23 @@ class Planning {
                : joint.name(group);
   }
 
-  /// By how much the group changes the prediction, as large as it is in `values`.
-  static VectorXd change_by(const FlightModel& joint, const Record& rows, std::size_t group,
-                            std::vector<double> values) {
-    VectorXd with(rows.rows());
-    VectorXd without(rows.rows());
-    rows.residuals(values, with);
+  /// `values` with the group at its neutral ones.
+  [[nodiscard]] static std::vector<double> without(const FlightModel& joint, std::size_t group,
+                                                   std::vector<double> values) {
     for (std::size_t k = 0; k < joint.effect(group).parameters.size(); ++k) {
       values[joint.first_parameter(group) + k] = joint.problem.groups[group].parameters[k].neutral;
     }
-    rows.residuals(values, without);
-    return without - with;
+    return values;
+  }
+
+  /// By how much the group changes the prediction, as large as it is in `values`.
+  static VectorXd change_by(const FlightModel& joint, const Record& rows, std::size_t group,
+                            std::vector<double> values) {
+    VectorXd left(rows.rows());
+    VectorXd left_without(rows.rows());
+    rows.residuals(values, left);
+    rows.residuals(without(joint, group, std::move(values)), left_without);
+    return left_without - left;
   }
 
   const Design& design_;
@@ -789,7 +796,8 @@ std::string why_not(const Question& question, const Standing& standing) {
         standing.gain_percent, question.least_gain_percent);
   }
   if (standing.rival < 1 && standing.rival <= standing.chance) {
-    return fmt::format("no manoeuvre within the limits tells it from {}", standing.nearest);
+    return fmt::format("no manoeuvre within the limits tells it from {}",
+                       in_words(standing.nearest));
   }
   return "chance could still explain it after the longest flight that is planned";
 }

@@ -138,7 +138,8 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightR
                                             double wind, Axis axis) {
   const bool forward = axis == Axis::forward;
   std::vector<Shape> shapes;
-  add_powers(shapes, "roll_deg", "roll", as_series(o.roll), "roll");
+  // To the right the drone leans by its roll against the very gusts that are left.
+  if (forward) add_powers(shapes, "roll_deg", "roll", as_series(o.roll), "roll");
   add_powers(shapes, "pitch_deg", "pitch", as_series(o.tilt), "tilt");
   add_powers(shapes, "lateral_speed_m_s", "lateral speed", as_series(o.right_speed), "right_speed");
   add_powers(shapes, "vd_m_s", "vertical speed", as_series(o.down_speed), "down_speed");
@@ -169,8 +170,8 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightR
       {", times the airspeed and its magnitude", " * airspeed * abs(airspeed)", u * u.abs()}};
   std::vector<UnnamedRegressor> regressors;
   const auto add = [&regressors, forward](const std::string& channel, const std::string& words,
-                                 const Series& column,
-                                 const std::string& formula) -> UnnamedRegressor& {
+                                          const Series& column,
+                                          const std::string& formula) -> UnnamedRegressor& {
     return regressors.emplace_back(UnnamedRegressor{
         .channel = channel,
         .shape = words,

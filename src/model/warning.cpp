@@ -27,6 +27,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "offset_is_upwind",
                                                                    "drag_at_bound",
                                                                    "drag_may_be_none",
+                                                                   "drag_kept",
                                                                    "drag_not_converged",
                                                                    "air_density_assumed",
                                                                    "pitch_offset_assumed",

@@ -31,6 +31,7 @@ enum class WarningKind {
   offset_is_upwind,            ///< a drone aside of its station, judged on the favourable side
   drag_at_bound,               ///< a fitted parameter at the end of its range
   drag_may_be_none,            ///< a flight that does not even tell that there is drag
+  drag_kept,                   ///< a flight that tells its drag worse than the spec does
   drag_not_converged,          ///< a fit that did not settle
   air_density_assumed,         ///< a flight in air whose density nobody gave
   pitch_offset_assumed,        ///< a flight whose autopilot is taken to know what level is
@@ -66,7 +67,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 54;
+inline constexpr std::size_t warning_kind_count = 55;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.
