@@ -15,7 +15,7 @@ constexpr double alike = 0.1;
 
 /// Chance of an open effect's size below which it is suspected.
 constexpr double suspicious = 0.05;
-/// What is printed as 0.0 % would not help, and is not there.
+/// A gain that is printed as 0.0 % would not help.
 constexpr double least_worth_telling = 0.05;
 /// So many times the gain that is asked of a name are suspicious by themselves: noise of a log long
 /// enough to be judged does not gain a tenth of the error.
@@ -626,10 +626,13 @@ void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systemat
   }
 }
 
-UnnamedStructure unnamed_in(const Record& record, const BlockFit& complete, const BlockFit& named) {
+UnnamedStructure unnamed_in(const Record& record, const BlockFit& complete, const BlockFit& named,
+                            const SelectionOptions& options) {
   UnnamedStructure unnamed;
+  // A quarter of the squared error that a name has to remove.
+  const double least_share = options.least_gain_percent / 2;
   const double share = 100 * (1 - complete.squared_error() / named.squared_error());
-  if (complete.freed.unnamed.empty() || share < least_worth_telling) return unnamed;
+  if (complete.freed.unnamed.empty() || share < least_share) return unnamed;
   unnamed.share_percent = share;
   unnamed.regressors = complete.freed.unnamed;
   unnamed.coefficients.assign(complete.coefficients.begin(), complete.coefficients.end());

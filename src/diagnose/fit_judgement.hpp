@@ -149,9 +149,10 @@ using FitWithGroups = std::function<BlockFit(const Groups& more, FitUse use)>;
 /// squares; where `all` has a larger one already it stays.
 void add_fit(const Record& record, const BlockFit& fit, const VectorXd& systematic, ModelFit& all);
 
-/// What the unnamed shapes of `complete` explain that `named`, without them, does not.
+/// What the unnamed shapes of `complete` explain that `named`, without them, does not; nothing
+/// where that is too little to be told, however sure.
 [[nodiscard]] UnnamedStructure unnamed_in(const Record& record, const BlockFit& complete,
-                                          const BlockFit& named);
+                                          const BlockFit& named, const SelectionOptions& options);
 
 /// The frame of a result: what the record and the options say by themselves.
 [[nodiscard]] Selection nothing_selected(const Record& record, const SelectionOptions& options);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -137,15 +138,18 @@ void size_up(const FlightModel& model, const Selection& selection, Unexplained& 
       model.problem.unnamed[selection.unnamed.regressors.front()].quantity, unexplained.regressor);
 }
 
-/// rms of what the design's own drag leaves of the accelerations, all else as in the fit.
-double left_by_drag_of(const Design& design, const FlightModel& model, const ModelFit& fit) {
+/// Of a fit that has no linear drag where the design has some: what the design's own drag leaves of
+/// the accelerations, rms, all else as in the fit.
+std::optional<double> left_by_linear_drag_of(const Design& design, const FlightModel& model,
+                                             const ModelFit& fit) {
+  const AirframeDrag& drag = design.drone.drag;
+  const auto linear = model.index_of_field(linear_speed_field);
+  if (!linear || fit.values[*linear] != 0 || !(drag.linear_speed > 0)) return std::nullopt;
   const SelectionProblem& problem = model.problem;
   std::vector<double> values = fit.values;
-  values[0] = design.drone.drag.front_area;
-  values[1] = design.drone.drag.top_area;
-  if (const auto linear = model.index_of_field(linear_speed_field)) {
-    values[*linear] = design.drone.drag.linear_speed;
-  }
+  values[0] = drag.front_area;
+  values[1] = drag.top_area;
+  values[*linear] = drag.linear_speed;
   std::vector<double> predicted(problem.measured.size());
   problem.predict(values, predicted);
   double sum = 0;
@@ -158,30 +162,29 @@ double left_by_drag_of(const Design& design, const FlightModel& model, const Mod
   return std::sqrt(sum / rows);
 }
 
-/// What turns the spec into the extended one. The drag stays where it predicts the flight better
-/// than what the flight tells of it, as a flight of one speed tells of the linear part nothing.
+/// What turns the spec into the extended one. The drag stays where the flight tells nothing of its
+/// linear part, as one of a single speed does, and is predicted better by it than by the areas
+/// alone.
 std::vector<SpecChange> spec_changes(const Design& design, const FlightModel& model,
                                      const ModelFit& fit, std::vector<Warning>& notes) {
-  const double left = left_by_drag_of(design, model, fit);
-  const bool kept = left < fit.holdout_rmse;
+  const std::optional<double> left = left_by_linear_drag_of(design, model, fit);
+  const bool kept = left && *left < fit.holdout_rmse;
+  std::vector<SpecChange> out;
   if (kept) {
     notes.push_back(
         {WarningKind::drag_kept,
-         fmt::format(
-             "the extended spec keeps its drag: it predicts this flight better than the drag that "
-             "is fitted to the rest of it, {:.3g} against {:.3g} m/s²",
-             left, fit.holdout_rmse)});
-  }
-  std::vector<SpecChange> out;
-  if (!kept) {
+         fmt::format("the extended spec keeps its drag, with its linear part: it predicts this "
+                     "flight better than areas that are fitted without one, {:.3g} against {:.3g} "
+                     "m/s²",
+                     *left, fit.holdout_rmse)});
+  } else {
     out = {{"drone.drag.front_area_m2", fit.values[0]}, {"drone.drag.top_area_m2", fit.values[1]}};
   }
   for (std::size_t g = 0; g < model.effects().size(); ++g) {
     for (std::size_t k = 0; k < model.effect(g).parameters.size(); ++k) {
       const EffectParameter& p = model.effect(g).parameters[k];
       // Also where neutral: the fitted areas belong to a drag law without it.
-      if (p.spec_field.empty()) continue;
-      if (kept && p.spec_field == linear_speed_field) continue;
+      if (p.spec_field.empty() || (kept && p.spec_field == linear_speed_field)) continue;
       out.push_back({p.spec_field, fit.values[model.first_parameter(g) + k] / p.unit_SI});
     }
   }
@@ -352,6 +355,29 @@ DragByTilt drag_by_tilt(const std::vector<FlightData>& flights, const FlightMode
   return shown;
 }
 
+/// Says what of the effects in the base model the flights do not tell.
+void tell_bounds(const FlightModel& model, const ModelFit& base, std::vector<Warning>& notes) {
+  for (std::size_t g = 0; g < model.effects().size(); ++g) {
+    const Effect& effect = model.effect(g);
+    if (effect.id.empty() || !model.problem.groups[g].fitted) continue;
+    for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
+      const ModelParameter& p = model.problem.groups[g].parameters[k];
+      const double value = base.values[model.first_parameter(g) + k];
+      const double close = 1e-3 * (p.upper - p.lower);
+      const bool inside = p.lower + close < value && value < p.upper - close;
+      if (!p.is_free() || std::abs(value - p.neutral) <= close || inside) continue;
+      notes.push_back(
+          {WarningKind::drag_at_bound,
+           fmt::format(
+               "in the base model {} of {} is {:g}{}, at the end of its range: these data do "
+               "not tell it apart from what else is in the base",
+               effect.parameters[k].name, in_words(model.name(g)),
+               value / effect.parameters[k].unit_SI,
+               effect.parameters[k].unit == "1" ? "" : " " + effect.parameters[k].unit)});
+    }
+  }
+}
+
 /// Where the areas are small beside their errors, the design that they are put into has hardly any
 /// drag, which the flight does not say.
 void tell_drag_that_may_be_none(const DragByTilt& shown, std::vector<Warning>& notes) {
@@ -387,6 +413,7 @@ void report(const Design& design, const std::vector<FlightData>& flights, const 
   size_up(model, selection, d.unexplained);
   d.spec_changes = spec_changes(design, model, selection.complete, d.notes);
   d.drag_by_tilt = drag_by_tilt(flights, model, selection.complete);
+  tell_bounds(model, selection.base, d.notes);
   tell_drag_that_may_be_none(*d.drag_by_tilt, d.notes);
   d.further.push_back(
       {fmt::format("forward speed simulated open-loop over {:g} s windows", options.speed_window),

@@ -42,6 +42,31 @@ std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
   return usable;
 }
 
+/// Says what the times between samples cost.
+void tell_steps(const FlightRecord& record, double step, std::vector<Warning>& notes) {
+  constexpr double many = 0.05;
+  constexpr double slowest = 0.75;  // s; two a second, and jitter
+  std::size_t beside_long_ones = 0;
+  for (std::size_t i = 1; i + 1 < record.size(); ++i) {
+    const double longest =
+        std::max(record.time[i] - record.time[i - 1], record.time[i + 1] - record.time[i]);
+    if (longest > step_tolerance * step) ++beside_long_ones;
+  }
+  if (static_cast<double>(beside_long_ones) > many * static_cast<double>(record.size())) {
+    notes.push_back({WarningKind::log_steps_uneven,
+                     fmt::format("{} of {} samples left out: beside steps of more than {:g} times "
+                                 "the usual {:.3g} s, over which no acceleration is known; "
+                                 "differences over stamps that jump are wrong as well",
+                                 beside_long_ones, record.size(), step_tolerance, step)});
+  }
+  if (step > slowest) {
+    notes.push_back({WarningKind::log_slow,
+                     fmt::format("one sample every {:.3g} s: what the drone did between them is "
+                                 "lost, and drag with it; log twice a second or faster",
+                                 step)});
+  }
+}
+
 FlightData read_flight(const Design& design, const MeasuredFlight& flight, double pitch_offset) {
   FlightLog log = flight.log;
   if (log.roll.empty()) log.roll.assign(log.time.size(), 0.0);
@@ -63,6 +88,7 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
     throw UnsuitableFlight("the chosen part of the flight has fewer than three samples");
   }
   data.step = median_step(data.observations.time);
+  tell_steps(data.record, data.step, data.faults.notes);
   check_flight_units(data.observations, gravity);
   const std::vector<bool> usable = usable_samples(samples.log, data.faults, data.record, data.step);
   for (const bool use : usable) data.block.push_back(use ? 0 : -1);

@@ -37,14 +37,13 @@ struct FlightRecord {
   std::vector<double> down_acceleration;  ///< m/s²
   std::vector<double> sideward_thrust;  ///< tan φ/cos θ: of what the thrust carries, to the right
   std::vector<double> cos_sideward;     ///< of the lean to the side, whose tangent that is
-  /// rad/s. A frame that turns carries one speed into the other, force or no force.
-  std::vector<double> yaw_rate;
-  double mean_heading = 0;  ///< rad in (−π, π], of the whole flight
-  double mass = 0;          ///< kg
-  double air_density = 0;   ///< kg/m³
-  double gravity = 0;       ///< m/s²
-  double middle_time = 0;   ///< s, halfway through the whole flight
-  double duration = 0;      ///< s, of the whole flight
+  std::vector<double> yaw_rate;         ///< rad/s
+  double mean_heading = 0;              ///< rad in (−π, π], of the whole flight
+  double mass = 0;                      ///< kg
+  double air_density = 0;               ///< kg/m³
+  double gravity = 0;                   ///< m/s²
+  double middle_time = 0;               ///< s, halfway through the whole flight
+  double duration = 0;                  ///< s, of the whole flight
   /// Whether the acceleration to the right is predicted too (`shows_both_axes`). Then a wind from
   /// the side shows there; else none is told.
   bool both_axes = false;

@@ -164,16 +164,24 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
   finding.holdout_rmse_after = found.rmse_after;
   finding.gain_percent = found.gain_percent;
   finding.gain_se_percent = found.gain_se_percent;
-  std::vector<std::string> separators;
+  // Where several are told apart in one way, that is said once.
+  std::vector<std::pair<std::string, std::vector<std::string>>> ways;
+  bool alike = false;
   for (const std::size_t g : found.indistinguishable) {
-    const Effect& rival = log.effect(g);
+    const std::string& way = log.effect(g).to_separate;
     finding.indistinguishable_from.push_back(log.name(g));
-    if (rival.to_separate == effect.to_separate) continue;
-    separators.push_back(fmt::format("{}: {}", in_words(log.name(g)), rival.to_separate));
+    if (way == effect.to_separate) {
+      alike = true;
+      continue;
+    }
+    const auto same = std::ranges::find(ways, way, &decltype(ways)::value_type::first);
+    (same == ways.end() ? ways.emplace_back(way, 0) : *same)
+        .second.push_back(in_words(log.name(g)));
   }
-  // Where effects of a kind are told apart in one way, that is said once.
-  if (separators.size() < found.indistinguishable.size()) {
-    separators.insert(separators.begin(), effect.to_separate);
+  std::vector<std::string> separators;
+  if (alike) separators.push_back(effect.to_separate);
+  for (const auto& [way, rivals] : ways) {
+    separators.push_back(fmt::format("{}: {}", fmt::join(rivals, ", "), way));
   }
   finding.to_separate = fmt::format("{}", fmt::join(separators, "; "));
   return finding;

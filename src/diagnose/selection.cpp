@@ -581,7 +581,7 @@ class Search {
       groups.insert(groups.end(), more.begin(), more.end());
       return fit(groups, complete.freed.unnamed, &complete, use);
     });
-    result.unnamed = unnamed_in(record_, current_, before);
+    result.unnamed = unnamed_in(record_, current_, before, options_);
   }
 
   [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {

@@ -590,7 +590,7 @@ class SubsetSearch {
         add_place_error(record_, best_without(g).fit, best_.fit, g, result.complete);
       }
     }
-    result.unnamed = unnamed_in(record_, best_.fit, named);
+    result.unnamed = unnamed_in(record_, best_.fit, named, options_);
     return result;
   }
 

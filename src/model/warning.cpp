@@ -48,6 +48,8 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "log_not_flying",
                                                                    "log_averaged",
                                                                    "log_clock_jitter",
+                                                                   "log_steps_uneven",
+                                                                   "log_slow",
                                                                    "log_spikes",
                                                                    "log_stuck",
                                                                    "log_lag",

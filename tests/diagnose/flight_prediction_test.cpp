@@ -222,3 +222,25 @@ TEST_CASE("a flight that obeys the model is simulated back onto its own speed") 
   const std::vector<double> restarted = simulate_speed(record, base, {}, 2, 1);
   CHECK(restarted[20] == record.forward_speed[20]);
 }
+
+TEST_CASE("height and place go on from where a stretch led that is left out") {
+  Observations o;
+  // North at 4 m/s and climbing at 1 m/s, with 30 s left out in which it climbs by 50 m and comes
+  // back by 20 m to the south.
+  for (int i = 0; i < 100; ++i) {
+    o.time.push_back(0.1 * i + (i < 50 ? 0 : 30));
+    o.forward_speed.push_back(4);
+    o.down_speed.push_back(-1);
+    for (auto* series : {&o.tilt, &o.roll, &o.yaw, &o.right_speed, &o.forward_acceleration,
+                         &o.down_acceleration, &o.expected_acceleration}) {
+      series->push_back(0);
+    }
+  }
+  const Detour detour{o.time[49], o.time[50], -20, 0, 50};
+  const FlightRecord record = flight_record(o, 1.6, 1.25, standard_gravity, {&detour, 1});
+  CHECK(record.height[49] == Approx(4.9));
+  CHECK(record.height[50] == Approx(54.9));
+  CHECK(record.height[99] == Approx(59.8));
+  CHECK(record.place_along[50] - record.place_along[49] == Approx(-20));
+  CHECK(record.place_along[99] - record.place_along[50] == Approx(4 * 4.9));
+}

@@ -14,6 +14,7 @@
 #include "support/random.hpp"
 #include "support/reference_data.hpp"
 #include "support/run_program.hpp"
+#include "tethercalc/files/read_files.hpp"
 #include "tethercalc/report/text_table.hpp"
 
 using namespace tethercalc;
@@ -265,6 +266,23 @@ TEST_CASE("optimize honours what --into writes") {
     CHECK(impact["cross_section_mm2"][1] != impact["cross_section_mm2"][0]);
   }
   CHECK(rivals_first <= 2);
+}
+
+TEST_CASE(
+    "a stretch that suspects linear drag leaves the spec's, and a flight that tells is planned") {
+  const TemporaryFolder folder;
+  const std::string extended = (folder.path() / "extended.json").string();
+  const Ran ran = run_tethercalc(
+      {"diagnose", spec_file, "--flight", project_file("examples/simulated-flight.csv"),
+       "--pitch-offset-deg", "0.8", "--from", "50", "--to", "130", "--into", extended,
+       "--next-flight", (folder.path() / "next.plan").string(), "--home", "47,8"} +
+      flight_facts);
+  INFO(ran.out << ran.err);
+  REQUIRE(ran.exit_code == 0);
+  CHECK(read_design(extended).design.drone.drag.linear_speed ==
+        read_design(spec_file).design.drone.drag.linear_speed);
+  CHECK_THAT(ran.out, Catch::Contains("the extended spec keeps its drag"));
+  CHECK_THAT(ran.out, Catch::Contains("to settle: linear drag"));
 }
 
 TEST_CASE("a measured resistivity leaves the conductor's other numbers as they were") {

@@ -256,6 +256,10 @@ TEST_CASE("every problem of an effect's file is told with its place") {
   CHECK_THAT(refusal(file_with("c + 1")), Contains("its formula is 1 there"));
   CHECK_THAT(refusal(file_with("c * sqrt(airspeed)")), Contains("its formula is no number there"));
   CHECK_THAT(refusal(file_with("0 * c")), Contains("changes its formula by itself"));
+  CHECK_THAT(refusal(file_with("c * (airspeed = 5)")), Contains("to compare write =="));
+  std::string idle = file_with("c * airspeed");
+  idle.insert(idle.find("[{") + 1, R"({"name": "idle", "lower": 0, "upper": 1}, )");
+  CHECK_THAT(refusal(idle), Contains("has a formula that idle does not change"));
   CHECK_THAT(refusal(file_with("tilt", "tilt")), Contains("is the name of a channel"));
   CHECK_THAT(refusal(file_with("c", "c d")), Contains("is no name that a formula can hold"));
   CHECK_THAT(refusal("[]"), Contains("holds no effect"));

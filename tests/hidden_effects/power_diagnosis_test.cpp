@@ -279,6 +279,31 @@ TEST_CASE("small errors together are not told as large ones that cancel") {
   CHECK(covered >= found - 2);
 }
 
+TEST_CASE("three causes are told, and nothing that mimics two of them") {
+  // Six metres of cable have a contact's resistance, and weigh as much as the drone is heavier.
+  int right = 0;
+  const int draws = test::draws(6);
+  for (int draw = 0; draw < draws; ++draw) {
+    Scenario scenario;
+    scenario.seed = seed(2720 + static_cast<std::uint64_t>(draw));
+    scenario.duration = 900;
+    scenario.hidden.contact_resistance = 0.3;
+    scenario.hidden.extra_mass = 0.15;
+    scenario.hidden.bus_current_gain = draw % 2 == 0 ? 0.9 : 1.05;
+    const Diagnosis d = diagnosis_of(scenario);
+    INFO(summary(d));
+    const auto told = [&d](const std::string& effect) {
+      return std::ranges::any_of(d.findings, [&](const Finding& f) {
+        return f.effect == effect || std::ranges::count(f.indistinguishable_from, effect) > 0;
+      });
+    };
+    right += d.findings.size() == 3 && told("contact_resistance") && told("extra_mass") &&
+             told("bus_current_gain");
+  }
+  // Nine of ten logs with several effects at once are told right.
+  CHECK(right >= draws - 2);
+}
+
 TEST_CASE("effects of the line are named and their size is covered") { check_detection(0, 5); }
 
 TEST_CASE("effects of converter and motors are named and their size is covered") {

@@ -205,6 +205,16 @@ TEST_CASE("the moving part leaves out the time on the ground") {
   CHECK(log.time[part.last - 1] == Approx(179).margin(6));  // comes to rest from 173 s on
 }
 
+TEST_CASE("a drone that flies to the side moves") {
+  FlightLog log = still_log(2000);
+  for (std::size_t i = 300; i < 1500; ++i) {
+    log.yaw[i] = 0.01 * static_cast<double>(i);
+    log.north_velocity[i] = 5 * std::sin(log.yaw[i]);
+    log.east_velocity[i] = -5 * std::cos(log.yaw[i]);
+  }
+  CHECK(moving_part(log) == SampleRange{300, 1500});
+}
+
 TEST_CASE("a long pause splits the flight and the longer part is taken") {
   FlightLog log = still_log(2000);
   const auto fly = [&log](std::size_t from, std::size_t to) {

@@ -147,8 +147,7 @@ struct LogPosition {
                                    Kinematics kinematics = Kinematics::exact);
 
 /// Drag over mass, m/s², one element a sample: what leaning would give, `expected_acceleration`,
-/// less what forces give. A frame that turns carries the speed to the right into the forward one,
-/// which is no force and is taken off; not so in the published kinematics.
+/// less `forward_acceleration`.
 [[nodiscard]] std::vector<double> forward_drag_over_mass(const Observations& flight);
 
 }  // namespace tethercalc

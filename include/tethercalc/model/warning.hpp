@@ -31,7 +31,7 @@ enum class WarningKind {
   offset_is_upwind,            ///< a drone aside of its station, judged on the favourable side
   drag_at_bound,               ///< a fitted parameter at the end of its range
   drag_may_be_none,            ///< a flight that does not even tell that there is drag
-  drag_kept,                   ///< a flight that tells its drag worse than the spec does
+  drag_kept,                   ///< a linear drag that the flight tells nothing of
   drag_not_converged,          ///< a fit that did not settle
   air_density_assumed,         ///< a flight in air whose density nobody gave
   pitch_offset_assumed,        ///< a flight whose autopilot is taken to know what level is
@@ -52,6 +52,8 @@ enum class WarningKind {
   log_not_flying,              ///< seconds on the ground or tilted too far
   log_averaged,                ///< means judged instead of samples
   log_clock_jitter,            ///< stamps off the even moments of the samples
+  log_steps_uneven,            ///< many samples beside gaps, or with stamps that jump
+  log_slow,                    ///< samples too far apart for what a drone does between them
   log_spikes,                  ///< samples that stand out from their neighbours
   log_stuck,                   ///< a channel that repeats one value
   log_lag,                     ///< a channel on a clock of its own, shifted back
@@ -67,7 +69,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 55;
+inline constexpr std::size_t warning_kind_count = 57;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.
