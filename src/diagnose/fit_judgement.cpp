@@ -282,6 +282,13 @@ Gain typical_gain_between(const BlockFit& before, const BlockFit& after) {
   return {-100 * std::expm1(mean), 100 * std::exp(mean) * se};
 }
 
+Gain surer_gain_between(const BlockFit& before, const BlockFit& after) {
+  const Gain gain = gain_between(before, after);
+  const Gain typical = typical_gain_between(before, after);
+  if (!(gain.percent > 0 && typical.percent > 0)) return gain;
+  return {gain.percent, std::min(gain.se, gain.percent * typical.se / typical.percent)};
+}
+
 bool earns_a_name(const Record& record, std::size_t group, const Gain& gain, double least_percent) {
   return gain.percent >= least_percent * record.problem().groups[group].least_gain_factor &&
          gain.percent > student_factor(record, group) * gain.se;

@@ -208,7 +208,7 @@ class Search {
     // holds most of what the record knows of a size, all blocks may still gain alike.
     trial.p_value = std::min(1.0, 2 * std::min(p_value(g, without, with), chance_of(gained, g)));
     trial.worth_a_name =
-        earns_a_name(record_, g, gained,
+        earns_a_name(record_, g, surer_gain_between(without, with),
                      options_.least_gain_percent *
                          (without.freed.unnamed.empty() ? 1 : gain_beside_unnamed)) &&
         trial.p_value * static_cast<double>(tested) * chances(group(g)) <=
@@ -499,7 +499,7 @@ class Search {
       so_far.push_back(g);
       BlockFit after = fit_some(so_far, &current_);
       const BlockFit without = fit(selected_without(g), {}, &current_);
-      names.push_back({g, gain_between(before, after), gain_between(without, all),
+      names.push_back({g, surer_gain_between(before, after), surer_gain_between(without, all),
                        base_changes() || contains(usual_, g)});
       before = std::move(after);
     }

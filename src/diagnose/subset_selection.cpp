@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -170,9 +169,10 @@ class LinearisedExchange {
       const std::vector<Index>& own = columns_.at(g).index;
       free.insert(free.end(), own.begin(), own.end());
     }
-    const VectorXd moved = gram_ * back;
-    const VectorXd along = (along_ + moved)(free);
-    return squared_residual_ + 2 * back.dot(along_) + back.dot(moved) -
+    const VectorXd moved = inner_products_with(gram_, back);
+    const VectorXd to_explain = along_ + moved;
+    const VectorXd along = to_explain(free);
+    return squared_residual_ + back.dot(along_) + back.dot(to_explain) -
            along.dot(pseudo_solution(gram_(free, free), along));
   }
 
@@ -342,6 +342,19 @@ class SubsetSearch {
     exchange_names();
   }
 
+  /// So many of the models, those with the least of something.
+  [[nodiscard]] static std::vector<Model> least(std::vector<Model> models,
+                                                double (*something)(const Model&),
+                                                std::size_t count) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (const Model& m : models) order.emplace_back(something(m), order.size());
+    std::vector<Model> first;
+    for (const std::size_t k : in_order_of_nearness(std::move(order))) {
+      if (first.size() < count) first.push_back(std::move(models[k]));
+    }
+    return first;
+  }
+
   /// The best names with one in the place of each that explains nearly as much as it does.
   [[nodiscard]] std::vector<Model> exchanged(const Model& now) const {
     std::vector<Model> all;
@@ -351,9 +364,10 @@ class SubsetSearch {
       for (const auto& [named, parent] : promising(rest, false)) {
         if (named != now.named) instead.push_back(model(named, {}, &parent->fit));
       }
-      std::ranges::sort(instead, {}, [](const Model& m) { return m.fit.squared_error(); });
-      if (instead.size() > exchanged_for_one) instead.resize(exchanged_for_one, base_);
-      std::ranges::move(instead, std::back_inserter(all));
+      const auto error = [](const Model& m) { return m.fit.squared_error(); };
+      for (Model& m : least(std::move(instead), error, exchanged_for_one)) {
+        all.push_back(std::move(m));
+      }
     }
     return all;
   }
@@ -409,8 +423,8 @@ class SubsetSearch {
     std::set<Groups> left;  // of which all neighbours that promise most are known
     for (bool anew = true; anew;) {
       anew = false;
-      std::ranges::sort(known, {}, &Model::length);
-      if (known.size() > beam) known.resize(beam, base_);
+      known = least(
+          std::move(known), [](const Model& m) { return m.length; }, beam);
       for (const Model& parent : std::vector<Model>(known)) {
         if (!left.insert(parent.named).second) continue;
         for (const Groups& named : promising_exchanges(parent)) {

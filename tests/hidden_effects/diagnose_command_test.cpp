@@ -509,7 +509,8 @@ TEST_CASE("the linear drag of a flight in the autopilot's own simulator is found
   REQUIRE(d["findings"].size() == 1);
   const auto& finding = d["findings"][0];
   CHECK(finding["effect"] == "linear_drag");
-  CHECK(finding["gain_percent"] > 80);
+  CHECK(finding["gain_percent"] > 50);
+  CHECK(finding["holdout_rmse_after"] < 0.07);  // m/s², as a refit by somebody else left
   CHECK(finding["parameters"][0]["ci95"][0] > 0);
 }
 
