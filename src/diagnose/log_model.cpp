@@ -166,12 +166,12 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
   finding.gain_se_percent = found.gain_se_percent;
   // Where several are told apart in one way, that is said once.
   std::vector<std::pair<std::string, std::vector<std::string>>> ways;
-  bool alike = false;
+  bool some_in_the_same_way = false;
   for (const std::size_t g : found.indistinguishable) {
     const std::string& way = log.effect(g).to_separate;
     finding.indistinguishable_from.push_back(log.name(g));
     if (way == effect.to_separate) {
-      alike = true;
+      some_in_the_same_way = true;
       continue;
     }
     const auto same = std::ranges::find(ways, way, &decltype(ways)::value_type::first);
@@ -179,7 +179,7 @@ Finding finding_of(const LogModel& log, const Selection& selection, const Select
         .second.push_back(in_words(log.name(g)));
   }
   std::vector<std::string> separators;
-  if (alike) separators.push_back(effect.to_separate);
+  if (some_in_the_same_way) separators.push_back(effect.to_separate);
   for (const auto& [way, rivals] : ways) {
     separators.push_back(fmt::format("{}: {}", fmt::join(rivals, ", "), way));
   }

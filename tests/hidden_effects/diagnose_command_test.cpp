@@ -273,9 +273,10 @@ TEST_CASE(
   const TemporaryFolder folder;
   const std::string extended = (folder.path() / "extended.json").string();
   const Ran ran = run_tethercalc(
-      {"diagnose", spec_file, "--flight", project_file("examples/simulated-flight.csv"),
-       "--pitch-offset-deg", "0.8", "--from", "50", "--to", "130", "--into", extended,
-       "--next-flight", (folder.path() / "next.plan").string(), "--home", "47,8"} +
+      std::vector<std::string>{
+          "diagnose", spec_file, "--flight", project_file("examples/simulated-flight.csv"),
+          "--pitch-offset-deg", "0.8", "--from", "50", "--to", "130", "--into", extended,
+          "--next-flight", (folder.path() / "next.plan").string(), "--home", "47,8"} +
       flight_facts);
   INFO(ran.out << ran.err);
   REQUIRE(ran.exit_code == 0);
