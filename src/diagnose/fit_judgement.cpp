@@ -285,7 +285,7 @@ Gain typical_gain_between(const BlockFit& before, const BlockFit& after) {
 Gain surer_gain_between(const BlockFit& before, const BlockFit& after) {
   const Gain gain = gain_between(before, after);
   const Gain typical = typical_gain_between(before, after);
-  if (!(gain.percent > 0 && typical.percent > 0)) return gain;
+  if (!(gain.percent > 2 * gain.se && typical.percent > 0)) return gain;
   return {gain.percent, std::min(gain.se, gain.percent * typical.se / typical.percent)};
 }
 

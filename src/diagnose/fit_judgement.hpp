@@ -78,8 +78,8 @@ struct Unearned {
 /// does not hang on the few blocks that have most of the error.
 [[nodiscard]] Gain typical_gain_between(const BlockFit& before, const BlockFit& after);
 
-/// The gain as sure as the typical one is, where that is surer: few blocks may have most of the
-/// error, so that its sum is uncertain though all agree.
+/// A gain of more than two standard errors, as sure as the typical one is where that is surer: few
+/// blocks may have most of the error, so that its sum is uncertain though all agree.
 [[nodiscard]] Gain surer_gain_between(const BlockFit& before, const BlockFit& after);
 
 /// The group that was freed between the two fits, with its gain.

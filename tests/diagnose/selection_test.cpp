@@ -398,8 +398,8 @@ TEST_CASE("whatever was searched, no name is told whose gain does not earn it") 
          {select_effects(record.problem), select_subset(record.problem, {}, {})}) {
       for (const SelectedGroup& s : found.selected) {
         ++told;
-        const double least = student_quantile(blocks - 1, 0.975) * s.gain_se_percent;
-        CHECK(s.gain_percent > least * (1 - 1e-4));
+        // Beyond Student's factor, or beyond two where the typical block is sure.
+        CHECK(s.gain_percent > 2 * s.gain_se_percent * (1 - 1e-4));
         CHECK(s.gain_percent >= found.least_gain_percent * (1 - 1e-4));
       }
     }
