@@ -28,7 +28,6 @@ namespace {
 constexpr double time_stamp_uncertainty = 0.05;
 
 constexpr const char* unit_of_flights = "m/s²";
-constexpr const char* linear_speed_field = "drone.drag.linear_m_s";
 /// What a fit with linear drag and wind tells before the search: good enough for the airspeed in
 /// regressors and for what an error of the time stamps does.
 struct Preliminary {
@@ -145,19 +144,18 @@ std::optional<double> left_by_linear_drag_of(const Design& design, const FlightM
   const AirframeDrag& drag = design.drone.drag;
   const auto linear = model.index_of_field(linear_speed_field);
   if (!linear || fit.values[*linear] != 0 || !(drag.linear_speed > 0)) return std::nullopt;
-  const SelectionProblem& problem = model.problem;
   std::vector<double> values = fit.values;
   values[0] = drag.front_area;
   values[1] = drag.top_area;
   values[*linear] = drag.linear_speed;
-  std::vector<double> predicted(problem.measured.size());
-  problem.predict(values, predicted);
   double sum = 0;
   double rows = 0;
-  for (std::size_t i = 0; i < predicted.size(); ++i) {
-    if (problem.block[i] < 0) continue;
-    sum += std::pow(problem.measured[i] - predicted[i], 2);
-    ++rows;
+  for (std::size_t series = 0; series < model.readings().size(); ++series) {
+    for (const double left : model.left_by(series, values)) {
+      if (std::isnan(left)) continue;  // left out
+      sum += left * left;
+      ++rows;
+    }
   }
   return std::sqrt(sum / rows);
 }

@@ -24,6 +24,12 @@ bool turns_slowly(const FlightRecord& r, std::size_t i) {
   return lean * turned * turned / 8 <= tolerated;
 }
 
+/// Whether a step beside the sample is too long to know an acceleration over it.
+bool is_beside_long_step(const FlightRecord& r, std::size_t i, double usual) {
+  return !(r.time[i] - r.time[i - 1] <= step_tolerance * usual &&
+           r.time[i + 1] - r.time[i] <= step_tolerance * usual);
+}
+
 /// Samples whose central difference and average rest on three trustworthy samples.
 std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
                                  const FlightRecord& o, double step) {
@@ -36,8 +42,7 @@ std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
   std::vector<bool> usable(o.size(), false);
   for (std::size_t i = 1; i + 1 < o.size(); ++i) {
     usable[i] = trusted[i - 1] && trusted[i] && trusted[i + 1] && turns_slowly(o, i) &&
-                o.time[i] - o.time[i - 1] <= step_tolerance * step &&
-                o.time[i + 1] - o.time[i] <= step_tolerance * step;
+                !is_beside_long_step(o, i, step);
   }
   return usable;
 }
@@ -48,9 +53,7 @@ void tell_steps(const FlightRecord& record, double step, std::vector<Warning>& n
   constexpr double slowest = 0.75;  // s; two a second, and jitter
   std::size_t beside_long_ones = 0;
   for (std::size_t i = 1; i + 1 < record.size(); ++i) {
-    const double longest =
-        std::max(record.time[i] - record.time[i - 1], record.time[i + 1] - record.time[i]);
-    if (longest > step_tolerance * step) ++beside_long_ones;
+    beside_long_ones += is_beside_long_step(record, i, step) ? 1 : 0;
   }
   if (static_cast<double>(beside_long_ones) > many * static_cast<double>(record.size())) {
     notes.push_back({WarningKind::log_steps_uneven,

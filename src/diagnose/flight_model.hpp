@@ -26,6 +26,9 @@ inline constexpr std::size_t fewest_own_blocks = 3;
 /// A step longer than this times the median one separates neighbours.
 inline constexpr double step_tolerance = 1.5;
 
+/// Of the speed that drag in proportion to the airspeed begins with.
+inline constexpr const char* linear_speed_field = "drone.drag.linear_m_s";
+
 /// One flight, read and checked.
 struct FlightData {
   Observations observations;

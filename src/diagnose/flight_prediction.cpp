@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "identify/flight_units.hpp"
-#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -24,22 +23,24 @@ constexpr int picard_iterations = 16;
 
 double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
 
-/// A speed added up from the first sample on; between two samples as far as `detour` has it where
-/// that is a number.
-std::vector<double> added_up(const std::vector<double>& time, const std::vector<double>& speed,
-                             const std::vector<double>& detour) {
+/// A speed added up from the first sample on.
+std::vector<double> added_up(const std::vector<double>& time, const std::vector<double>& speed) {
   std::vector<double> place(speed.size(), 0.0);
   for (std::size_t i = 1; i < speed.size(); ++i) {
-    const double straight_on = (speed[i - 1] + speed[i]) / 2 * (time[i] - time[i - 1]);
-    place[i] = place[i - 1] + (std::isnan(detour[i]) ? straight_on : detour[i]);
+    place[i] = place[i - 1] + (speed[i - 1] + speed[i]) / 2 * (time[i] - time[i - 1]);
   }
   return place;
 }
 
-std::vector<double> less_its_mean(std::vector<double> x) {
+/// Moves all from sample `i` on to where `way` leads from the sample before.
+void go(std::vector<double>& place, std::size_t i, double way) {
+  const double more = place[i - 1] + way - place[i];
+  for (; i < place.size(); ++i) place[i] += more;
+}
+
+void take_off_mean(std::vector<double>& x) {
   const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
   for (double& value : x) value -= mean;
-  return x;
 }
 
 /// Fills `place_along`, `place_right` and `height`.
@@ -54,23 +55,21 @@ void add_places(FlightRecord& record, std::span<const Detour> detours) {
     right[i] = speed.right;
     up[i] = -record.down_speed[i];
   }
-  const std::vector<double> none(record.size(), nan);
-  std::vector<double> to_along = none;
-  std::vector<double> to_right = none;
-  std::vector<double> to_up = none;
+  record.place_along = added_up(record.time, along);
+  record.place_right = added_up(record.time, right);
+  record.height = added_up(record.time, up);
   const double c = std::cos(record.mean_heading);
   const double s = std::sin(record.mean_heading);
   for (const Detour& d : detours) {
     const auto after = std::ranges::upper_bound(record.time, (d.begin + d.end) / 2);
     if (after == record.time.begin() || after == record.time.end()) continue;
     const auto i = static_cast<std::size_t>(after - record.time.begin());
-    to_along[i] = d.north * c + d.east * s;
-    to_right[i] = d.east * c - d.north * s;
-    to_up[i] = d.up;
+    go(record.place_along, i, d.north * c + d.east * s);
+    go(record.place_right, i, d.east * c - d.north * s);
+    go(record.height, i, d.up);
   }
-  record.place_along = less_its_mean(added_up(record.time, along, to_along));
-  record.place_right = less_its_mean(added_up(record.time, right, to_right));
-  record.height = added_up(record.time, up, to_up);
+  take_off_mean(record.place_along);
+  take_off_mean(record.place_right);
 }
 
 }  // namespace
@@ -244,7 +243,7 @@ std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase&
   FlightPrediction prediction(simulated);
   for (int iteration = 0; iteration < picard_iterations; ++iteration) {
     predict_acceleration(prediction, base, effects);
-    std::vector<double> a = prediction.acceleration;
+    std::vector<double>& a = prediction.acceleration;
     // The nose turns into what flies to the side.
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += record.yaw_rate[i] * record.right_speed[i];
     std::vector<double>& v = simulated.forward_speed;

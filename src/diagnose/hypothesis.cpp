@@ -111,8 +111,8 @@ bool acts(const Hypothesis& h, std::size_t k) {
   constexpr double apart = 0.3;  // of the way from neutral to a bound
   std::vector<double> values = neutral_values(h);
   for (std::size_t p = 0; p < values.size(); ++p) {
-    const auto [lower, upper] = std::pair{h.parameters[p].lower, h.parameters[p].upper};
-    values[p] += apart * ((upper > values[p] ? upper : lower) - values[p]);
+    const bool above = h.parameters[p].upper > values[p];
+    values[p] += apart * ((above ? h.parameters[p].upper : h.parameters[p].lower) - values[p]);
   }
   std::vector<double> others = values;
   others[k] = h.parameters[k].neutral;

@@ -503,7 +503,7 @@ class Planning {
                   design_.drone.mass,
                   design_.flight.air_density,
                   design_.flight.gravity};
-    if (const auto j = model_.index_of_field("drone.drag.linear_m_s")) {
+    if (const auto j = model_.index_of_field(linear_speed_field)) {
       drone.drag.linear_speed = fit_.values[*j];
     }
     return drone;

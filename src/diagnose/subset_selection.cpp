@@ -422,18 +422,19 @@ class SubsetSearch {
     for (const Model& m : known) fitted.insert(m.named);
     std::set<Groups> left;  // of which all neighbours that promise most are known
     for (bool anew = true; anew;) {
-      anew = false;
       known = least(
           std::move(known), [](const Model& m) { return m.length; }, beam);
-      for (const Model& parent : std::vector<Model>(known)) {
+      std::vector<Model> found;
+      for (const Model& parent : known) {
         if (!left.insert(parent.named).second) continue;
         for (const Groups& named : promising_exchanges(parent)) {
           if (!fitted.insert(named).second) continue;
-          known.push_back(model(named, {}, &parent.fit));
-          consider(known.back(), clearly_shorter);
-          anew = true;
+          found.push_back(model(named, {}, &parent.fit));
+          consider(found.back(), clearly_shorter);
         }
       }
+      for (Model& m : found) known.push_back(std::move(m));
+      anew = !found.empty();
     }
   }
 

@@ -46,8 +46,9 @@ LevelSeries seen_accelerations(const Observations& flight) {
   LevelSeries seen{flight.forward_acceleration, flight.right_acceleration};
   if (flight.kinematics == Kinematics::exact) return seen;
   const std::vector<double> turning = yaw_rate(flight);
-  for (std::size_t i = 0; i < flight.size(); ++i)
+  for (std::size_t i = 0; i < flight.size(); ++i) {
     seen.forward[i] -= turning[i] * flight.right_speed[i];
+  }
   return seen;
 }
 
