@@ -85,48 +85,12 @@ ModelFit model_fit(const Record& record, const BlockFit& fit) {
   return all;
 }
 
-/// By how much groups would lower the squared error of a fit if the prediction were linear in
-/// their parameters.
+/// By how much other names would lower the squared error of a fit if the prediction were linear in
+/// their parameters, from neutral on.
 class LinearisedGains {
  public:
-  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates) {
-    const VectorXd weight = fit.weight.cwiseSqrt();
-    const MatrixXd free = weight.asDiagonal() * fit.jacobian;
-    MatrixXd slopes(fit.residual.size(), 0);
-    for (const std::size_t g : candidates) {
-      const MatrixXd of_group = slopes_at_start(record, fit.values, g);
-      for (Index k = 0; k < of_group.cols(); ++k) columns_[g].push_back(slopes.cols() + k);
-      slopes.conservativeResize(Eigen::NoChange, slopes.cols() + of_group.cols());
-      slopes.rightCols(of_group.cols()) = weight.asDiagonal() * of_group;
-    }
-    if (free.cols() > 0) slopes = left_by(free, slopes);
-    gram_ = gram_matrix(slopes);
-    along_ = inner_products_with(slopes, weight.cwiseProduct(fit.residual));
-  }
-
-  /// Of these candidates together.
-  [[nodiscard]] double of(const Groups& groups) const {
-    std::vector<Index> columns;
-    for (const std::size_t g : groups) {
-      columns.insert(columns.end(), columns_.at(g).begin(), columns_.at(g).end());
-    }
-    const VectorXd along = along_(columns);
-    return along.dot(pseudo_solution(gram_(columns, columns), along));
-  }
-
- private:
-  std::map<std::size_t, std::vector<Index>> columns_;
-  MatrixXd gram_;   ///< of all slopes beside what is free in the fit
-  VectorXd along_;  ///< the residual along each of them
-};
-
-/// What exchanging names would come to if the prediction were linear between their neutral values
-/// and those of the fit.
-class LinearisedExchange {
- public:
   /// `candidates` with those that are freed in the fit.
-  LinearisedExchange(const Record& record, const BlockFit& fit, const Groups& candidates)
-      : squared_residual_(fit.weight.dot(fit.residual.cwiseAbs2())) {
+  LinearisedGains(const Record& record, const BlockFit& fit, const Groups& candidates) {
     const VectorXd weight = fit.weight.cwiseSqrt();
     MatrixXd slopes = fit.jacobian;
     for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
@@ -139,11 +103,11 @@ class LinearisedExchange {
         own.index.push_back(static_cast<Index>(k));
         own.off_neutral.push_back((fit.values[p] - parameter.neutral) / parameter.scale);
       }
-      const bool freed = contains(fit.freed.groups, g);
-      if (freed && !contains(candidates, g))
+      if (!contains(candidates, g)) {
         always_.insert(always_.end(), own.index.begin(), own.index.end());
-      if (!contains(candidates, g)) continue;
-      if (!freed) {
+        continue;
+      }
+      if (!contains(fit.freed.groups, g)) {
         const MatrixXd at_start = slopes_at_start(record, fit.values, g);
         for (Index k = 0; k < at_start.cols(); ++k) own.index.push_back(slopes.cols() + k);
         slopes.conservativeResize(Eigen::NoChange, slopes.cols() + at_start.cols());
@@ -156,13 +120,14 @@ class LinearisedExchange {
     along_ = inner_products_with(slopes, weight.cwiseProduct(fit.residual));
   }
 
-  /// The squared error with `named` freed, of which the fit frees some, and `out` back at neutral.
-  [[nodiscard]] double squared_error(const Groups& named, const Groups& out) const {
+  /// With `named` freed, of which the fit frees some, and `out` back at neutral.
+  [[nodiscard]] double of(const Groups& named, const Groups& out) const {
     VectorXd back = VectorXd::Zero(gram_.cols());
     for (const std::size_t g : out) {
       const Columns& own = columns_.at(g);
-      for (std::size_t k = 0; k < own.off_neutral.size(); ++k)
+      for (std::size_t k = 0; k < own.off_neutral.size(); ++k) {
         back[own.index[k]] = own.off_neutral[k];
+      }
     }
     std::vector<Index> free = always_;
     for (const std::size_t g : named) {
@@ -172,8 +137,8 @@ class LinearisedExchange {
     const VectorXd moved = inner_products_with(gram_, back);
     const VectorXd to_explain = along_ + moved;
     const VectorXd along = to_explain(free);
-    return squared_residual_ + back.dot(along_) + back.dot(to_explain) -
-           along.dot(pseudo_solution(gram_(free, free), along));
+    return along.dot(pseudo_solution(gram_(free, free), along)) - back.dot(along_) -
+           back.dot(to_explain);
   }
 
  private:
@@ -183,9 +148,8 @@ class LinearisedExchange {
   };
   std::map<std::size_t, Columns> columns_;
   std::vector<Index> always_;  ///< columns of what every fit frees
-  double squared_residual_;
-  MatrixXd gram_;
-  VectorXd along_;
+  MatrixXd gram_;              ///< of all slopes
+  VectorXd along_;             ///< the residual along each of them
 };
 
 class SubsetSearch {
@@ -294,11 +258,11 @@ class SubsetSearch {
       for (const std::size_t g : candidates_) {
         if (!contains(parent.named, g)) open.push_back(g);
       }
-      const LinearisedGains gains(record_, parent.fit, open);
+      const LinearisedGains gains(record_, parent.fit, candidates_);
       const auto add = [&](const Groups& more) {
         Groups named = parent.named;
         for (const std::size_t g : more) named = with_group(named, g);
-        sets.emplace_back(parent.fit.residual.squaredNorm() - gains.of(more), named, &parent);
+        sets.emplace_back(parent.fit.residual.squaredNorm() - gains.of(named, {}), named, &parent);
       };
       for (std::size_t a = 0; a < open.size(); ++a) {
         if (!two_more) add({open[a]});
@@ -375,7 +339,7 @@ class SubsetSearch {
   /// Sets that differ from the parent's by up to two names less and up to two more and promise the
   /// shortest descriptions.
   [[nodiscard]] std::vector<Groups> promising_exchanges(const Model& parent) const {
-    const LinearisedExchange linear(record_, parent.fit, candidates_);
+    const LinearisedGains gains(record_, parent.fit, candidates_);
     Groups open;
     for (const std::size_t g : candidates_) {
       if (!contains(parent.named, g)) open.push_back(g);
@@ -389,7 +353,7 @@ class SubsetSearch {
         for (const std::size_t g : in) named = with_group(named, g);
         if (named.empty() || named.size() > options_.most_findings) continue;
         const double names = name_price_ * static_cast<double>(named.size());
-        sets.emplace_back(linear.squared_error(named, out) + names, std::move(named));
+        sets.emplace_back(names - gains.of(named, out), std::move(named));
       }
     }
     std::sort(sets.begin(), sets.end());
