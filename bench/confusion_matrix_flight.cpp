@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -44,6 +45,7 @@ std::vector<Row> rows() {
           {"wind_step", &HiddenFlight::wind_step, 1.5, 4, true, ""},
           {"wind_wave", &HiddenFlight::wind_wave, 1, 3, true, ""},
           {"mass_drop", &HiddenFlight::mass_drop, 12, 40, false, ""},
+          {"slung_load", &HiddenFlight::slung_load, 2, 30, false, ""},
           {"yaw_misalign", &HiddenFlight::yaw_misalign, 5, 20, true, ""},
           {"velocity_lag", &HiddenFlight::velocity_lag, 0.05, 0.3, false, ""},
           {"velocity_scale", &HiddenFlight::velocity_scale, 1.05, 1.3, false, ""},
@@ -155,6 +157,17 @@ double removed(const Row& row, const HiddenFlight& hidden, const FlightLog& log,
   return 100 * (1 - told.base.holdout_rmse / d.base.holdout_rmse);
 }
 
+/// What blows or pulls along the first heading is told along the mean one and across it.
+double along_mean_heading(const FlightLog& log, double along_first_heading) {
+  double north = 0;
+  double east = 0;
+  for (const double yaw : log.yaw) {
+    north += std::cos(yaw);
+    east += std::sin(yaw);
+  }
+  return along_first_heading * std::cos(std::atan2(east, north) - log.yaw.front());
+}
+
 void count(Tally& tally, const Row& row, const HiddenFlight& hidden, const FlightLog& log) {
   const Diagnosis d = diagnosed(hidden, log, {"linear_drag", "wind"});
   const bool named_effect = row.field != nullptr && row.channel.empty();
@@ -177,7 +190,10 @@ void count(Tally& tally, const Row& row, const HiddenFlight& hidden, const Fligh
   tally.more += d.findings.size() > 1 ? 1 : 0;
   if (f.effect != row.hidden) return;
   ++tally.named;
-  const double truth = hidden.*(row.field);
+  const bool has_heading = row.hidden == "wind_drift" || row.hidden == "wind_step" ||
+                           row.hidden == "wind_wave" || row.hidden == "tether_pull";
+  const double hidden_size = hidden.*(row.field);
+  const double truth = has_heading ? along_mean_heading(log, hidden_size) : hidden_size;
   const ParameterEstimate& p = f.parameters.front();
   tally.covered += p.ci95_lower <= truth && truth <= p.ci95_upper ? 1 : 0;
 }

@@ -109,6 +109,7 @@ truth::HiddenFlight drawn_flight(std::uint64_t seed) {
       {&truth::HiddenFlight::wind_step, 4},
       {&truth::HiddenFlight::wind_wave, 3},
       {&truth::HiddenFlight::mass_drop, 40},
+      {&truth::HiddenFlight::slung_load, 30},
       {&truth::HiddenFlight::velocity_lag, 0.3},
       {&truth::HiddenFlight::roll_drag, 80},
       {&truth::HiddenFlight::step_force, 1},

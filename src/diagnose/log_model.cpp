@@ -41,6 +41,9 @@ constexpr int moments = 40;
 void look_through(const EffectParameter& effect, double begin, double end, ModelParameter& p) {
   const double duration = end - begin;
   if (effect.look_through == LookThrough::nothing || !(duration > 0)) return;
+  if (effect.look_through == LookThrough::ratios) {
+    for (double place = p.lower; place <= p.upper; place *= 1.25) p.places.push_back(place);
+  }
   if (effect.look_through == LookThrough::moments) {
     p.lower = begin + 0.05 * duration;
     p.upper = end - 0.05 * duration;
@@ -48,7 +51,7 @@ void look_through(const EffectParameter& effect, double begin, double end, Model
     for (int k = 0; k < moments; ++k) {
       p.places.push_back(p.lower + (p.upper - p.lower) * (k + 0.5) / moments);
     }
-  } else {
+  } else if (effect.look_through == LookThrough::periods) {
     // Neighbours lose half a wave against each other over the log: the fit finds the rest.
     p.lower = effect.lower * effect.unit_SI;
     p.upper = std::max(p.lower, 1.5 * duration);

@@ -168,6 +168,41 @@ TEST_CASE("what happens ahead happens to the side alike") {
   both("velocity_lag", {0.2}, {0.2});
   both("velocity_scale", {1.2}, {1.2});
   both("mass_drop", {0.3, 20}, {0.3, 20});
+  both("slung_load", {0.2, 3, 0.05}, {0.2, 3, 0.05});
+}
+
+TEST_CASE("a load on a rope swings as a pendulum whose pivot gives way") {
+  // Level, then leaning by a constant angle, without drag: from the closed form of two bodies, one
+  // thrust that carries both, and a spring of m_l·g/l between them.
+  constexpr double share = 0.25;
+  constexpr double rope = 2;
+  constexpr double damping = 0.1;
+  Observations o;
+  for (int i = 0; i < 200; ++i) {
+    o.time.push_back(0.05 * i);
+    o.tilt.push_back(i < 40 ? 0 : 0.2);
+    for (auto* series : {&o.forward_speed, &o.roll, &o.yaw, &o.right_speed, &o.down_speed,
+                         &o.forward_acceleration, &o.down_acceleration, &o.expected_acceleration}) {
+      series->push_back(0);
+    }
+  }
+  const FlightRecord record = flight_record(o, 1.6, 1.25, standard_gravity);
+  const std::vector<double> swinging =
+      predicted(record, find_effect("slung_load"), {share, rope, damping});
+  const double own = standard_gravity / rope;
+  const double fading = damping * std::sqrt(own);
+  const double turning = std::sqrt(own * (1 + share) - fading * fading);
+  const double thrust = standard_gravity * std::tan(0.2);  // of both masses together
+  // The lean changes evenly from one sample to the next: as if at once half a step before.
+  const double begin = o.time[39] + 0.025;
+  for (std::size_t i = 41; i < record.size(); ++i) {
+    const double t = o.time[i] - begin;
+    const double ringing =
+        std::exp(-fading * t) * (std::cos(turning * t) + fading / turning * std::sin(turning * t));
+    // At once the drone alone takes off with all of the thrust, in the end both do.
+    CHECK(swinging[i] == Approx(thrust * (1 + share * ringing)).margin(2e-3 * thrust));
+  }
+  for (std::size_t i = 0; i < 40; ++i) CHECK(swinging[i] == 0);
 }
 
 TEST_CASE("propwash acts only while speed and tilt oppose each other") {

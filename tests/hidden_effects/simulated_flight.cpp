@@ -151,6 +151,26 @@ class Autopilot {
   Axis aside_;
 };
 
+/// A load below the drone, where it is of it and how fast, over ground.
+struct SlungLoad {
+  double stiffness = 0;  // 1/s²
+  double fading = 0;     // 1/s
+  double north = 0;
+  double east = 0;
+  double north_speed = 0;
+  double east_speed = 0;
+
+  explicit SlungLoad(const HiddenFlight& h)
+      : stiffness(gravity / h.rope), fading(2 * h.swing_damping * std::sqrt(stiffness)) {}
+  /// Left behind by a drone that speeds up so.
+  void follow(double north_acceleration, double east_acceleration) {
+    north_speed -= step * (stiffness * north + fading * north_speed + north_acceleration);
+    east_speed -= step * (stiffness * east + fading * east_speed + east_acceleration);
+    north += step * north_speed;
+    east += step * east_speed;
+  }
+};
+
 /// Forward; `aside` is the airspeed to the right, which makes the force along the airspeed larger.
 double drag(const HiddenFlight& h, double u, double aside, double tilt, double down, double roll,
             double height, bool late) {
@@ -251,6 +271,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
   double north = 0;  // m from the start
   double east = 0;
   double drifting = 0;  // m/s to the right, where the roll moves the drone
+  SlungLoad load(h);
+  const double load_share = h.slung_load / 100;
   Lagging lagging_north{h.velocity_lag};
   Lagging lagging_east{h.velocity_lag};
   double airspeed_sum = 0;
@@ -309,27 +331,38 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
                               h.growing_pull * (h.station * std::cos(first_heading) - north);
     const double pull_east = h.tether_pull * std::sin(first_heading) +
                              h.growing_pull * (h.station * std::sin(first_heading) - east);
+    // The thrust carries the load, too, and its rope pulls.
+    const double lift = (1 + load_share) * (gravity - down_acceleration);
+    const double rope_north = load_share * load.stiffness * load.north;
+    const double rope_east = load_share * load.stiffness * load.east;
     // A frame that turns carries the speed to the right into the forward one.
-    const double push = (gravity - down_acceleration) * std::tan(tilt) +
-                        gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) +
-                        turn / step * right +
-                        (pull_north * std::cos(yaw) + pull_east * std::sin(yaw)) / mass;
+    const double push =
+        lift * std::tan(tilt) + rope_north * std::cos(yaw) + rope_east * std::sin(yaw) +
+        gust.next(random) * (1 + h.gust_with_speed * std::abs(speed)) + turn / step * right +
+        (pull_north * std::cos(yaw) + pull_east * std::sin(yaw)) / mass;
     const auto acceleration = [&](double v) {
       return push - drag(h, v - along, both_axes ? right - across : 0, tilt, down, roll,
                          height - 10, late) /
                         mass;
     };
     const double halfway = speed + acceleration(speed) * step / 2;
+    const double ahead_over_ground = acceleration(halfway) - turn / step * right;
+    double aside_over_ground = 0;
     if (both_axes) {
-      const double push_aside = (gravity - down_acceleration) * std::tan(roll) / std::cos(tilt) +
-                                gust_aside.next(random) - turn / step * speed -
+      const double push_aside = lift * std::tan(roll) / std::cos(tilt) + rope_east * std::cos(yaw) -
+                                rope_north * std::sin(yaw) + gust_aside.next(random) -
+                                turn / step * speed -
                                 (pull_east * std::cos(yaw) - pull_north * std::sin(yaw)) / mass;
       const auto acceleration_aside = [&](double v) {
         return push_aside - side_drag(h, v - across, speed - along, roll, down) / mass;
       };
       const double half_aside = drifting + acceleration_aside(drifting) * step / 2;
+      aside_over_ground = acceleration_aside(half_aside) + turn / step * speed;
       drifting += acceleration_aside(half_aside) * step;
     }
+
+    load.follow(ahead_over_ground * std::cos(yaw) - aside_over_ground * std::sin(yaw),
+                ahead_over_ground * std::sin(yaw) + aside_over_ground * std::cos(yaw));
 
     const double late_tilt = logged_tilt.next(tilt);
     const double late_roll = both_axes ? logged_roll.next(roll) : roll;

@@ -88,6 +88,9 @@ struct HiddenFlight {
   double wind_wave = 0;           ///< m/s, greatest in the middle of the flight
   double wind_wave_period = 160;  ///< s
   double mass_drop = 0;           ///< % of the mass, at 45 % of the flight
+  double slung_load = 0;          ///< % of the mass, on a rope
+  double rope = 2.5;              ///< m
+  double swing_damping = 0.06;    ///< of the load, over the critical one
   /// deg, logged minus true heading. Other than zero, the drone is moved to the side by its roll.
   double yaw_misalign = 0;
   double velocity_lag = 0;    ///< s, of first order

@@ -29,6 +29,7 @@ enum class LookThrough {
   nothing,
   moments,  ///< of the log's clock, from 5 to 95 % of its duration; s
   periods,  ///< from one and a half durations of the log down to the parameter's lower bound; s
+  ratios,   ///< from the lower bound to the upper one, each a quarter more than the last
 };
 
 /// What a flight must have to show a parameter. Across the heading a force or a wind does nothing
