@@ -42,6 +42,7 @@ std::vector<Row> rows() {
           {"vertical_coupling", &HiddenFlight::vertical_coupling, 0.04, 0.2, true, ""},
           {"tether_pull", &HiddenFlight::tether_pull, 0.3, 1.5, true, ""},
           {"growing_pull", &HiddenFlight::growing_pull, 0.004, 0.04, false, ""},
+          {"wind_shear", &HiddenFlight::wind_shear, 0.05, 0.2, true, ""},
           {"wind_step", &HiddenFlight::wind_step, 1.5, 4, true, ""},
           {"wind_wave", &HiddenFlight::wind_wave, 1, 3, true, ""},
           {"mass_drop", &HiddenFlight::mass_drop, 12, 40, false, ""},
@@ -118,6 +119,7 @@ HiddenFlight drawn_flight(const Row& row, std::uint64_t seed, const FlightCondit
   if (row.field == nullptr) return hidden;
   const double sign = row.either_sign && uniform(0, 1) < 0.5 ? -1 : 1;
   hidden.*(row.field) = sign * uniform(row.weakest, row.strongest);
+  if (row.hidden == "wind_shear") hidden.climb = std::max(hidden.climb, 20.0);
   if (row.channel == "roll_deg") hidden.roll_std = std::max(hidden.roll_std, 3.5);
   if (row.hidden == "turning_wind") {
     hidden.yaw_turns = hidden.pattern != truth::Pattern::circles;
@@ -190,8 +192,9 @@ void count(Tally& tally, const Row& row, const HiddenFlight& hidden, const Fligh
   tally.more += d.findings.size() > 1 ? 1 : 0;
   if (f.effect != row.hidden) return;
   ++tally.named;
-  const bool has_heading = row.hidden == "wind_drift" || row.hidden == "wind_step" ||
-                           row.hidden == "wind_wave" || row.hidden == "tether_pull";
+  const bool has_heading = row.hidden == "wind_drift" || row.hidden == "wind_shear" ||
+                           row.hidden == "wind_step" || row.hidden == "wind_wave" ||
+                           row.hidden == "tether_pull";
   const double hidden_size = hidden.*(row.field);
   const double truth = has_heading ? along_mean_heading(log, hidden_size) : hidden_size;
   const ParameterEstimate& p = f.parameters.front();

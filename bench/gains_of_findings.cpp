@@ -106,6 +106,7 @@ truth::HiddenFlight drawn_flight(std::uint64_t seed) {
       {&truth::HiddenFlight::propwash, 0.8},
       {&truth::HiddenFlight::vertical_coupling, 0.2},
       {&truth::HiddenFlight::tether_pull, 1.5},
+      {&truth::HiddenFlight::wind_shear, 0.2},
       {&truth::HiddenFlight::wind_step, 4},
       {&truth::HiddenFlight::wind_wave, 3},
       {&truth::HiddenFlight::mass_drop, 40},

@@ -323,6 +323,35 @@ std::vector<Effect> flight_effects() {
              }
            }},
 
+      {.id = "wind_shear",
+       .title = "Wind that changes with height",
+       .mechanism = "The wind grows or turns with the height over ground.",
+       .parameters = {{.name = "wind_shear_m_s_m",
+                       .unit = "m/s per m",
+                       .lower = -2,
+                       .upper = 2,
+                       .scale = 0.02},
+                      {.name = "wind_shear_right_m_s_m",
+                       .unit = "m/s per m",
+                       .lower = -2,
+                       .upper = 2,
+                       .scale = 0.02,
+                       .shown = Shown::turning_or_to_the_side}},
+       .sizes = 2,
+       .needs = {"vd_m_s"},
+       .to_separate = "repeat the first passes, then fly them at another height",
+       .change = "w → w + (s_a cos(ψ − ψ̄) + s_r sin(ψ − ψ̄))·(h − h̄), h̄ the mean height",
+       .channel = "height",
+       .own_in_each_flight = true,
+       .flight_phase = FlightPhase::air,
+       .on_flight =
+           [](FlightPrediction& p, Values x) {
+             for (std::size_t i = 0; i < p.headwind.size(); ++i) {
+               const double above = p.record.height[i] - p.record.mean_height;
+               blow(p, i, x[0] * above, x[1] * above);
+             }
+           }},
+
       {.id = "fore_aft_asymmetry",
        .title = "Different drag forward and backward",
        .mechanism = "The airframe is not symmetric: at the same airspeed, drag flying forward is "

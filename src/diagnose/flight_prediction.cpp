@@ -38,8 +38,12 @@ void go(std::vector<double>& place, std::size_t i, double way) {
   for (; i < place.size(); ++i) place[i] += more;
 }
 
+double mean_of(const std::vector<double>& x) {
+  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+
 void take_off_mean(std::vector<double>& x) {
-  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+  const double mean = mean_of(x);
   for (double& value : x) value -= mean;
 }
 
@@ -70,6 +74,7 @@ void add_places(FlightRecord& record, std::span<const Detour> detours) {
   }
   take_off_mean(record.place_along);
   take_off_mean(record.place_right);
+  if (record.size() > 0) record.mean_height = mean_of(record.height);
 }
 
 }  // namespace

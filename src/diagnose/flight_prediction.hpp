@@ -39,6 +39,7 @@ struct FlightRecord {
   std::vector<double> cos_sideward;     ///< of the lean to the side, whose tangent that is
   std::vector<double> yaw_rate;         ///< rad/s
   double mean_heading = 0;              ///< rad in (−π, π], of the whole flight
+  double mean_height = 0;               ///< m, likewise
   double mass = 0;                      ///< kg
   double air_density = 0;               ///< kg/m³
   double gravity = 0;                   ///< m/s²

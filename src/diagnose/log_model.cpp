@@ -465,6 +465,7 @@ Channel flight_channel(const std::string& id, const FlightRecord& record) {
   }
   if (id == "yaw") return {"yaw", "deg", in_degrees(record.yaw)};
   if (id == "place") return {"place along the mean heading", "m", record.place_along};
+  if (id == "height") return {"height", "m", record.height};
   if (id == "time") return {"time of the log", "s", record.time};
   if (id == "braking") {
     return {"forward speed times tilt while they oppose", "m/s·deg", braking(record)};

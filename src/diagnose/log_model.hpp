@@ -107,8 +107,8 @@ void tell(const LogModel& log, const Selection& selection, Diagnosis& diagnosis)
                                           double false_alarm_probability);
 
 /// The channel of a flight that `id`, as in `Effect::channel`, names, one value a sample:
-/// "forward_speed", "tilt", "tilt_rate", "yaw", "time", "braking" (forward speed times tilt while
-/// they oppose, else NaN) or "sinking" (forward speed times down speed). Throws
+/// "forward_speed", "tilt", "tilt_rate", "yaw", "place", "height", "time", "braking" (forward speed
+/// times tilt while they oppose, else NaN) or "sinking" (forward speed times down speed). Throws
 /// std::invalid_argument for any other.
 [[nodiscard]] Channel flight_channel(const std::string& id, const FlightRecord& record);
 

@@ -40,13 +40,15 @@ constexpr int step_places = 128;
 /// As for effects whose moment is looked for: some moment always shows a little.
 constexpr double gain_of_steps = 5;
 
-void add_time(std::vector<Shape>& shapes, const Series& time) {
+void add_time(std::vector<Shape>& shapes, const Series& time, const Series& tilt) {
   const double begin = time[0];
   const double duration = time[time.size() - 1] - begin;
   const Series elapsed = (time - begin) / duration - 0.5;
   const std::string part =
       fmt::format("((time - {:.3f}) / {:.3f})", begin + duration / 2, duration);
   shapes.push_back({"time_s", "time, steadily", elapsed, 1, part});
+  // As where what the attitude reads of an angle changes.
+  shapes.push_back({"time_s", "pitch times time", tilt * elapsed, 1, "tilt * " + part});
   shapes.push_back({"time_s", "the square of the time from the middle of the flight",
                     elapsed.square(), 1, part + "^2"});
   for (int k = 1; k < step_places; ++k) {
@@ -160,7 +162,7 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightR
     shapes.push_back({"yaw_deg", "the sine of twice the yaw", (2 * yaw).sin(), 1, "sin(2 * yaw)"});
   }
   add_powers(shapes, "yaw_deg", "yaw rate", as_series(record.yaw_rate), "yaw_rate");
-  if (forward) add_time(shapes, as_series(o.time));
+  if (forward) add_time(shapes, as_series(o.time), as_series(o.tilt));
 
   const Series u = as_series(o.forward_speed) - wind;
   const std::tuple<const char*, const char*, Series> carriers[] = {
@@ -168,6 +170,7 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightR
       {", times the airspeed", " * airspeed", u},
       {", times the magnitude of the airspeed", " * abs(airspeed)", u.abs()},
       {", times the airspeed and its magnitude", " * airspeed * abs(airspeed)", u * u.abs()}};
+  const Series across = as_series(forward ? o.roll : o.tilt);
   std::vector<UnnamedRegressor> regressors;
   const auto add = [&regressors, forward](const std::string& channel, const std::string& words,
                                           const Series& column,
@@ -184,6 +187,10 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightR
       add(shape.channel, shape.words + words, shape.values * carrier, shape.formula + factor)
           .least_gain_factor = shape.least_gain_factor;
     }
+    if (shape.channel != "yaw_deg") continue;
+    // A heading that is off carries what the thrust does across into this axis.
+    add(shape.channel, shape.words + ", times the lean across", shape.values * across,
+        shape.formula + (forward ? " * roll" : " * tilt"));
   }
   add("airspeed_m_s", "the magnitude of the airspeed", u.abs(), "abs(airspeed)");
   add("airspeed_m_s", "the square of the airspeed", u.square(), "airspeed^2");

@@ -163,6 +163,7 @@ TEST_CASE("what happens ahead happens to the side alike") {
   both("attitude_delay", {0.08}, {0.08});
   both("linear_drag", {19}, {19});
   both("wind", {-1.2, 0}, {0, -1.2});
+  both("wind_shear", {0.1, 0}, {0, 0.1});
   both("propwash", {0.4}, {0.4});
   both("vertical_coupling", {0.1}, {0.1});
   both("velocity_lag", {0.2}, {0.2});
