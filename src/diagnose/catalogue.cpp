@@ -115,6 +115,40 @@ void lag(FlightPrediction& p, double constant) {
   lag_acceleration(p, constant);
 }
 
+/// A load on a rope below a drone that gives way to it, along one axis over ground: m ahead of the
+/// drone, and how fast.
+struct Swing {
+  double ahead = 0;
+  double speed = 0;
+};
+
+/// ẍ = −stiffness·x − 2·fading·ẋ − the acceleration that drives it.
+struct Pendulum {
+  double stiffness = 0;  ///< 1/s²
+  double fading = 0;     ///< 1/s
+  double turning = 0;    ///< rad/s, √(stiffness − fading²)
+  // Of a step: e^(−fading·step) times cosine and sine of what it turns by.
+  double step = 0;
+  double cosine = 1;
+  double sine = 0;
+
+  void set_step(double seconds) {
+    if (seconds == step) return;
+    step = seconds;
+    const double left = std::exp(-fading * step);
+    cosine = left * std::cos(turning * step);
+    sine = left * std::sin(turning * step);
+  }
+  [[nodiscard]] Swing hanging(double driving) const { return {-driving / stiffness, 0}; }
+  /// A step later, of the same drive all the while.
+  [[nodiscard]] Swing moved(const Swing& from, double driving) const {
+    const double still = hanging(driving).ahead;
+    const double off = from.ahead - still;
+    return {still + off * cosine + (from.speed + fading * off) / turning * sine,
+            from.speed * cosine - (fading * from.speed + stiffness * off) / turning * sine};
+  }
+};
+
 /// A load of `load` times the drone's mass swings below it on a rope of `rope` m. The drone gives
 /// way to it, so that both swing faster than the rope alone would. What drives it is the
 /// acceleration predicted without it: gusts that only the measured one has are missing, but noise
@@ -122,28 +156,12 @@ void lag(FlightPrediction& p, double constant) {
 void swing(FlightPrediction& p, double load, double rope, double damping) {
   constexpr double longest_step = 1;  // s; after more it is taken to hang still
   const FlightRecord& record = p.record;
-  const double pull_per_metre = record.gravity / rope;
-  const double stiffness = (1 + load) * pull_per_metre;
-  const double fading = damping * std::sqrt(pull_per_metre);
-  const double turning = std::sqrt(stiffness - fading * fading);
-  struct Swing {
-    double ahead = 0;  ///< m, the load of the drone
-    double speed = 0;
-    void hang(double driving, double stiff) { *this = {-driving / stiff, 0}; }
-  };
+  const double own = record.gravity / rope;  // 1/s², of the rope below a drone held still
+  Pendulum pendulum{.stiffness = (1 + load) * own, .fading = damping * std::sqrt(own)};
+  pendulum.turning = std::sqrt(pendulum.stiffness - pendulum.fading * pendulum.fading);
   Swing along;
   Swing right;
   OverGround before{};
-  double known_step = 0;
-  double cosine = 1;
-  double sine = 0;
-  const auto move = [&](Swing& swing, double driving) {
-    const double still = -driving / stiffness;
-    const double off = swing.ahead - still;
-    const double speed = swing.speed;
-    swing.ahead = still + off * cosine + (speed + fading * off) / turning * sine;
-    swing.speed = speed * cosine - (fading * speed + stiffness * off) / turning * sine;
-  };
   for (std::size_t i = 0; i < record.size(); ++i) {
     p.lift[i] *= 1 + load;
     const double forward = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass;
@@ -152,20 +170,15 @@ void swing(FlightPrediction& p, double load, double rope, double damping) {
     const OverGround driving = over_ground(record, i, {forward, aside});
     const double step = i > 0 ? record.time[i] - record.time[i - 1] : infinity;
     if (step > longest_step) {
-      along.hang(driving.along, stiffness);
-      right.hang(driving.right, stiffness);
+      along = pendulum.hanging(driving.along);
+      right = pendulum.hanging(driving.right);
     } else {
-      if (step != known_step) {
-        known_step = step;
-        const double left = std::exp(-fading * step);
-        cosine = left * std::cos(turning * step);
-        sine = left * std::sin(turning * step);
-      }
-      move(along, (before.along + driving.along) / 2);
-      move(right, (before.right + driving.right) / 2);
+      pendulum.set_step(step);
+      along = pendulum.moved(along, (before.along + driving.along) / 2);
+      right = pendulum.moved(right, (before.right + driving.right) / 2);
     }
     before = driving;
-    const double force = load * record.mass * pull_per_metre;
+    const double force = load * record.mass * own;
     pull(p, i, force * along.ahead, force * right.ahead);
   }
 }
