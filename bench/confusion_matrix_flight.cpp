@@ -192,9 +192,10 @@ void count(Tally& tally, const Row& row, const HiddenFlight& hidden, const Fligh
   tally.more += d.findings.size() > 1 ? 1 : 0;
   if (f.effect != row.hidden) return;
   ++tally.named;
-  const bool has_heading = row.hidden == "wind_drift" || row.hidden == "wind_shear" ||
-                           row.hidden == "wind_step" || row.hidden == "wind_wave" ||
-                           row.hidden == "tether_pull";
+  // Of what has a second part to the right of the mean heading.
+  const bool has_heading = std::ranges::any_of(
+      find_effect(row.hidden)->parameters,
+      [](const EffectParameter& q) { return q.shown == Shown::turning_or_to_the_side; });
   const double hidden_size = hidden.*(row.field);
   const double truth = has_heading ? along_mean_heading(log, hidden_size) : hidden_size;
   const ParameterEstimate& p = f.parameters.front();

@@ -126,22 +126,14 @@ struct Swing {
 struct Pendulum {
   double stiffness = 0;  ///< 1/s²
   double fading = 0;     ///< 1/s
-  double turning = 0;    ///< rad/s, √(stiffness − fading²)
-  // Of a step: e^(−fading·step) times cosine and sine of what it turns by.
-  double step = 0;
-  double cosine = 1;
-  double sine = 0;
 
-  void set_step(double seconds) {
-    if (seconds == step) return;
-    step = seconds;
-    const double left = std::exp(-fading * step);
-    cosine = left * std::cos(turning * step);
-    sine = left * std::sin(turning * step);
-  }
   [[nodiscard]] Swing hanging(double driving) const { return {-driving / stiffness, 0}; }
-  /// A step later, of the same drive all the while.
-  [[nodiscard]] Swing moved(const Swing& from, double driving) const {
+  /// `step` s later, of the same drive all the while.
+  [[nodiscard]] Swing moved(const Swing& from, double driving, double step) const {
+    const double turning = std::sqrt(stiffness - fading * fading);
+    const double left = std::exp(-fading * step);
+    const double cosine = left * std::cos(turning * step);
+    const double sine = left * std::sin(turning * step);
     const double still = hanging(driving).ahead;
     const double off = from.ahead - still;
     return {still + off * cosine + (from.speed + fading * off) / turning * sine,
@@ -154,32 +146,31 @@ struct Pendulum {
 /// acceleration predicted without it: gusts that only the measured one has are missing, but noise
 /// of what is to be explained cannot explain itself.
 void swing(FlightPrediction& p, double load, double rope, double damping) {
-  constexpr double longest_step = 1;  // s; after more it is taken to hang still
+  constexpr double longest_step = 2;  // s; after more it is taken to hang still
   const FlightRecord& record = p.record;
   const double own = record.gravity / rope;  // 1/s², of the rope below a drone held still
-  Pendulum pendulum{.stiffness = (1 + load) * own, .fading = damping * std::sqrt(own)};
-  pendulum.turning = std::sqrt(pendulum.stiffness - pendulum.fading * pendulum.fading);
+  const Pendulum pendulum{.stiffness = (1 + load) * own, .fading = damping * std::sqrt(own)};
   Swing along;
   Swing right;
   OverGround before{};
   for (std::size_t i = 0; i < record.size(); ++i) {
-    p.lift[i] *= 1 + load;
-    const double forward = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass;
-    const double aside =
-        record.both_axes ? p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass : 0;
-    const OverGround driving = over_ground(record, i, {forward, aside});
+    // The thrust carries the load as well.
+    const double more_lift = load * p.lift[i];
+    const double forward = p.acceleration[i] + more_lift * p.tan_tilt[i];
+    const double sideward = p.side_acceleration[i] + more_lift * p.sideward_thrust[i];
+    const OverGround driving = over_ground(record, i, {forward, record.both_axes ? sideward : 0});
     const double step = i > 0 ? record.time[i] - record.time[i - 1] : infinity;
     if (step > longest_step) {
       along = pendulum.hanging(driving.along);
       right = pendulum.hanging(driving.right);
     } else {
-      pendulum.set_step(step);
-      along = pendulum.moved(along, (before.along + driving.along) / 2);
-      right = pendulum.moved(right, (before.right + driving.right) / 2);
+      along = pendulum.moved(along, (before.along + driving.along) / 2, step);
+      right = pendulum.moved(right, (before.right + driving.right) / 2, step);
     }
     before = driving;
-    const double force = load * record.mass * own;
-    pull(p, i, force * along.ahead, force * right.ahead);
+    const AtDrone pull = at_drone(record, i, {along.ahead, right.ahead});
+    p.acceleration[i] = forward + load * own * pull.forward;
+    p.side_acceleration[i] = sideward + load * own * pull.right;
   }
 }
 
@@ -560,32 +551,28 @@ std::vector<Effect> flight_effects() {
        .title = "A load that swings on a rope",
        .mechanism = "A load hangs from the drone on a rope. It lags behind as the drone speeds up, "
                     "then swings, and pulls the drone to and fro.",
-       .parameters = {{.name = "slung_load_percent",
-                       .unit = "%",
-                       .unit_SI = 0.01,
-                       .lower = 0,
-                       .upper = 300,
-                       .scale = 5},
-                      {.name = "rope_length_m",
-                       .unit = "m",
-                       .neutral = shortest_rope,
-                       .lower = shortest_rope,
-                       .upper = 25,
-                       .scale = 0.1,
-                       .look_through = LookThrough::ratios},
-                      {.name = "swing_damping",
-                       .unit = "1",
-                       .neutral = 0.05,
-                       .lower = 0.002,
-                       .upper = 0.5,
-                       .scale = 0.02}},
+       .parameters =
+           {{.name = "slung_load_percent",
+             .unit = "%",
+             .unit_SI = 0.01,
+             .lower = 0,
+             .upper = 300,
+             .scale = 5},
+            {.name = "rope_length_m",
+             .unit = "m",
+             .neutral = shortest_rope,
+             .lower = shortest_rope,
+             .upper = 25,
+             .scale = 0.1,
+             .look_through = LookThrough::ratios},
+            {.name = "swing_damping", .unit = "1", .upper = 0.5, .scale = 0.02, .start = 0.05}},
        .to_separate = "fly the same passes without the load",
        .change = "v̇ → (1 + μ)·g tan θ − F_D/m + μ·g·x/l: the load, μ of the drone's mass m, is x "
                  "ahead of it, ẍ = −g·x/l − 2ζ√(g/l)·ẋ − v̇",
        .channel = "tilt_rate",
        .least_gain_factor = rings_like_a_loop,
        .own_in_each_flight = true,
-       .flight_phase = FlightPhase::force,
+       .flight_phase = FlightPhase::reading,
        .on_flight = [](FlightPrediction& p, Values x) { swing(p, x[0], x[1], x[2]); }},
 
       {.id = "yaw_misalign",

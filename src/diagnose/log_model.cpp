@@ -40,29 +40,35 @@ constexpr int moments = 40;
 
 void look_through(const EffectParameter& effect, double begin, double end, ModelParameter& p) {
   const double duration = end - begin;
-  if (effect.look_through == LookThrough::nothing || !(duration > 0)) return;
-  if (effect.look_through == LookThrough::ratios) {
-    for (double place = p.lower; place <= p.upper; place *= 1.25) p.places.push_back(place);
-  }
-  if (effect.look_through == LookThrough::moments) {
-    p.lower = begin + 0.05 * duration;
-    p.upper = end - 0.05 * duration;
-    p.fitted = false;
-    for (int k = 0; k < moments; ++k) {
-      p.places.push_back(p.lower + (p.upper - p.lower) * (k + 0.5) / moments);
-    }
-  } else if (effect.look_through == LookThrough::periods) {
-    // Neighbours lose half a wave against each other over the log: the fit finds the rest.
-    p.lower = effect.lower * effect.unit_SI;
-    p.upper = std::max(p.lower, 1.5 * duration);
-    for (double halves = 1.5; 2 * duration / halves >= p.lower; ++halves) {
-      p.places.push_back(std::min(p.upper, 2 * duration / halves));
-    }
-    p.scale = 0.1 * p.lower;
+  if (!(duration > 0)) return;
+  switch (effect.look_through) {
+    case LookThrough::nothing:
+      return;
+    case LookThrough::moments:
+      p.lower = begin + 0.05 * duration;
+      p.upper = end - 0.05 * duration;
+      p.fitted = false;
+      for (int k = 0; k < moments; ++k) {
+        p.places.push_back(p.lower + (p.upper - p.lower) * (k + 0.5) / moments);
+      }
+      break;
+    case LookThrough::periods:
+      // Neighbours lose half a wave against each other over the log: the fit finds the rest.
+      p.lower = effect.lower * effect.unit_SI;
+      p.upper = std::max(p.lower, 1.5 * duration);
+      for (double halves = 1.5; 2 * duration / halves >= p.lower; ++halves) {
+        p.places.push_back(std::min(p.upper, 2 * duration / halves));
+      }
+      p.scale = 0.1 * p.lower;
+      break;
+    case LookThrough::ratios:
+      for (double place = p.lower; place <= p.upper; place *= 1.25) p.places.push_back(place);
+      break;
   }
   if (p.places.empty()) p.places.push_back(p.upper);
-  p.neutral = p.places.front();
-  p.start = p.neutral;
+  p.start = p.places.front();
+  // A value at a bound means that something else is at work, unless it is neutral.
+  p.neutral = effect.look_through == LookThrough::ratios ? p.places[p.places.size() / 2] : p.start;
 }
 
 using Interval = std::pair<double, double>;

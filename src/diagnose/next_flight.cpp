@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -54,7 +55,8 @@ struct Grams {
 struct Question {
   Decision decision;
   double sizes = 1;
-  bool own = false;  ///< to the further flight
+  double chances = 1;  ///< so many places were to choose from
+  bool own = false;    ///< to the further flight
   double least_gain_percent = 0;
   Index nuisances = 0;  ///< leading columns: what is fitted beside it
   struct Rival {
@@ -172,7 +174,7 @@ class Forecast {
     if (!(lambda > 0)) return standing;
     const double weight = terms_.row_variance * terms_.correlated;
 
-    standing.chance = std::sqrt(lambda / weight) / (certain_at(question.sizes, degrees) + sure_by);
+    standing.chance = std::sqrt(lambda / weight) / (certain_at(question, degrees) + sure_by);
 
     const double noise = 2 * std::sqrt(weight * lambda);
     const double sure = std::max(0.0, lambda - sure_by * noise);
@@ -250,9 +252,11 @@ class Forecast {
         1 - one_in_ten / (asked_of_each * static_cast<double>(std::max<std::size_t>(together, 1))));
   }
 
-  /// Root of Hotelling's T² beyond which an effect of so many sizes is certain.
-  [[nodiscard]] double certain_at(double sizes, double degrees) const {
-    const auto known = certain_.find({sizes, degrees});
+  /// Root of Hotelling's T² beyond which the effect of a question is certain.
+  [[nodiscard]] double certain_at(const Question& question, double degrees) const {
+    const double sizes = question.sizes;
+    const double tested = terms_.tested * question.chances;
+    const auto known = certain_.find({sizes, tested, degrees});
     if (known != certain_.end()) return known->second;
     const double denominator = degrees + 1 - sizes;
     double low = 0;
@@ -260,15 +264,15 @@ class Forecast {
     for (int k = 0; k < 50; ++k) {
       const double t = (low + high) / 2;
       const double p = fisher_tail(t * t / sizes * denominator / degrees, sizes, denominator);
-      (p * terms_.tested <= terms_.options.false_alarm_probability ? high : low) = t;
+      (p * tested <= terms_.options.false_alarm_probability ? high : low) = t;
     }
-    return certain_[{sizes, degrees}] = high;
+    return certain_[{sizes, tested, degrees}] = high;
   }
 
   std::vector<Question> questions_;
   Terms terms_;
   const std::vector<Manoeuvre>& candidates_;
-  mutable std::map<std::pair<double, double>, double> certain_;
+  mutable std::map<std::array<double, 3>, double> certain_;
 };
 
 /// Adds what tells most a second until all that is asked is settled; nothing where that takes too
@@ -629,8 +633,8 @@ class Planning {
     for (std::size_t g = 0; g < joint.effects().size(); ++g) {
       const ParameterGroup& group = joint.problem.groups[g];
       const bool elsewhere = q.own && joint.log_of(g).value_or(logged_.size()) < logged_.size();
-      // A moment or a period that is looked for puts what is steady in doubt only where it does
-      // clearly better.
+      // What is looked for at many places puts what is not in doubt only where it does clearly
+      // better.
       if (group.fitted || g == target || contains(fitted, g) || is_placed(group) || elsewhere ||
           group.replaces == target || joint.problem.groups[target].replaces == g) {
         continue;
@@ -661,6 +665,7 @@ class Planning {
     const MatrixXd all = side_by_side(columns);
 
     q.sizes = 0;
+    q.chances = chances(joint.problem.groups[target]);
     for (std::size_t k = 0; k < effect.parameters.size(); ++k) {
       const ModelParameter& p = joint.problem.groups[target].parameters[k];
       q.sizes += p.is_free() && !p.shape_only ? 1 : 0;

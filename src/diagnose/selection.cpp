@@ -381,7 +381,8 @@ class Search {
       if (!best) continue;
       const BlockDifference better = difference(current_.block_error, best->block_error);
       const double earned = without.squared_error() - current_.squared_error();
-      // A moment that was looked for fits whatever happened then: the better shape of it counts.
+      // What was looked for at many places fits much of what is there: the better shape of it
+      // counts.
       const bool outdone = is_placed(group(g)) ? better.sum > 0
                                                : better.sum > student_factor_ * better.se &&
                                                      better.sum > outdone_gain * earned;
@@ -591,8 +592,8 @@ class Search {
       if (!is_open(c) || group(c).replaces == g) continue;
       const BlockFit rival = fit(with_group(selected_without(g), c), &current_);
       const BlockDifference excess = difference(rival.block_error, current_.block_error);
-      // A step at the very beginning is all but steady: it puts what is steady in doubt only where
-      // it does clearly better.
+      // A step at the very beginning is all but steady: what is looked for at many places puts
+      // others in doubt only where it does clearly better.
       const double allowed =
           is_placed(group(c)) && !is_placed(group(g)) ? -student_factor_ : student_factor_;
       // Where few blocks have most of the error, its sum is uncertain though all blocks agree.

@@ -319,7 +319,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
     const double wave =
         std::cos(2 * std::numbers::pi * (time - h.duration / 2) / h.wind_wave_period);
     // What changes of a wind along the first heading.
-    const double drift = h.wind_drift * (time / h.duration - 0.5) + h.wind_shear * (height - 10);
+    const double drift =
+        h.wind_drift * (time / h.duration - 0.5) + h.wind_shear * (height - 10 - h.climb / 2);
     const double along =
         h.wind + drift * ahead + h.wind_north * std::cos(yaw) + h.wind_east * std::sin(yaw) +
         (time > 0.6 * h.duration ? h.wind_step : 0) * ahead + h.wind_wave * wave * ahead;

@@ -85,7 +85,7 @@ struct HiddenFlight {
   double growing_pull = 0;        ///< N for each m from the station
   double station = 0;             ///< m from the start, along the first heading
   double wind_step = 0;           ///< m/s, from 60 % of the flight on
-  double wind_shear = 0;          ///< m/s for each m over the start
+  double wind_shear = 0;          ///< m/s for each m over the middle of the climb
   double wind_wave = 0;           ///< m/s, greatest in the middle of the flight
   double wind_wave_period = 160;  ///< s
   double mass_drop = 0;           ///< % of the mass, at 45 % of the flight

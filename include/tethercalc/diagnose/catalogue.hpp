@@ -21,15 +21,15 @@ enum class FlightPhase {
   attitude,  ///< the tilt that the thrust had
   air,       ///< the headwind and the drag law
   force,     ///< the drag, once airspeed and drag law are known
-  reading,   ///< the acceleration as the log's instruments tell it
+  reading,   ///< the acceleration: what answers all forces, then how the log's instruments tell it
 };
 
-/// Values of a parameter that depend on the log and are looked through before anything is fitted.
+/// Values of a parameter that are looked through before anything is fitted.
 enum class LookThrough {
   nothing,
   moments,  ///< of the log's clock, from 5 to 95 % of its duration; s
   periods,  ///< from one and a half durations of the log down to the parameter's lower bound; s
-  ratios,   ///< from the lower bound to the upper one, each a quarter more than the last
+  ratios,   ///< from the lower bound, > 0, to the upper one, each a quarter more than the last
 };
 
 /// What a flight must have to show a parameter. Across the heading a force or a wind does nothing
