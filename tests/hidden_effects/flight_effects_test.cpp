@@ -330,7 +330,7 @@ TEST_CASE("nothing hidden, nothing found") {
 TEST_CASE("no finding adds nothing and no extended model is worse, whatever the flight") {
   test::Random random(test::run_seed());
   int named = 0;
-  for (int i = 0; i < test::draws(60); ++i) {
+  for (int i = 0; i < std::max(6, test::draws(60)); ++i) {
     HiddenFlight hidden = drawn_flight(3000 + static_cast<std::uint64_t>(i));
     hidden.duration = random.uniform(75, 240);
     hidden.gust_std = random.uniform(0.1, 0.6);
