@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 
@@ -115,11 +116,13 @@ void lag(FlightPrediction& p, double constant) {
   lag_acceleration(p, constant);
 }
 
-/// A load on a rope below a drone that gives way to it, along one axis over ground: m ahead of the
-/// drone, and how fast.
+/// Along the mean heading, and to its right as the imaginary part.
+using InPlane = std::complex<double>;
+
+/// A load on a rope below a drone that gives way to it: m ahead of the drone, and how fast.
 struct Swing {
-  double ahead = 0;
-  double speed = 0;
+  InPlane ahead;
+  InPlane speed;
 };
 
 /// ẍ = −stiffness·x − 2·fading·ẋ − the acceleration that drives it.
@@ -127,15 +130,15 @@ struct Pendulum {
   double stiffness = 0;  ///< 1/s²
   double fading = 0;     ///< 1/s
 
-  [[nodiscard]] Swing hanging(double driving) const { return {-driving / stiffness, 0}; }
+  [[nodiscard]] Swing hanging(InPlane driving) const { return {-driving / stiffness, 0}; }
   /// `step` s later, of the same drive all the while.
-  [[nodiscard]] Swing moved(const Swing& from, double driving, double step) const {
+  [[nodiscard]] Swing moved(const Swing& from, InPlane driving, double step) const {
     const double turning = std::sqrt(stiffness - fading * fading);
     const double left = std::exp(-fading * step);
     const double cosine = left * std::cos(turning * step);
     const double sine = left * std::sin(turning * step);
-    const double still = hanging(driving).ahead;
-    const double off = from.ahead - still;
+    const InPlane still = hanging(driving).ahead;
+    const InPlane off = from.ahead - still;
     return {still + off * cosine + (from.speed + fading * off) / turning * sine,
             from.speed * cosine - (fading * from.speed + stiffness * off) / turning * sine};
   }
@@ -150,27 +153,22 @@ void swing(FlightPrediction& p, double load, double rope, double damping) {
   const FlightRecord& record = p.record;
   const double own = record.gravity / rope;  // 1/s², of the rope below a drone held still
   const Pendulum pendulum{.stiffness = (1 + load) * own, .fading = damping * std::sqrt(own)};
-  Swing along;
-  Swing right;
-  OverGround before{};
+  Swing swing;
+  InPlane before;
   for (std::size_t i = 0; i < record.size(); ++i) {
     // The thrust carries the load as well.
     const double more_lift = load * p.lift[i];
     const double forward = p.acceleration[i] + more_lift * p.tan_tilt[i];
     const double sideward = p.side_acceleration[i] + more_lift * p.sideward_thrust[i];
-    const OverGround driving = over_ground(record, i, {forward, record.both_axes ? sideward : 0});
+    const auto [along, right] = over_ground(record, i, {forward, record.both_axes ? sideward : 0});
+    const InPlane driving(along, right);
     const double step = i > 0 ? record.time[i] - record.time[i - 1] : infinity;
-    if (step > longest_step) {
-      along = pendulum.hanging(driving.along);
-      right = pendulum.hanging(driving.right);
-    } else {
-      along = pendulum.moved(along, (before.along + driving.along) / 2, step);
-      right = pendulum.moved(right, (before.right + driving.right) / 2, step);
-    }
+    swing = step > longest_step ? pendulum.hanging(driving)
+                                : pendulum.moved(swing, (before + driving) / 2.0, step);
     before = driving;
-    const AtDrone pull = at_drone(record, i, {along.ahead, right.ahead});
-    p.acceleration[i] = forward + load * own * pull.forward;
-    p.side_acceleration[i] = sideward + load * own * pull.right;
+    const AtDrone ahead = at_drone(record, i, {swing.ahead.real(), swing.ahead.imag()});
+    p.acceleration[i] = forward + load * own * ahead.forward;
+    p.side_acceleration[i] = sideward + load * own * ahead.right;
   }
 }
 

@@ -146,9 +146,8 @@ std::vector<UnnamedRegressor> flight_shapes(const Observations& o, const FlightR
   add_powers(shapes, "lateral_speed_m_s", "lateral speed", as_series(o.right_speed), "right_speed");
   add_powers(shapes, "vd_m_s", "vertical speed", as_series(o.down_speed), "down_speed");
   if (varies(as_series(o.down_speed))) {
-    Series height = as_series(record.height);
-    const std::string above = fmt::format("(height - {:.3f})", height.mean());
-    height -= height.mean();
+    const Series height = as_series(record.height) - record.mean_height;
+    const std::string above = fmt::format("(height - {:.3f})", record.mean_height);
     shapes.push_back({"height_m", "height", height, 1, above});
     shapes.push_back(
         {"height_m", "the square of the height from its mean", height.square(), 1, above + "^2"});

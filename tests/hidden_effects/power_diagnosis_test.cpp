@@ -507,7 +507,7 @@ TEST_CASE("clocks that disagree are set right and not taken for physics") {
   const double bus = GENERATE(0.0, 3.0, -2.0);
   const double flight = GENERATE(0.0, 4.0);
   if (bus == 0 && flight == 0) return;
-  if (test::leave_rates_out() && (bus == 0 || flight == 0)) return;
+  if (test::stride() > 1 && (bus == 0 || flight == 0)) return;
   Scenario scenario;
   scenario.bus_clock_offset = bus;
   scenario.flight_clock_offset = flight;

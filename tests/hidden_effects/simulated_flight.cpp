@@ -348,7 +348,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
                         mass;
     };
     const double halfway = speed + acceleration(speed) * step / 2;
-    const double ahead_over_ground = acceleration(halfway) - turn / step * right;
+    const double forward_acceleration = acceleration(halfway);
+    const double ahead_over_ground = forward_acceleration - turn / step * right;
     double aside_over_ground = 0;
     if (both_axes) {
       const double push_aside = lift * std::tan(roll) / std::cos(tilt) + rope_east * std::cos(yaw) -
@@ -359,8 +360,9 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
         return push_aside - side_drag(h, v - across, speed - along, roll, down) / mass;
       };
       const double half_aside = drifting + acceleration_aside(drifting) * step / 2;
-      aside_over_ground = acceleration_aside(half_aside) + turn / step * speed;
-      drifting += acceleration_aside(half_aside) * step;
+      const double right_acceleration = acceleration_aside(half_aside);
+      aside_over_ground = right_acceleration + turn / step * speed;
+      drifting += right_acceleration * step;
     }
 
     load.follow(ahead_over_ground * std::cos(yaw) - aside_over_ground * std::sin(yaw),
@@ -400,7 +402,7 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
         log.east_wind.push_back(measured * std::sin(yaw));
       }
     }
-    speed += acceleration(halfway) * step;
+    speed += forward_acceleration * step;
     north += (speed * std::cos(yaw) - right * std::sin(yaw)) * step;
     east += (speed * std::sin(yaw) + right * std::cos(yaw)) * step;
     if (flown != nullptr) {
