@@ -108,7 +108,7 @@ class FreedModel {
     }
     columns_.resize(record.rows(), static_cast<Index>(freed.unnamed.size()));
     for (std::size_t k = 0; k < freed.unnamed.size(); ++k) {
-      VectorXd column = record.scaled_column(record.problem().unnamed[freed.unnamed[k]].column);
+      VectorXd column = record.unnamed_columns().col(static_cast<Index>(freed.unnamed[k]));
       const double rms = std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
       if (rms > 0) column /= rms;
       column_size_.push_back(rms > 0 ? rms : 1);
@@ -424,6 +424,10 @@ Record::Record(const SelectionProblem& problem)
   block_begin_.push_back(rows());
   if (blocks() < fewest_blocks) {
     throw std::invalid_argument("the record has too few blocks with readings in them");
+  }
+  unnamed_columns_.resize(rows(), static_cast<Index>(problem.unnamed.size()));
+  for (Index k = 0; k < unnamed_columns_.cols(); ++k) {
+    unnamed_columns_.col(k) = scaled_column(problem.unnamed[static_cast<std::size_t>(k)].column);
   }
 }
 

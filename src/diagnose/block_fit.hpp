@@ -38,6 +38,8 @@ class Record {
   void residuals(const std::vector<double>& values, VectorXd& out) const;
   /// A column over the problem's rows, divided by the noise.
   [[nodiscard]] VectorXd scaled_column(const std::vector<double>& column) const;
+  /// The problem's regressors without a name, each so divided.
+  [[nodiscard]] const MatrixXd& unnamed_columns() const { return unnamed_columns_; }
 
  private:
   const SelectionProblem& problem_;
@@ -46,6 +48,7 @@ class Record {
   std::vector<std::size_t> rows_;
   std::vector<Index> block_begin_;
   VectorXd inverse_noise_;
+  MatrixXd unnamed_columns_;
   mutable std::vector<double> predicted_;
 };
 

@@ -201,26 +201,17 @@ struct BlockSums {
   double squared_residual = 0;
 };
 
-MatrixXd regressor_columns(const Record& record) {
-  const auto& unnamed = record.problem().unnamed;
-  MatrixXd columns(record.rows(), static_cast<Index>(unnamed.size()));
-  for (std::size_t k = 0; k < unnamed.size(); ++k) {
-    columns.col(static_cast<Index>(k)) = record.scaled_column(unnamed[k].column);
-  }
-  return columns;
-}
-
 /// Robustness weights count in the fits, not in the held-out error.
-BlockSums sums(const Record& record, const BlockFit& fit, const MatrixXd& columns,
-               std::size_t block, bool weighted) {
-  const auto rows = Eigen::seqN(record.block_begin(block), record.block_size(block));
+BlockSums sums(const Record& record, const BlockFit& fit, std::size_t block, bool weighted) {
+  const Index begin = record.block_begin(block);
+  const Index size = record.block_size(block);
   // A matrix without columns has no data that rows could point into.
-  const MatrixXd jacobian = fit.jacobian.cols() > 0 ? MatrixXd(fit.jacobian(rows, Eigen::all))
-                                                    : MatrixXd(record.block_size(block), 0);
-  const MatrixXd z = columns(rows, Eigen::all);
-  const VectorXd residual = fit.residual(rows);
-  VectorXd weight = VectorXd::Ones(residual.size());
-  if (weighted) weight = fit.weight(rows);
+  const MatrixXd jacobian =
+      fit.jacobian.cols() > 0 ? MatrixXd(fit.jacobian.middleRows(begin, size)) : MatrixXd(size, 0);
+  const auto z = record.unnamed_columns().middleRows(begin, size);
+  const VectorXd residual = fit.residual.segment(begin, size);
+  VectorXd weight = VectorXd::Ones(size);
+  if (weighted) weight = fit.weight.segment(begin, size);
   BlockSums s;
   s.normal = inner_products(weight.asDiagonal() * jacobian, jacobian);
   s.gradient = inner_products_with(jacobian, weight.cwiseProduct(residual));
@@ -668,14 +659,13 @@ std::optional<UnnamedTrial> best_unnamed(const Record& record, const BlockFit& f
                                          double false_alarm_probability) {
   const auto count = static_cast<Index>(record.problem().unnamed.size());
   if (count == 0) return std::nullopt;
-  const MatrixXd columns = regressor_columns(record);
   const auto blocks = static_cast<Index>(record.blocks());
 
   std::vector<BlockSums> held_out;
   std::vector<BlockSums> fitted;
   for (std::size_t b = 0; b < record.blocks(); ++b) {
-    held_out.push_back(sums(record, fit, columns, b, false));
-    fitted.push_back(sums(record, fit, columns, b, true));
+    held_out.push_back(sums(record, fit, b, false));
+    fitted.push_back(sums(record, fit, b, true));
   }
   BlockSums total = fitted.front();
   for (std::size_t b = 1; b < record.blocks(); ++b) add(total, fitted[b], 1);

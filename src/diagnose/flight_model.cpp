@@ -9,6 +9,7 @@
 #include "diagnose/flight_clock.hpp"
 #include "diagnose/flight_samples.hpp"
 #include "identify/flight_units.hpp"
+#include "identify/linear_algebra.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
@@ -159,33 +160,60 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
                            .scale = 0.5}}}};
 }
 
-/// Along one axis of each sample's heading, the mean over the two intervals around it of an
+/// Along the axes of each sample's heading, the mean over the two intervals around it of an
 /// acceleration over ground that is straight between samples, with the weights that the three-point
-/// derivative gives to the intervals.
-void average_around(const FlightPrediction& p, Axis axis, std::span<double> out) {
-  const FlightRecord& record = p.record;
-  const std::size_t size = record.size();
-  std::vector<OverGround> a(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    a[i] = over_ground(record, i, {p.acceleration[i], p.side_acceleration[i]});
-  }
-  const auto along_axis = [&](std::size_t i, const OverGround& x) {
-    const AtDrone here = at_drone(record, i, x);
-    return axis == Axis::forward ? here.forward : here.right;
-  };
-  for (std::size_t i = 0; i < size; ++i) {
-    if (i == 0 || i + 1 == size) {
-      out[i] = along_axis(i, a[i]);
-      continue;
+/// derivative gives to the intervals. At both ends the acceleration itself.
+class MeanAround {
+ public:
+  explicit MeanAround(const FlightRecord& record)
+      : before_(static_cast<Index>(record.size())), after_(before_) {
+    for (std::size_t i = 1; i + 1 < record.size(); ++i) {
+      const double before = record.time[i] - record.time[i - 1];
+      const double after = record.time[i + 1] - record.time[i];
+      before_.set(i, after / (2 * (before + after)), record.yaw[i] - record.yaw[i - 1]);
+      after_.set(i, before / (2 * (before + after)), record.yaw[i] - record.yaw[i + 1]);
     }
-    const double before = record.time[i] - record.time[i - 1];
-    const double after = record.time[i + 1] - record.time[i];
-    const double earlier = after / (2 * (before + after));
-    const double later = before / (2 * (before + after));
-    out[i] = along_axis(i, {earlier * a[i - 1].along + a[i].along / 2 + later * a[i + 1].along,
-                            earlier * a[i - 1].right + a[i].right / 2 + later * a[i + 1].right});
   }
-}
+  /// Of the predicted acceleration.
+  void along(Axis axis, const FlightPrediction& p, std::span<double> out) const {
+    const auto forward = series_over(p.acceleration);
+    const auto right = series_over(p.side_acceleration);
+    const Index size = forward.size();
+    auto mean = Eigen::Map<Series>(out.data(), size);
+    const auto& own = axis == Axis::forward ? forward : right;
+    mean = own;
+    if (size < 3) return;
+    const Index inner = size - 2;
+    mean.segment(1, inner) = own.segment(1, inner) / 2;
+    for (const auto& [there, first] :
+         {std::pair(&before_, Index{0}), std::pair(&after_, Index{2})}) {
+      const auto f = forward.segment(first, inner);
+      const auto r = right.segment(first, inner);
+      const auto c = there->cosine.segment(1, inner);
+      const auto s = there->sine.segment(1, inner);
+      if (axis == Axis::forward) {
+        mean.segment(1, inner) += c * f + s * r;
+      } else {
+        mean.segment(1, inner) += c * r - s * f;
+      }
+    }
+  }
+
+ private:
+  /// What of a neighbour's acceleration counts, seen from the sample's heading.
+  struct Neighbour {
+    Series
+        cosine;   ///< of how far the nose turns from the neighbour to the sample, times the weight
+    Series sine;  ///< likewise
+    explicit Neighbour(Index size) : cosine(Series::Zero(size)), sine(Series::Zero(size)) {}
+    void set(std::size_t i, double weight, double turned) {
+      cosine[static_cast<Index>(i)] = weight * std::cos(turned);
+      sine[static_cast<Index>(i)] = weight * std::sin(turned);
+    }
+  };
+  Neighbour before_;
+  Neighbour after_;
+};
 
 std::vector<LogModel::Span> spans_of(const std::vector<FlightData>& flights) {
   std::vector<LogModel::Span> spans;
@@ -265,6 +293,7 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
   }
 
   std::vector<FlightPrediction> predictions;
+  std::vector<MeanAround> means;
   const auto add_readings = [this](std::size_t flight, Axis axis,
                                    const std::vector<double>& acceleration) {
     readings_.push_back({flight, axis, problem.measured.size(), acceleration});
@@ -275,6 +304,7 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
   for (std::size_t k = 0; k < flights.size(); ++k) {
     add_readings(k, Axis::forward, flights[k].observations.forward_acceleration);
     predictions.emplace_back(flights[k].record);
+    means.emplace_back(flights[k].record);
   }
   for (std::size_t k = 0; k < flights.size(); ++k) {
     if (!flights[k].record.both_axes) continue;
@@ -282,14 +312,13 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
   }
   problem.noise.assign(problem.measured.size(), 1.0);
   add_kinds();
-  problem.predict = [this, predictions = std::move(predictions)](std::span<const double> values,
-                                                                 std::span<double> out) mutable {
+  problem.predict = [this, predictions = std::move(predictions), means = std::move(means)](
+                        std::span<const double> values, std::span<double> out) mutable {
     for (std::size_t k = 0; k < predictions.size(); ++k) {
       predict_acceleration(predictions[k], this->base(k, values), freed(k, values));
     }
     for (const Readings& r : readings_) {
-      const FlightPrediction& p = predictions[r.flight];
-      average_around(p, r.axis, rows_of(r, out));
+      means[r.flight].along(r.axis, predictions[r.flight], rows_of(r, out));
     }
   };
 }

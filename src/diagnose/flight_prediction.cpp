@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "identify/flight_units.hpp"
+#include "identify/linear_algebra.hpp"
 
 namespace tethercalc {
 namespace {
@@ -22,6 +23,10 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 constexpr int picard_iterations = 16;
 
 double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
+
+void set_cosines(const std::vector<double>& tangent, std::vector<double>& cosine) {
+  series_over(cosine) = (1 + series_over(tangent).square()).sqrt().inverse();
+}
 
 /// A speed added up from the first sample on.
 std::vector<double> added_up(const std::vector<double>& time, const std::vector<double>& speed) {
@@ -184,25 +189,14 @@ void pull(FlightPrediction& p, std::size_t i, double along, double right) {
   p.side_drag[i] -= force.right;
 }
 
-DragForces law_drag(const FlightPrediction& p, std::size_t i, double forward, double right) {
-  const double density = p.record.air_density;
-  // To both sides alike.
-  const AirframeDrag sideward{p.side_area, p.law.top_area, p.law.linear_speed, 0};
-  return {airframe_drag_along(p.law, density, forward, right,
-                              effective_area(p.law, p.tan_tilt[i], p.cos_tilt[i])),
-          airframe_drag_along(sideward, density, right, forward,
-                              effective_area(sideward, p.sideward_thrust[i], p.cos_sideward[i]))};
-}
-
 void predict_acceleration(FlightPrediction& p, const FlightBase& base,
                           std::span<const EffectValues> effects) {
   const FlightRecord& record = p.record;
   const std::size_t size = record.size();
   p.tilt = record.tilt;
-  for (std::size_t i = 0; i < size; ++i) {
-    p.headwind[i] = base.wind_gain * record.headwind[i];
-    p.aside[i] = record.right_speed[i] - base.wind_gain * record.crosswind[i];
-  }
+  series_over(p.headwind) = base.wind_gain * series_over(record.headwind);
+  series_over(p.aside) =
+      series_over(record.right_speed) - base.wind_gain * series_over(record.crosswind);
   p.sideward_thrust = record.sideward_thrust;
   p.law = {base.front_area, base.top_area, 0, 0};
   p.side_area = base.side_area;
@@ -212,32 +206,29 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   p.tan_tilt = record.tan_tilt;
   p.cos_tilt = record.cos_tilt;
   if (p.tilt != record.tilt) {
-    for (std::size_t i = 0; i < size; ++i) {
-      p.tan_tilt[i] = std::tan(p.tilt[i]);
-      p.cos_tilt[i] = cosine_of(p.tan_tilt[i]);
-    }
+    std::ranges::transform(p.tilt, p.tan_tilt.begin(), [](double tilt) { return std::tan(tilt); });
+    set_cosines(p.tan_tilt, p.cos_tilt);
   }
-  if (base.roll_trim != 0) {
-    for (double& thrust : p.sideward_thrust) thrust -= base.roll_trim;
-  }
+  if (base.roll_trim != 0) series_over(p.sideward_thrust) -= base.roll_trim;
   p.cos_sideward = record.cos_sideward;
-  if (p.sideward_thrust != record.sideward_thrust) {
-    std::transform(p.sideward_thrust.begin(), p.sideward_thrust.end(), p.cos_sideward.begin(),
-                   cosine_of);
-  }
+  if (p.sideward_thrust != record.sideward_thrust) set_cosines(p.sideward_thrust, p.cos_sideward);
+  series_over(p.airspeed) = series_over(record.forward_speed) - series_over(p.headwind);
   for (std::size_t i = 0; i < size; ++i) {
-    p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
     const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
     p.drag[i] = drag.forward;
     p.side_drag[i] = drag.right;
-    p.lift[i] = record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
   }
+  series_over(p.lift) =
+      record.gravity - base.vertical_acceleration_gain * series_over(record.down_acceleration);
   act(p, effects, FlightPhase::force);
 
-  for (std::size_t i = 0; i < size; ++i) {
-    p.acceleration[i] = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass;
-    p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass;
-  }
+  const auto accelerate = [&](const std::vector<double>& thrust, const std::vector<double>& drag,
+                              std::vector<double>& acceleration) {
+    series_over(acceleration) =
+        series_over(p.lift) * series_over(thrust) - series_over(drag) / record.mass;
+  };
+  accelerate(p.tan_tilt, p.drag, p.acceleration);
+  accelerate(p.sideward_thrust, p.side_drag, p.side_acceleration);
   act(p, effects, FlightPhase::reading);
 }
 

@@ -156,8 +156,17 @@ struct DragForces {
   double right = 0;
 };
 /// In sample `i`, by the law of the prediction.
-[[nodiscard]] DragForces law_drag(const FlightPrediction& prediction, std::size_t i, double forward,
-                                  double right);
+[[nodiscard]] inline DragForces law_drag(const FlightPrediction& prediction, std::size_t i,
+                                         double forward, double right) {
+  const FlightPrediction& p = prediction;
+  const double density = p.record.air_density;
+  // To both sides alike.
+  const AirframeDrag sideward{p.side_area, p.law.top_area, p.law.linear_speed, 0};
+  return {airframe_drag_along(p.law, density, forward, right,
+                              effective_area(p.law, p.tan_tilt[i], p.cos_tilt[i])),
+          airframe_drag_along(sideward, density, right, forward,
+                              effective_area(sideward, p.sideward_thrust[i], p.cos_sideward[i]))};
+}
 
 /// Samples first ≤ i < last of a flight.
 [[nodiscard]] FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t last);

@@ -426,7 +426,9 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
                                   std::span<double> out) const {
   const PowerStage& stage = stages_[k];
   const PowerInstruments& instruments = model.instruments;
-  const PowerLog log = without_errors(screened_.log, instruments);
+  std::optional<PowerLog> corrected;
+  if (instruments != PowerInstruments{}) corrected = without_errors(screened_.log, instruments);
+  const PowerLog& log = corrected ? *corrected : screened_.log;
   if (stage.stage == Stage::tether) {
     const std::vector<double> resistance = loop_resistance(model, log, memory_);
     const double noise =

@@ -79,32 +79,29 @@ TEST_CASE("of two axes a hidden effect is found first, with the truth in its int
                      {"velocity_lag", &HiddenFlight::velocity_lag, 0.15},
                      {"tether_pull", &HiddenFlight::tether_pull, 1},
                      {"wind_step", &HiddenFlight::wind_step, 3}};
-  constexpr int repeats = 2;
   std::size_t number = 0;
   int flights = 0, right = 0, named = 0, covered = 0;
   std::uint64_t seed = 8300;
   for (const Hidden& h : all) {
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-      HiddenFlight hidden = flown_to_the_side(++seed);
-      if (number++ % test::stride() != 0) continue;
-      hidden.*(h.field) = h.size;
-      const Diagnosis d = diagnosed(hidden);
-      INFO(h.effect << " seed " << seed);
-      ++flights;
-      CHECK_FALSE(d.findings.empty());
-      if (d.findings.empty()) continue;
-      const Finding& first = d.findings.front();
-      const auto& rivals = first.indistinguishable_from;
-      right += first.effect == h.effect ||
-               std::find(rivals.begin(), rivals.end(), h.effect) != rivals.end();
-      if (first.effect != h.effect) continue;
-      ++named;
-      covered += holds(&first.parameters.front(), h.size);
-    }
+    HiddenFlight hidden = flown_to_the_side(++seed);
+    if (number++ % test::stride() != 0) continue;
+    hidden.*(h.field) = h.size;
+    const Diagnosis d = diagnosed(hidden);
+    INFO(h.effect << " seed " << seed);
+    ++flights;
+    CHECK_FALSE(d.findings.empty());
+    if (d.findings.empty()) continue;
+    const Finding& first = d.findings.front();
+    const auto& rivals = first.indistinguishable_from;
+    right += first.effect == h.effect ||
+             std::find(rivals.begin(), rivals.end(), h.effect) != rivals.end();
+    if (first.effect != h.effect) continue;
+    ++named;
+    covered += holds(&first.parameters.front(), h.size);
   }
   CHECK(right >= flights - 1);
-  // At 95 % each, three of fourteen miss in 3 % of all cases, four in 0.4 %.
-  CHECK(covered >= named - 4);
+  // At 95 % each, three of seven miss in one of 260 cases.
+  CHECK(covered >= named - 2);
 }
 
 TEST_CASE("nothing hidden on two axes, nothing found") {
@@ -147,6 +144,6 @@ TEST_CASE("the drag of both axes and a wind over ground are learned from a fligh
     north += std::abs(along * c - right * s - hidden.wind_north) < 0.25;
     east += std::abs(along * s + right * c - hidden.wind_east) < 0.25;
   }
-  // Of six intervals of 95 % two miss in one of 450 cases, three in 12,000.
-  for (const int hits : {front, side, linear, north, east}) CHECK(hits >= draws - 2);
+  // Of six intervals of 95 % three miss in one of 450 cases, four in 12,000.
+  for (const int hits : {front, side, linear, north, east}) CHECK(hits >= draws - 3);
 }

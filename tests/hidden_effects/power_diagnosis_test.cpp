@@ -95,12 +95,14 @@ void detect(const HiddenEffect& effect, int logs, Detection& count) {
   }
 }
 
-/// Where sanitizers leave but few logs, one of them may miss.
-constexpr int may_miss = test::draws(12) < 12 ? 1 : 0;
+constexpr int detection_logs = 6;  // of an effect, over its strengths
+/// Of five in a hundred that go unseen two of some twenty logs are no surprise; where sanitizers
+/// leave but few logs, one of them may miss.
+constexpr int may_miss = 1;
 
 void check_detection(std::size_t first, std::size_t last) {
   Detection count;
-  const int draws = std::max(2, test::draws(12));  // the least and the greatest size
+  const int draws = std::max(2, test::draws(detection_logs));  // the least and the greatest size
   int logs = 0;
   for (std::size_t e = first; e < last; e += test::stride()) {
     detect(hidden_effects()[e], draws, count);
@@ -125,35 +127,7 @@ bool degenerate(const std::string& a, const std::string& b) {
          is("converter_efficiency_curve", "auxiliary_power");
 }
 
-void check_pairs(std::size_t remainder) {
-  if (test::leave_rates_out()) return;
-  // Those of the drone and its line; each instrument is paired with them through its rivals.
-  const auto effects = std::span(hidden_effects()).first(mechanisms);
-  int pairs = 0;
-  int found = 0;
-  std::string failures;
-  std::size_t number = 0;
-  for (std::size_t a = 0; a < effects.size(); ++a) {
-    for (std::size_t b = a + 1; b < effects.size(); ++b) {
-      if (degenerate(effects[a].id, effects[b].id) || number++ % 2 != remainder) continue;
-      Scenario scenario;
-      scenario.seed = seed(200'000 + number);
-      effects[a].hide(scenario.hidden, 0.6);
-      effects[b].hide(scenario.hidden, 0.6);
-      const Diagnosis d = diagnosis_of(scenario);
-      const bool both = any_names(d, effects[a].id) && any_names(d, effects[b].id);
-      ++pairs;
-      found += both;
-      if (!both) failures += effects[a].id + " and " + effects[b].id + ": " + summary(d) + "\n";
-    }
-  }
-  INFO(failures);
-  // Seen: 89 % of 315 pairs, most misses a translational lift beside another. Of 31 pairs nine are
-  // missed by a chance of one in 200.
-  CHECK(found >= 0.72 * pairs);
-}
-
-constexpr int quiet_logs = test::draws(60);
+constexpr int quiet_logs = test::draws(40);
 /// 5 %; of few logs one may be.
 constexpr int most_alarms = std::max(1, quiet_logs / 20);
 
@@ -362,12 +336,38 @@ TEST_CASE("every effect gets one verdict, and none that is ruled out is there") 
   CHECK(wrong <= 4);
 }
 
-TEST_CASE("two power effects at once are both found, first half of the pairs") { check_pairs(0); }
-
-TEST_CASE("two power effects at once are both found, second half of the pairs") { check_pairs(1); }
+TEST_CASE("two power effects at once are both found") {
+  if (test::leave_rates_out()) return;
+  constexpr std::size_t sieve = 4;  // every seed tries others of the pairs
+  // Those of the drone and its line; each instrument is paired with them through its rivals.
+  const auto effects = std::span(hidden_effects()).first(mechanisms);
+  int pairs = 0;
+  int found = 0;
+  std::string failures;
+  std::size_t number = 0;
+  for (std::size_t a = 0; a < effects.size(); ++a) {
+    for (std::size_t b = a + 1; b < effects.size(); ++b) {
+      if (degenerate(effects[a].id, effects[b].id) || number++ % sieve != test::run_seed() % sieve)
+        continue;
+      Scenario scenario;
+      scenario.seed = seed(200'000 + number);
+      effects[a].hide(scenario.hidden, 0.6);
+      effects[b].hide(scenario.hidden, 0.6);
+      const Diagnosis d = diagnosis_of(scenario);
+      const bool both = any_names(d, effects[a].id) && any_names(d, effects[b].id);
+      ++pairs;
+      found += both;
+      if (!both) failures += effects[a].id + " and " + effects[b].id + ": " + summary(d) + "\n";
+    }
+  }
+  INFO(failures);
+  // Seen: 89 % of 315 pairs, most misses a translational lift beside another. Of 15 pairs six are
+  // missed by a chance of one in 300.
+  CHECK(found >= 0.65 * pairs);
+}
 
 TEST_CASE("what no power effect describes is seen, with its channel, and not given a name") {
-  constexpr int sizes = 10;
+  constexpr int sizes = 5;
   std::uint64_t number = 0;
   int right = 0;
   int total = 0;
@@ -394,10 +394,10 @@ TEST_CASE("what no power effect describes is seen, with its channel, and not giv
 
 TEST_CASE("at one height contacts, drum and resistivity are declared indistinguishable") {
   // A rival is left out where the log speaks against it with less than 5 % of the likelihood, so
-  // about one log in ten names but two of the three: of 20, 14 is 2.5 standard deviations below.
+  // about one log in ten names but two of the three: of 12, five do by a chance of one in 200.
   int declared = 0;
   std::string failures;
-  const int logs = test::draws(20);
+  const int logs = test::draws(12);
   for (int i = 0; i < logs; ++i) {
     Scenario scenario;
     scenario.profile = Profile::one_height;
@@ -414,7 +414,7 @@ TEST_CASE("at one height contacts, drum and resistivity are declared indistingui
     if (!all) failures += summary(d) + "\n";
   }
   INFO(failures);
-  CHECK(declared >= 0.7 * logs);
+  CHECK(declared >= 0.7 * logs - 1);
 }
 
 TEST_CASE("without the drone's voltage what needs it is not testable, the motors still are") {
