@@ -129,6 +129,9 @@ constexpr const char* masses = "drone.mass_g=1400:1800:0.02";
 constexpr const char* voltages = "supply.voltage_V=75:130:0.0025";
 constexpr const char* lengths = "tether.length_m=10:35:0.00125";
 constexpr const char* headwinds = "flight.headwind_m_s=0:6:0.0003";
+constexpr const char* light_winds = "flight.headwind_m_s=0:2:0.0001";
+constexpr const char* slacks = "tether.slack_percent=1:10:0.00045";
+constexpr const char* places = "flight.horizontal_offset_m=5:12:0.00035";
 BENCHMARK_CAPTURE(straight_tether_over, mass, masses, 20000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(straight_tether_over, voltage, voltages, 20000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(straight_tether_over, length, lengths, 20000)->Arg(1)->Apply(processor_time);
@@ -138,6 +141,8 @@ BENCHMARK_CAPTURE(slack_tether_over, voltage, voltages, 20000)->Arg(1)->Apply(pr
 BENCHMARK_CAPTURE(slack_tether_over, length, lengths, 20000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(slack_tether_over, headwind, headwinds, 20000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(winched_tether_over, mass, masses, 5000)->Arg(1)->Apply(processor_time);
-BENCHMARK_CAPTURE(winched_tether_over, headwind, headwinds, 20)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(winched_tether_over, headwind, light_winds, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(slack_tether_over, slack, slacks, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(slack_tether_over, aside, places, 20000)->Arg(1)->Apply(processor_time);
 
 }  // namespace

@@ -2,25 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "model/cable_memory.hpp"
 
 namespace tethercalc {
 namespace {
 
 /// Drag over weight below which a cable above its station is a fold, over its slack.
 constexpr double folded_below = 0.02;
-/// What a polynomial's last terms may be of the greatest tension: the solver's own error is 1e-10
-/// mostly.
-constexpr double little_of_tension = 4e-9;
-constexpr double widest_piece = 1.0 / 4;  // octaves
-constexpr double narrowest_piece = 1.0 / 1024;
+constexpr double narrowest_piece = 1.0 / 1024;  // octaves
 /// log2(drag/weight) beyond which nothing is remembered.
 constexpr double most_octaves = 60;
-
-double weight_slope_at(const HangingSituation& situation, double radius) {
-  return situation.weight[1] + 2 * radius * situation.weight[2];
-}
 
 /// N/m², of the wind at its reference height on a width.
 double pressure_on(const HangingSituation& situation) {
@@ -42,6 +35,10 @@ double slack_above_station(const HangingSituation& situation) {
 double weight_at(const HangingSituation& situation, double radius) {
   const auto& [w0, w1, w2] = situation.weight;
   return w0 + radius * (w1 + radius * w2);
+}
+
+double weight_slope_at(const HangingSituation& situation, double radius) {
+  return situation.weight[1] + 2 * radius * situation.weight[2];
 }
 
 OwnLoad own_load(const HangingSituation& situation, double radius) {
@@ -127,18 +124,27 @@ CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver
 }
 
 std::optional<HangingSituation> normal_form(const HangingSituation& situation) {
+  const double length = situation.paid_out.length.value_or(0);
+  if (!(length > std::hypot(situation.height, situation.offset)) ||
+      length > situation.cable_there_is) {
+    return std::nullopt;
+  }
+  auto normal = normal_surroundings(situation);
+  if (normal) normal->paid_out.length = length / situation.height;
+  return normal;
+}
+
+std::optional<HangingSituation> normal_surroundings(const HangingSituation& situation) {
   const MovingAir& air = situation.air;
   const double height = situation.height;
-  const double length = situation.paid_out.length.value_or(0);
-  if (!(length > std::hypot(height, situation.offset)) || length > situation.cable_there_is ||
-      !(height > 0) || situation.axial_stiffness || situation.by_reynolds_number ||
+  if (!(height > 0) || situation.axial_stiffness || situation.by_reynolds_number ||
       air.wind.y != 0 || air.wind.z != 0 || air.drone_velocity != Vector3{}) {
     return std::nullopt;
   }
   HangingSituation normal{.weight = {1, 0, 0}, .width = {0, 2}, .air = {}, .paid_out = {}};
+  normal.shared = situation.shared;
   normal.height = 1;
   normal.offset = situation.offset / height;
-  normal.paid_out.length = length / height;
   normal.air.density = 1;
   normal.air.wind.x = air.wind.x > 0 ? 1 : -1;
   normal.air.profile = air.profile;
@@ -166,10 +172,15 @@ std::shared_ptr<const SimilarCables> SimilarCables::of(const HangingSituation& s
   return cables;
 }
 
-SimilarCables::SimilarCables(const HangingSituation& normal)
-    : normal_(normal), first_(folded_below * slack_above_station(normal)), folds_(first_ > 0) {
-  if (!folds_) first_ = 1;
+double first_ratio(const HangingSituation& normal) {
+  if (const double slack = slack_above_station(normal); slack > 0) return folded_below * slack;
+  const double offset = normal.offset;
+  const bool opposed = normal.air.profile == WindProfile::uniform && normal.air.wind.x < 0;
+  return offset > 0 && opposed ? offset * std::hypot(1, offset) : 1;
 }
+
+SimilarCables::SimilarCables(const HangingSituation& normal)
+    : normal_(normal), first_(first_ratio(normal)), folds_(slack_above_station(normal) > 0) {}
 
 std::optional<SimilarCables::At> SimilarCables::at(double ratio) const {
   if (ratio == 0) {
@@ -206,9 +217,14 @@ std::optional<SimilarCables::At> SimilarCables::solved_at(double ratio) const {
 }
 
 void SimilarCables::make(Piece& piece, double from, double width) const {
-  if (fit(piece, from, width)) {
+  using Known = CableMemory::Piece;
+  const auto& memory = normal_.shared.memory;
+  const Known known =
+      memory ? memory->along_ratio(normal_, from, width, piece.value) : Known::not_known;
+  if (known == Known::smooth || (known == Known::not_known && fit(piece.value, from, width))) {
+    piece.slope = slope_of(piece.value, width);
     piece.kind = Piece::Kind::smooth;
-  } else if (width > narrowest_piece) {
+  } else if (width > narrowest_piece && known != Known::too_sharp) {
     piece.halves = std::make_unique<std::array<Piece, 2>>();
     piece.kind = Piece::Kind::halved;
   } else {
@@ -216,53 +232,21 @@ void SimilarCables::make(Piece& piece, double from, double width) const {
   }
 }
 
-bool SimilarCables::fit(Piece& piece, double from, double width) const {
-  // cos(π·i/8)
-  static const std::array<double, 2 * degree> cosines = [] {
-    std::array<double, 2 * degree> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i] = std::cos(std::numbers::pi * static_cast<double>(i) / degree);
-    }
-    return out;
-  }();
+bool SimilarCables::fit(Series& value, double from, double width) const {
   // Both ends from nothing, as the pieces beside this have them; between them each from the last.
   CableSolver solver(most_steps_for_load);
   Series solved{};
   double tension = 0;
-  for (std::size_t j = 0; j <= degree; ++j) {
-    if (j == degree) solver = CableSolver(most_steps_for_load);
+  for (std::size_t j = 0; j <= load_degree; ++j) {
+    if (j == load_degree) solver = CableSolver(most_steps_for_load);
     LoadShares shares{};
-    const double octaves = from + 0.5 * width * (1 + cosines[j]);
-    if (solve_shares(normal_, solver, first_ * std::exp2(octaves), shares) != CableOutcome::hangs) {
-      return false;
-    }
+    const double ratio = first_ * std::exp2(load_place(from, width, j));
+    if (solve_shares(normal_, solver, ratio, shares) != CableOutcome::hangs) return false;
     std::copy_n(shares.begin(), forces, solved[j].begin());
     tension = std::max(tension, shares[2]);
   }
-  for (std::size_t k = 0; k <= degree; ++k) {
-    Forces& term = piece.value[k];
-    term = {};
-    for (std::size_t j = 0; j <= degree; ++j) {
-      const double weight = (j == 0 || j == degree ? 1.0 : 2.0) / degree *
-                            (k == 0 || k == degree ? 0.5 : 1.0) * cosines[j * k % cosines.size()];
-      for (std::size_t i = 0; i < forces; ++i) term[i] += weight * solved[j][i];
-    }
-    if (k < degree - 1) continue;
-    for (const double part : term) {
-      if (!(std::abs(part) < little_of_tension * tension)) return false;
-    }
-  }
-  // d/dx of T_k by those before it; x runs from −1 to 1 as ln(drag/weight) by width·ln 2.
-  const double per_x = 2 / (width * std::numbers::ln2);
-  Series& slope = piece.slope;
-  for (std::size_t k = degree; k-- > 0;) {
-    for (std::size_t i = 0; i < forces; ++i) {
-      const double beyond = k + 2 <= degree ? slope[k + 2][i] : 0;
-      slope[k][i] = beyond + 2 * static_cast<double>(k + 1) * piece.value[k + 1][i] * per_x;
-    }
-  }
-  for (double& part : slope[0]) part *= 0.5;
-  return true;
+  value = series_through(solved);
+  return is_converged(value, tension);
 }
 
 SimilarCables::At SimilarCables::on(const Piece& piece, double share) const {
@@ -270,7 +254,7 @@ SimilarCables::At SimilarCables::on(const Piece& piece, double share) const {
   const double x = 2 * share - 1;
   std::array<double, 2 * forces> now{};
   std::array<double, 2 * forces> before{};
-  for (std::size_t k = degree; k > 0; --k) {
+  for (std::size_t k = load_degree; k > 0; --k) {
     for (std::size_t i = 0; i < forces; ++i) {
       const double value = piece.value[k][i] + 2 * x * now[i] - before[i];
       const double slope = piece.slope[k][i] + 2 * x * now[forces + i] - before[forces + i];

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "model/load_series.hpp"
 #include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc {
@@ -13,6 +14,12 @@ namespace tethercalc {
 /// A load over the cable's own (`own_load`): against the wind, down, tension at the drone, tension
 /// at the ground, across the wind; and m of cable in the air.
 using LoadShares = std::array<double, 6>;
+
+/// Drag over weight in normal form from which octaves are counted: where forces are least smooth. A
+/// cable above its station ceases to be a fold there; to one aside in an even wind that blows over
+/// the station weight and drag across the chord, offset/chord and ratio·(height/chord)², balance.
+/// Else 1.
+[[nodiscard]] double first_ratio(const HangingSituation& normal);
 
 /// Of a solver whose loads are remembered.
 constexpr int most_steps_for_load = 4000;
@@ -25,8 +32,9 @@ struct OwnLoad {
   double slope = 0;
 };
 
-/// N/m of the cable with conductors of `radius`.
+/// N/m of the cable with conductors of `radius`, and its derivative by that.
 [[nodiscard]] double weight_at(const HangingSituation& situation, double radius);
+[[nodiscard]] double weight_slope_at(const HangingSituation& situation, double radius);
 
 /// hypot(weight, drag)·height + winch tension.
 [[nodiscard]] OwnLoad own_load(const HangingSituation& situation, double radius);
@@ -52,7 +60,7 @@ class SimilarCables {
   /// for all that ask in a thread.
   [[nodiscard]] static std::shared_ptr<const SimilarCables> of(const HangingSituation& situation);
 
-  /// `normal` as `normal_form` has it.
+  /// `normal` as `normal_form` has it. What its memory knows is taken from there.
   explicit SimilarCables(const HangingSituation& normal);
 
   /// What a load is over the cable's own, and its derivative by the logarithm of drag over weight.
@@ -64,21 +72,19 @@ class SimilarCables {
   [[nodiscard]] std::optional<At> at(double drag_over_weight) const;
 
  private:
-  static constexpr std::size_t degree = 8;
   /// Forces, without the one across, of which there is none, and the length.
   static constexpr std::size_t forces = 4;
-  using Forces = std::array<double, forces>;
-  using Series = std::array<Forces, degree + 1>;
+  using Series = LoadSeries<forces>;
 
   /// A part of an octave of drag over weight.
   struct Piece {
     enum class Kind { unknown, smooth, halved, solved_where_asked } kind = Kind::unknown;
-    Series value{};  ///< by Chebyshev's polynomials
-    Series slope{};  ///< of the derivative by the logarithm
+    Series value{};
+    Series slope{};  ///< by the logarithm
     std::unique_ptr<std::array<Piece, 2>> halves{};
   };
   void make(Piece& piece, double from, double width) const;
-  [[nodiscard]] bool fit(Piece& piece, double from, double width) const;
+  [[nodiscard]] bool fit(Series& value, double from, double width) const;
   [[nodiscard]] At on(const Piece& piece, double share) const;
   [[nodiscard]] std::optional<At> solved_at(double drag_over_weight) const;
 
@@ -92,6 +98,10 @@ class SimilarCables {
 /// `situation` with a weight of 1 N/m, a height of 1 m and the drag over the weight as the radius;
 /// nothing where more than that decides how its cable hangs.
 [[nodiscard]] std::optional<HangingSituation> normal_form(const HangingSituation& situation);
+
+/// The same but for what is paid out, which may be a winch's.
+[[nodiscard]] std::optional<HangingSituation> normal_surroundings(
+    const HangingSituation& situation);
 
 /// Drag over weight with conductors of `radius`, and its derivative by that.
 struct DragOverWeight {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "model/cable_memory.hpp"
 #include "model/similar_cables.hpp"
 
 namespace tethercalc {
@@ -108,15 +109,24 @@ HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked aske
       asked_(asked) {}
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
+  if (const CableMemory* memory = situation_.shared.memory.get()) {
+    if (const auto known = memory->on_winch(situation_, std::exp(log_radius))) {
+      const bool reaches = known->value.back() <= situation_.cable_there_is;
+      return {reaches ? CableOutcome::hangs : CableOutcome::too_short, known->value, known->slope};
+    }
+  }
   // Each from nothing, so that an answer does not depend on what was asked before.
   CableSolver solver(most_steps_for_load);
   Node node;
   node.outcome = solve_shares(situation_, solver, std::exp(log_radius), node.value);
   if (node.outcome != CableOutcome::hangs) return node;
-  Values beyond{};
-  node.outcome = solve_shares(situation_, solver, std::exp(log_radius + slope_step), beyond);
+  Values above{};
+  Values below{};
+  node.outcome = solve_shares(situation_, solver, std::exp(log_radius + slope_step), above);
+  if (node.outcome != CableOutcome::hangs) return node;
+  node.outcome = solve_shares(situation_, solver, std::exp(log_radius - slope_step), below);
   for (std::size_t i = 0; i < part_count; ++i) {
-    node.slope[i] = (beyond[i] - node.value[i]) / slope_step;
+    node.slope[i] = (above[i] - below[i]) / (2 * slope_step);
   }
   return node;
 }
@@ -350,7 +360,8 @@ HangingSituation hanging_situation(const Tether& tether, double wall, const Flig
           .cable_there_is = cable_there_is(state),
           .axial_stiffness = tether.axial_stiffness,
           .offset = flight.horizontal_offset,
-          .height = state.deployed};
+          .height = state.deployed,
+          .shared = tether.shared};
 }
 
 HangingSituation hanging_situation(const Design& design, const FlightState& state) {

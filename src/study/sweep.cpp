@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/cable_family.hpp"
 #include "model/constants.hpp"
 
 namespace tethercalc {
@@ -23,6 +24,28 @@ SweepOutcome given_cable(const Design& design) {
 
 JudgedRow judged(const SweepOutcome& outcome, const Design& design) {
   return {outcome.area(), judged_power(outcome, design), outcome.feasible};
+}
+
+/// Whether the designs of a sweep differ by one number that decides how a solved tether hangs, so
+/// that each would have its own cables; nothing where so few rows would not pay for solving the
+/// cables between them as well.
+std::optional<CableNumber> number_of_cables(const SweepSpace& space, const Design& base) {
+  constexpr std::uint64_t worth_it = 500;
+  constexpr std::uint64_t looked_at = 16;
+  if (space.rows() < worth_it) return std::nullopt;
+  std::vector<Design> designs;
+  SweepCursor cursor(space, base);
+  for (const std::uint64_t row : spread_rows(space.rows(), looked_at)) {
+    cursor.move_to(row);
+    designs.push_back(cursor.design());
+  }
+  return told_apart_by(designs);
+}
+
+/// For one thread.
+Design sharing_cables(Design base, std::optional<CableNumber> number) {
+  if (number) base.tether.shared.memory = std::make_shared<const CableFamilies>(*number);
+  return base;
 }
 
 /// Appends what a point of two samples comes to: in the first, in the second, and in the first with
@@ -124,10 +147,11 @@ void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChun
   if (all.begin >= all.end) return;
   const std::uint64_t chunks = (all.end - all.begin + rows_per_chunk - 1) / rows_per_chunk;
   const bool given_area = varies_cross_section(*job.space);
+  const auto number = number_of_cables(*job.space, *job.base);
 
   const auto make_worker = [&] {
-    return [&, cursor = SweepCursor(*job.space, *job.base)](std::uint64_t index,
-                                                            SweepChunk& chunk) mutable {
+    return [&, cursor = SweepCursor(*job.space, sharing_cables(*job.base, number))](
+               std::uint64_t index, SweepChunk& chunk) mutable {
       chunk.range.begin = all.begin + index * rows_per_chunk;
       chunk.range.end = std::min(chunk.range.begin + rows_per_chunk, all.end);
       chunk.text.clear();
@@ -164,8 +188,10 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   using Rows = std::vector<JudgedRow>;
   const SamplePlan plan{result.points, space.sample()->method, space.sample()->seed};
   const bool given_area = varies_cross_section(space);
+  const auto number = number_of_cables(space, base);
   const auto make_worker = [&] {
-    return [&, cursor = SweepCursor(space, base), points = UnitPoints(plan, 2 * axes),
+    return [&, cursor = SweepCursor(space, sharing_cables(base, number)),
+            points = UnitPoints(plan, 2 * axes),
             unit = std::vector<double>(2 * axes)](std::uint64_t index, Rows& rows) mutable {
       rows.clear();
       const std::uint64_t begin = index * points_per_chunk;

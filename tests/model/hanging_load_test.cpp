@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "model/cable_family.hpp"
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
 #include "tethercalc/model/operating_point.hpp"
@@ -158,6 +159,54 @@ TEST_CASE("where drag over weight decides how a cable hangs, its load is the sol
     const bool folds = drag_across(cable, s.air, s.air.wind.x) < 0.02 * slack * cable.weight;
     CHECK(error_of_load(s, radius) < (folds ? 3e-3 : 3e-7));
   });
+}
+
+TEST_CASE("with cables of other slacks, places or winds a load is the solver's to 3e-7 as well") {
+  each_random(test::draws(45), [](Random& random) {
+    HangingSituation s = drawn_plain_situation(random);
+    const bool profile = s.air.profile != WindProfile::uniform;
+    if (profile && random.chance(0.5)) s.air.even_share = random.uniform(0, 1.5);
+    const CableNumber place =
+        random.chance(0.5) && s.offset > 0 ? CableNumber::aside : CableNumber::slack;
+    const CableNumber number = s.air.even_share > 0 ? CableNumber::own_speed : place;
+    s.shared.memory = std::make_shared<const CableFamilies>(number);
+    const double radius = random.magnitude(1e-4, 2e-3);
+    const double slack = s.offset == 0 ? *s.paid_out.length / s.height - 1 : 0;
+    const Cable cable = cable_at(s, radius);
+    const bool folds = drag_across(cable, s.air, s.air.wind.x) < 0.02 * slack * cable.weight;
+    INFO("number " << static_cast<int>(number));
+    CHECK(error_of_load(s, radius) < (folds ? 3e-3 : 3e-7));
+  });
+}
+
+TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of its tension") {
+  int hangs = 0;
+  int far_off = 0;
+  each_random(test::draws(40), [&](Random& random) {
+    HangingSituation s = drawn_situation(random);
+    s.axial_stiffness.reset();
+    s.air.drone_velocity = {};
+    s.paid_out = {.length = {},
+                  .winch_tension = std::hypot(s.height, s.offset) * random.uniform(0.3, 1.5)};
+    const double radius = random.magnitude(1e-4, 2e-3);
+    const HangingLoad::Parts alone = HangingLoad(s).at(radius).value;
+    s.shared.memory = std::make_shared<const CableFamilies>(CableNumber::winch_tension);
+    const HangingLoad::Parts shared = HangingLoad(s).at(radius).value;
+    INFO(alone.down << " " << shared.down);
+    CHECK((alone.down < INFINITY) == (shared.down < INFINITY));
+    if (!(alone.down < INFINITY)) return;
+    ++hangs;
+    const double error =
+        std::max({std::abs(alone.along - shared.along), std::abs(alone.down - shared.down),
+                  std::abs(alone.tension_at_drone - shared.tension_at_drone)}) /
+        alone.tension_at_drone;
+    if (!(error < 1e-5)) ++far_off;
+    CHECK(error < 1e-3);
+    CHECK(shared.length == Approx(alone.length).epsilon(1e-3));
+  });
+  CAPTURE(hangs, far_off);
+  CHECK(hangs > 0);
+  CHECK(far_off <= test::draws(40) / 20);
 }
 
 TEST_CASE(

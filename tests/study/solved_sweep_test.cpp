@@ -1,8 +1,13 @@
 // Rows of a sweep with cables as they hang: each by itself, whatever was computed before it.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/random_designs.hpp"
@@ -38,6 +43,59 @@ std::vector<std::vector<double>> rows_in_new_thread(const std::vector<Design>& d
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 }  // namespace
+
+TEST_CASE("rows that share cables of other slacks, places or winches say what each says alone") {
+  struct Swept {
+    const char* what;
+    double lo;
+    double hi;
+    void (*apply)(Design&, double);
+  };
+  const Swept all[]{{"slack", 0.01, 0.05, [](Design& d, double x) { d.tether.slack = x; }},
+                    {"aside", 2, 9, [](Design& d, double x) { d.flight.horizontal_offset = x; }},
+                    {"winch", 8, 14, [](Design& d, double x) { d.tether.winch_pull = x; }},
+                    {"wind", 0, 3, [](Design& d, double x) { d.flight.headwind = x; }}};
+  for (std::size_t k = 0; k<std::size(all); k += test::stride()> 1 ? 3 : 1) {
+    const Swept& swept = all[k];
+    INFO(swept.what);
+    Design base = test::published_design();
+    base.tether.model = TetherModel::solved;
+    base.requirements.thrust_headroom = 1.3;
+    if (swept.apply == all[3].apply) base.flight.wind_profile = WindProfile::power_law;
+    const std::int64_t rows = 500;
+    const auto lo = static_cast<std::int64_t>(std::lround(1e6 * swept.lo));
+    const auto step = static_cast<std::int64_t>(std::lround(1e6 * (swept.hi - swept.lo))) / rows;
+    const SweepSpace space({{swept.what, DecimalRange{lo, step, rows, 6}, swept.apply}});
+    std::vector<std::pair<double, double>> shared;  // m², W
+    const auto write = [&](std::string& text, const SweepRow& row) {
+      fmt::format_to(std::back_inserter(text), "{} {}\n", row.outcome.area(),
+                     judged_power(row.outcome, row.design));
+    };
+    SweepJob job{&space, &base, write, {0, space.rows()}, 0, {}};
+    std::string whole;
+    compute_sweep(job, [&](const SweepChunk& chunk) {
+      whole += chunk.text;
+      for (const JudgedRow& row : chunk.judged) shared.emplace_back(row.area, row.power);
+      return true;
+    });
+    job.range = {400, space.rows()};
+    std::string end;
+    compute_sweep(job, [&](const SweepChunk& chunk) {
+      end += chunk.text;
+      return true;
+    });
+    CHECK(whole.ends_with(end));
+    SweepCursor cursor(space, base);
+    for (std::uint64_t row = 3; row < space.rows(); row += 101) {
+      cursor.move_to(row);
+      const SweepOutcome alone = sweep_outcome(cursor.design());
+      INFO("row " << row);
+      // About a minimum the power hardly depends on the area.
+      CHECK(shared[row].first == Approx(alone.area()).epsilon(1e-5));
+      CHECK(shared[row].second == Approx(judged_power(alone, cursor.design())).epsilon(1e-7));
+    }
+  }
+}
 
 TEST_CASE("a row of a sweep over a solved tether is the same whatever was computed before it") {
   test::each_random(2, [](Random& random) {

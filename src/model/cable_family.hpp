@@ -1,0 +1,103 @@
+// Loads of cables that differ by the wind's drag over their weight and by one number more.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "model/cable_memory.hpp"
+#include "model/load_series.hpp"
+#include "tethercalc/model/design.hpp"
+
+namespace tethercalc {
+
+/// The number that tells cables apart beside drag over weight.
+enum class CableNumber {
+  slack,          ///< length over the distance to the drone, less 1
+  aside,          ///< how far the drone stands aside, over its height
+  own_speed,      ///< share of the wind that no profile shapes, `MovingAir::even_share`
+  winch_tension,  ///< over weight times height
+};
+
+/// In normal form, cables of every drag over weight and every value of the number.
+///
+/// Over the logarithm of drag over weight, as in `SimilarCables`, and the number's scale forces are
+/// polynomials of degree 8 in both through 81 solved cables, on squares of a quarter of an octave
+/// or on halves of halves of those until what they miss is about 1e-9 of the tension. A square is
+/// always the same, whatever was asked for before. Remembers what it solved; not for two threads at
+/// once.
+class CableFamily {
+ public:
+  /// `one` is any cable of it.
+  CableFamily(const HangingSituation& one, CableNumber number) : one_(one), number_(number) {}
+
+  /// As `CableMemory` has them, where the number has its `place`: its logarithm to base 2, but of
+  /// the share, which may be 0, four times that.
+  [[nodiscard]] CableMemory::Piece along_ratio(double from, double width, double place,
+                                               LoadSeries<4>& series) const;
+
+  /// Shares of a load, and their slopes by the natural logarithms of ratio and number.
+  struct At {
+    LoadShares value{};
+    LoadShares by_ratio{};
+    LoadShares by_number{};
+  };
+  /// Nothing where forces are too sharp, or no cable hangs, about there.
+  [[nodiscard]] std::optional<At> at(double drag_over_weight, double place) const;
+
+ private:
+  /// Those four and the length.
+  static constexpr std::size_t parts = 5;
+  /// A series of the number for each term of a series of the ratio.
+  static constexpr std::size_t terms = parts * (load_degree + 1);
+  struct Square {
+    enum class Kind { unknown, smooth, halved_by_ratio, halved_by_number, given_up };
+    Kind kind = Kind::unknown;
+    std::unique_ptr<LoadSeries<terms>> series{};
+    std::unique_ptr<std::array<Square, 2>> halves{};
+  };
+  /// Where a square begins, and how wide it is.
+  struct Bounds {
+    double ratio = 0;
+    double ratio_width = 0;
+    double number = 0;
+    double number_width = 0;
+  };
+  [[nodiscard]] HangingSituation cable_at(double place) const;
+  void make(Square& square, const Bounds& bounds) const;
+  /// Whether the cables of the square hang, and their series.
+  [[nodiscard]] bool solve(const Bounds& bounds, LoadSeries<terms>& series, double& tension) const;
+  /// The square about a point that is not halved, or by number alone down to this width by ratio.
+  [[nodiscard]] std::pair<const Square*, Bounds> square_about(double octaves, double place,
+                                                              double narrowest = 0) const;
+
+  HangingSituation one_;
+  CableNumber number_;
+  mutable std::map<std::pair<int, int>, Square> squares_;  ///< the widest, by their numbers
+};
+
+/// The families of one number, for designs that differ by it. Not for two threads at once.
+class CableFamilies : public CableMemory {
+ public:
+  explicit CableFamilies(CableNumber number) : number_(number) {}
+  [[nodiscard]] Piece along_ratio(const HangingSituation& normal, double from, double width,
+                                  LoadSeries<4>& series) const override;
+  [[nodiscard]] std::optional<AtRadius> on_winch(const HangingSituation& situation,
+                                                 double radius) const override;
+
+ private:
+  /// That of the cable; null where it has no such number.
+  [[nodiscard]] const CableFamily* family_of(const HangingSituation& normal) const;
+
+  CableNumber number_;
+  mutable std::map<HangingSituation, CableFamily> families_;
+};
+
+/// The only number by which the solved tethers of these designs differ in hover and in forward
+/// flight, beside drag over weight; nothing where none or more do.
+[[nodiscard]] std::optional<CableNumber> told_apart_by(std::span<const Design> designs);
+
+}  // namespace tethercalc

@@ -1,0 +1,34 @@
+// Somebody who remembers solved cables of many designs.
+#pragma once
+
+#include <optional>
+
+#include "model/load_series.hpp"
+#include "model/similar_cables.hpp"
+
+namespace tethercalc {
+
+/// Asked for loads of cables. A class of its own kind implements it, so that a program that
+/// computes no sweeps does not hold what only those pay for.
+class CableMemory {
+ public:
+  virtual ~CableMemory() = default;
+
+  /// Whether forces over a piece of drag over weight are a series.
+  enum class Piece { smooth, halved, too_sharp, not_known };
+  /// Those of `normal` over the octaves from `from` to `from` + `width`, counted from
+  /// `first_ratio`: against the wind, down, tension at the drone and at the ground.
+  [[nodiscard]] virtual Piece along_ratio(const HangingSituation& normal, double from, double width,
+                                          LoadSeries<4>& series) const = 0;
+
+  /// Shares of a load, with the length in m, and their slopes by the logarithm of the radius.
+  struct AtRadius {
+    LoadShares value{};
+    LoadShares slope{};
+  };
+  /// Those of a cable on a winch; nothing where they are not known.
+  [[nodiscard]] virtual std::optional<AtRadius> on_winch(const HangingSituation& situation,
+                                                         double radius) const = 0;
+};
+
+}  // namespace tethercalc
