@@ -39,25 +39,27 @@ function inlined(source) { return source.replaceAll('</script', '<\\/script').re
 const hash = (source) => `'sha256-${createHash('sha256').update(source).digest('base64')}'`;
 
 /** The program as packed_program.js unpacks it: its streams as .lzma, with their size in the head, which xz leaves open. */
-function packed(wasm) {
+function packed(wasm, nice) {
   const streams = streamsOf(wasm);
   if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
-  // Which length of a match ends the search for a longer one packs best is chance: the shortest of some.
-  const [lzma] = Array.from({ length: 17 }, (_, k) => 72 + 12 * k).map((nice) => execFileSync('xz',
-    ['--format=lzma', `--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=${nice}`, '--stdout'], { input: streams, maxBuffer: 1 << 28 }))
-    .sort((a, b) => a.length - b.length);
+  const lzma = execFileSync('xz', ['--format=lzma', `--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=${nice}`, '--stdout'],
+    { input: streams, maxBuffer: 1 << 28 });
   lzma.writeBigUInt64LE(BigInt(streams.length), 5);
-  return lzma;
+  return lzma.toString('base64');
 }
 
 const parts = {
   policy: ["default-src 'none'", `script-src ${hash(script)} 'wasm-unsafe-eval'`, `style-src ${hash(css)}`,
     'worker-src blob:', 'img-src data: blob:', "connect-src 'none'", "base-uri 'none'", "form-action 'none'"].join('; '),
   style: css,
-  program: packed(readFileSync(options.program)).toString('base64'),
   script,
 };
-const page = readFileSync(join(here, 'index.html'), 'utf8').replace(/\{\{(\w+)\}\}/g, (whole, name) => parts[name]);
+const template = readFileSync(join(here, 'index.html'), 'utf8');
+const filled = (program) => template.replace(/\{\{(\w+)\}\}/g, (whole, name) => ({ ...parts, program })[name]);
+const zipped = (page) => gzipSync(page, { level: 9 }).length;
+const wasm = readFileSync(options.program);
+// Which length of a match ends the search for a longer one packs best is chance: the shortest of some.
+const [page] = Array.from({ length: 17 }, (_, k) => filled(packed(wasm, 72 + 12 * k))).sort((a, b) => zipped(a) - zipped(b));
 mkdirSync(dirname(options.output), { recursive: true });
 writeFileSync(options.output, page);
-console.log(`${options.output}: ${Buffer.byteLength(page)} bytes, ${gzipSync(page, { level: 9 }).length} with gzip`);
+console.log(`${options.output}: ${Buffer.byteLength(page)} bytes, ${zipped(page)} with gzip`);

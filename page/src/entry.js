@@ -2,5 +2,6 @@
 import { work } from './worker.js';
 
 const script = globalThis.document?.currentScript.textContent;
-if (script) import('./main.js').then(({ start }) => start(script));
+// The program is behind it: in between, gzip would lose sight of the text before.
+if (script) addEventListener('DOMContentLoaded', () => import('./main.js').then(({ start }) => start(script)));
 else work();

@@ -9,7 +9,6 @@
 #include "diagnose/flight_clock.hpp"
 #include "diagnose/flight_samples.hpp"
 #include "identify/flight_units.hpp"
-#include "identify/linear_algebra.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
@@ -165,54 +164,44 @@ std::vector<Effect> instrument_gains(const FlightData& data) {
 /// derivative gives to the intervals. At both ends the acceleration itself.
 class MeanAround {
  public:
-  explicit MeanAround(const FlightRecord& record)
-      : before_(static_cast<Index>(record.size())), after_(before_) {
+  explicit MeanAround(const FlightRecord& record) : neighbours_(record.size()) {
     for (std::size_t i = 1; i + 1 < record.size(); ++i) {
       const double before = record.time[i] - record.time[i - 1];
       const double after = record.time[i + 1] - record.time[i];
-      before_.set(i, after / (2 * (before + after)), record.yaw[i] - record.yaw[i - 1]);
-      after_.set(i, before / (2 * (before + after)), record.yaw[i] - record.yaw[i + 1]);
+      const auto seen = [&](std::size_t neighbour, double other_side) {
+        const double weight = other_side / (2 * (before + after));
+        const double turned = record.yaw[i] - record.yaw[neighbour];
+        return OverGround{weight * std::cos(turned), weight * std::sin(turned)};
+      };
+      neighbours_[i] = {seen(i - 1, after), seen(i + 1, before)};
     }
   }
   /// Of the predicted acceleration.
   void along(Axis axis, const FlightPrediction& p, std::span<double> out) const {
-    const auto forward = series_over(p.acceleration);
-    const auto right = series_over(p.side_acceleration);
-    const Index size = forward.size();
-    auto mean = Eigen::Map<Series>(out.data(), size);
-    const auto& own = axis == Axis::forward ? forward : right;
-    mean = own;
-    if (size < 3) return;
-    const Index inner = size - 2;
-    mean.segment(1, inner) = own.segment(1, inner) / 2;
-    for (const auto& [there, first] :
-         {std::pair(&before_, Index{0}), std::pair(&after_, Index{2})}) {
-      const auto f = forward.segment(first, inner);
-      const auto r = right.segment(first, inner);
-      const auto c = there->cosine.segment(1, inner);
-      const auto s = there->sine.segment(1, inner);
-      if (axis == Axis::forward) {
-        mean.segment(1, inner) += c * f + s * r;
-      } else {
-        mean.segment(1, inner) += c * r - s * f;
+    const bool forward = axis == Axis::forward;
+    const double* own = (forward ? p.acceleration : p.side_acceleration).data();
+    const double* other = (forward ? p.side_acceleration : p.acceleration).data();
+    const double sign = forward ? 1 : -1;
+    const std::size_t size = out.size();
+    for (std::size_t i = 0; i < size; ++i) {
+      if (i == 0 || i + 1 == size) {
+        out[i] = own[i];
+        continue;
       }
+      const auto& [before, after] = neighbours_[i];
+      out[i] = 0.5 * own[i] + before.along * own[i - 1] + after.along * own[i + 1] +
+               sign * (before.right * other[i - 1] + after.right * other[i + 1]);
     }
   }
 
  private:
-  /// What of a neighbour's acceleration counts, seen from the sample's heading.
-  struct Neighbour {
-    Series
-        cosine;   ///< of how far the nose turns from the neighbour to the sample, times the weight
-    Series sine;  ///< likewise
-    explicit Neighbour(Index size) : cosine(Series::Zero(size)), sine(Series::Zero(size)) {}
-    void set(std::size_t i, double weight, double turned) {
-      cosine[static_cast<Index>(i)] = weight * std::cos(turned);
-      sine[static_cast<Index>(i)] = weight * std::sin(turned);
-    }
+  /// How far along the sample's heading its neighbours' point, and how far to the right, times the
+  /// weight that they have.
+  struct Neighbours {
+    OverGround before;
+    OverGround after;
   };
-  Neighbour before_;
-  Neighbour after_;
+  std::vector<Neighbours> neighbours_;
 };
 
 std::vector<LogModel::Span> spans_of(const std::vector<FlightData>& flights) {

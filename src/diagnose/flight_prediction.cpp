@@ -25,7 +25,11 @@ constexpr int picard_iterations = 16;
 double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
 
 void set_cosines(const std::vector<double>& tangent, std::vector<double>& cosine) {
-  series_over(cosine) = (1 + series_over(tangent).square()).sqrt().inverse();
+  // By twos.
+  Series::Map(cosine.data(), static_cast<Index>(cosine.size())) =
+      (1 + Series::Map(tangent.data(), static_cast<Index>(tangent.size())).square())
+          .sqrt()
+          .inverse();
 }
 
 /// A speed added up from the first sample on.
@@ -194,9 +198,10 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   const FlightRecord& record = p.record;
   const std::size_t size = record.size();
   p.tilt = record.tilt;
-  series_over(p.headwind) = base.wind_gain * series_over(record.headwind);
-  series_over(p.aside) =
-      series_over(record.right_speed) - base.wind_gain * series_over(record.crosswind);
+  for (std::size_t i = 0; i < size; ++i) {
+    p.headwind[i] = base.wind_gain * record.headwind[i];
+    p.aside[i] = record.right_speed[i] - base.wind_gain * record.crosswind[i];
+  }
   p.sideward_thrust = record.sideward_thrust;
   p.law = {base.front_area, base.top_area, 0, 0};
   p.side_area = base.side_area;
@@ -206,29 +211,28 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   p.tan_tilt = record.tan_tilt;
   p.cos_tilt = record.cos_tilt;
   if (p.tilt != record.tilt) {
-    std::ranges::transform(p.tilt, p.tan_tilt.begin(), [](double tilt) { return std::tan(tilt); });
+    std::transform(p.tilt.begin(), p.tilt.end(), p.tan_tilt.begin(),
+                   [](double tilt) { return std::tan(tilt); });
     set_cosines(p.tan_tilt, p.cos_tilt);
   }
-  if (base.roll_trim != 0) series_over(p.sideward_thrust) -= base.roll_trim;
+  if (base.roll_trim != 0) {
+    for (double& thrust : p.sideward_thrust) thrust -= base.roll_trim;
+  }
   p.cos_sideward = record.cos_sideward;
   if (p.sideward_thrust != record.sideward_thrust) set_cosines(p.sideward_thrust, p.cos_sideward);
-  series_over(p.airspeed) = series_over(record.forward_speed) - series_over(p.headwind);
   for (std::size_t i = 0; i < size; ++i) {
+    p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
     const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
     p.drag[i] = drag.forward;
     p.side_drag[i] = drag.right;
+    p.lift[i] = record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
   }
-  series_over(p.lift) =
-      record.gravity - base.vertical_acceleration_gain * series_over(record.down_acceleration);
   act(p, effects, FlightPhase::force);
 
-  const auto accelerate = [&](const std::vector<double>& thrust, const std::vector<double>& drag,
-                              std::vector<double>& acceleration) {
-    series_over(acceleration) =
-        series_over(p.lift) * series_over(thrust) - series_over(drag) / record.mass;
-  };
-  accelerate(p.tan_tilt, p.drag, p.acceleration);
-  accelerate(p.sideward_thrust, p.side_drag, p.side_acceleration);
+  for (std::size_t i = 0; i < size; ++i) {
+    p.acceleration[i] = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass;
+    p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass;
+  }
   act(p, effects, FlightPhase::reading);
 }
 

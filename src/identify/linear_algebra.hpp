@@ -18,14 +18,6 @@ using Series = Eigen::ArrayXd;
   return Series::Map(x.data(), static_cast<Index>(x.size()));
 }
 
-/// The same in place.
-[[nodiscard]] inline Eigen::Map<const Series> series_over(const std::vector<double>& x) {
-  return {x.data(), static_cast<Index>(x.size())};
-}
-[[nodiscard]] inline Eigen::Map<Series> series_over(std::vector<double>& x) {
-  return {x.data(), static_cast<Index>(x.size())};
-}
-
 /// A matrix or some of its neighbouring rows and columns; of other expressions a copy.
 using MatrixView = Eigen::Ref<const MatrixXd>;
 using VectorView = Eigen::Ref<const VectorXd>;
