@@ -39,9 +39,7 @@ function inlined(source) { return source.replaceAll('</script', '<\\/script').re
 const hash = (source) => `'sha256-${createHash('sha256').update(source).digest('base64')}'`;
 
 /** The program as packed_program.js unpacks it: its streams as .lzma, with their size in the head, which xz leaves open. */
-function packed(wasm, nice) {
-  const streams = streamsOf(wasm);
-  if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
+function packed(streams, nice) {
   const lzma = execFileSync('xz', ['--format=lzma', `--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=${nice}`, '--stdout'],
     { input: streams, maxBuffer: 1 << 28 });
   lzma.writeBigUInt64LE(BigInt(streams.length), 5);
@@ -56,10 +54,13 @@ const parts = {
 };
 const template = readFileSync(join(here, 'index.html'), 'utf8');
 const filled = (program) => template.replace(/\{\{(\w+)\}\}/g, (whole, name) => ({ ...parts, program })[name]);
-const zipped = (page) => gzipSync(page, { level: 9 }).length;
 const wasm = readFileSync(options.program);
+const streams = streamsOf(wasm);
+if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
 // Which length of a match ends the search for a longer one packs best is chance: the shortest of some.
-const [page] = Array.from({ length: 17 }, (_, k) => filled(packed(wasm, 72 + 12 * k))).sort((a, b) => zipped(a) - zipped(b));
+const pages = Array.from({ length: 17 }, (_, k) => filled(packed(streams, 72 + 12 * k)))
+  .map((page) => ({ page, zipped: gzipSync(page, { level: 9 }).length }));
+const { page, zipped } = pages.reduce((a, b) => (b.zipped < a.zipped ? b : a));
 mkdirSync(dirname(options.output), { recursive: true });
 writeFileSync(options.output, page);
-console.log(`${options.output}: ${Buffer.byteLength(page)} bytes, ${zipped(page)} with gzip`);
+console.log(`${options.output}: ${Buffer.byteLength(page)} bytes, ${zipped} with gzip`);

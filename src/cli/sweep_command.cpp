@@ -170,12 +170,17 @@ struct Sweep {
   RowRange range;
   bool header = false;  ///< the rows follow a line of column names
 
+  [[nodiscard]] RowWriter writer() const {
+    return [this](std::string& text, const SweepRow& row) { rows.append(text, row); };
+  }
+
   [[nodiscard]] std::string line(std::uint64_t row) const {
-    SweepCursor cursor(space, base);
-    cursor.move_to(row);
     std::string text;
-    rows.append(text, {cursor.values(), cursor.design(),
-                       sweep_outcome(cursor.design(), varies_cross_section(space))});
+    compute_sweep({&space, &base, writer(), {row, row + 1}, row, {}},
+                  [&text](const SweepChunk& chunk) {
+                    text = chunk.text;
+                    return true;
+                  });
     text.pop_back();
     return text;
   }
@@ -223,10 +228,7 @@ std::string how_to_continue(const RowFile& file) {
 /// Writes all rows from `first` on. Returns false where it was interrupted.
 bool write_rows(const Sweep& sweep, RowFile& file, std::uint64_t first, const ChunkRunner& runner,
                 SweepSummary* summary) {
-  const RowWriter write = [&](std::string& text, const SweepRow& row) {
-    sweep.rows.append(text, row);
-  };
-  SweepJob job{&sweep.space, &sweep.base, write, {first, sweep.range.end}, first, runner};
+  SweepJob job{&sweep.space, &sweep.base, sweep.writer(), {first, sweep.range.end}, first, runner};
   if (summary != nullptr) job.range.begin = sweep.range.begin;  // it needs the earlier rows as well
   std::uint64_t written = first;
   try {

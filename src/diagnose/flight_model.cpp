@@ -171,7 +171,7 @@ class MeanAround {
       const auto seen = [&](std::size_t neighbour, double other_side) {
         const double weight = other_side / (2 * (before + after));
         const double turned = record.yaw[i] - record.yaw[neighbour];
-        return OverGround{weight * std::cos(turned), weight * std::sin(turned)};
+        return AtDrone{weight * std::cos(turned), weight * std::sin(turned)};
       };
       neighbours_[i] = {seen(i - 1, after), seen(i + 1, before)};
     }
@@ -189,17 +189,16 @@ class MeanAround {
         continue;
       }
       const auto& [before, after] = neighbours_[i];
-      out[i] = 0.5 * own[i] + before.along * own[i - 1] + after.along * own[i + 1] +
+      out[i] = 0.5 * own[i] + before.forward * own[i - 1] + after.forward * own[i + 1] +
                sign * (before.right * other[i - 1] + after.right * other[i + 1]);
     }
   }
 
  private:
-  /// How far along the sample's heading its neighbours' point, and how far to the right, times the
-  /// weight that they have.
+  /// A sample's heading by the axes of its neighbours, times their weights.
   struct Neighbours {
-    OverGround before;
-    OverGround after;
+    AtDrone before;
+    AtDrone after;
   };
   std::vector<Neighbours> neighbours_;
 };

@@ -25,7 +25,7 @@ constexpr int picard_iterations = 16;
 double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
 
 void set_cosines(const std::vector<double>& tangent, std::vector<double>& cosine) {
-  // By twos.
+  // As an expression of arrays, two roots at a time.
   Series::Map(cosine.data(), static_cast<Index>(cosine.size())) =
       (1 + Series::Map(tangent.data(), static_cast<Index>(tangent.size())).square())
           .sqrt()

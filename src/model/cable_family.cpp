@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <set>
+#include <vector>
 
 namespace tethercalc {
 namespace {
 
 constexpr double narrowest_square = 1.0 / 32;
-/// Where forces turn sharply with the ratio; as narrow as `SimilarCables` has them.
-constexpr double narrowest_by_ratio = 1.0 / 1024;
 constexpr double share_scale = 4;
-/// Places beyond which nothing is remembered.
-constexpr double furthest = 60;
 
 double slack_of(const HangingSituation& normal) {
   return normal.paid_out.length.value_or(0) / std::hypot(1, normal.offset) - 1;
@@ -63,6 +60,17 @@ bool has_number(const HangingSituation& normal, CableNumber number) {
 double place_of(const HangingSituation& normal, CableNumber number) {
   const double value = number_in(normal, number);
   return number == CableNumber::own_speed ? share_scale * value : std::log2(value);
+}
+
+/// The series of the ratio, without its parts beyond, of which a square has a series each.
+template <std::size_t Parts, std::size_t Terms>
+LoadSeries<Parts> unpacked(const std::array<double, Terms>& terms) {
+  constexpr std::size_t all = Terms / (load_degree + 1);
+  LoadSeries<Parts> series{};
+  for (std::size_t k = 0; k <= load_degree; ++k) {
+    std::copy_n(terms.begin() + static_cast<std::ptrdiff_t>(k * all), Parts, series[k].begin());
+  }
+  return series;
 }
 
 }  // namespace
@@ -121,7 +129,7 @@ void CableFamily::make(Square& square, const Bounds& bounds) const {
   const bool ratio_wider = bounds.ratio_width >= bounds.number_width;
   const bool ratio_first = hangs ? !by_ratio : at_origin || ratio_wider;
   const bool ratio_halves =
-      bounds.ratio_width > (hangs || at_origin ? narrowest_by_ratio : narrowest_square);
+      bounds.ratio_width > (hangs || at_origin ? narrowest_piece : narrowest_square);
   const bool number_halves = bounds.number_width > narrowest_square;
   if (ratio_first ? !ratio_halves : !number_halves) {
     square.kind = Kind::given_up;
@@ -154,53 +162,46 @@ std::pair<const CableFamily::Square*, CableFamily::Bounds> CableFamily::square_a
 
 CableMemory::Piece CableFamily::along_ratio(double from, double width, double place,
                                             LoadSeries<4>& series) const {
-  if (!(std::abs(place) < furthest)) return CableMemory::Piece::not_known;
+  if (!(std::abs(place) < most_octaves)) return CableMemory::Piece::not_known;
   const auto& [square, bounds] = square_about(from + width / 2, place, width);
   if (square->kind == Square::Kind::halved_by_ratio) return CableMemory::Piece::halved;
-  if (square->kind == Square::Kind::given_up && width <= narrowest_by_ratio) {
+  if (square->kind == Square::Kind::given_up && width <= narrowest_piece) {
     return CableMemory::Piece::too_sharp;
   }
-  if (square->kind != Square::Kind::smooth || bounds.ratio_width != width)
+  if (square->kind != Square::Kind::smooth || bounds.ratio_width != width) {
     return CableMemory::Piece::not_known;
-  const auto there =
-      value_at(*square->series, 2 * (place - bounds.number) / bounds.number_width - 1);
-  for (std::size_t k = 0; k <= load_degree; ++k) {
-    std::copy_n(there.begin() + static_cast<std::ptrdiff_t>(k * parts), series[k].size(),
-                series[k].begin());
   }
+  const double y = 2 * (place - bounds.number) / bounds.number_width - 1;
+  series = unpacked<4>(value_at(*square->series, y));
   return CableMemory::Piece::smooth;
 }
 
 std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const {
   const double octaves = std::log2(ratio / first_ratio(one_));
-  if (!(std::abs(octaves) < furthest) || !(std::abs(place) < furthest)) return std::nullopt;
+  if (!(std::abs(octaves) < most_octaves) || !(std::abs(place) < most_octaves)) return std::nullopt;
   const auto& [square, bounds] = square_about(octaves, place);
   if (square->kind != Square::Kind::smooth) return std::nullopt;
   const double x = 2 * (octaves - bounds.ratio) / bounds.ratio_width - 1;
   const double y = 2 * (place - bounds.number) / bounds.number_width - 1;
-  const auto series_at = [y](const LoadSeries<terms>& of) {
-    const auto there = value_at(of, y);
-    LoadSeries<parts> series{};
-    for (std::size_t k = 0; k <= load_degree; ++k) {
-      std::copy_n(there.begin() + static_cast<std::ptrdiff_t>(k * parts), parts, series[k].begin());
-    }
-    return series;
-  };
   const auto shares = [](const std::array<double, parts>& values) {
     LoadShares out{};
     std::copy_n(values.begin(), parts - 1, out.begin());
     out.back() = values.back();
     return out;
   };
-  const LoadSeries<parts> value = series_at(*square->series);
+  const auto value = unpacked<parts>(value_at(*square->series, y));
+  const auto by_number =
+      unpacked<parts>(value_at(slope_of(*square->series, bounds.number_width), y));
   return At{shares(value_at(value, x)), shares(value_at(slope_of(value, bounds.ratio_width), x)),
-            shares(value_at(series_at(slope_of(*square->series, bounds.number_width)), x))};
+            shares(value_at(by_number, x))};
 }
 
 const CableFamily* CableFamilies::family_of(const HangingSituation& normal) const {
   if (!has_number(normal, number_)) return nullptr;
   HangingSituation one = with_number(normal, number_, 1);
-  one.shared = {};
+  one.memory = nullptr;
+  constexpr std::size_t most_kept = 16;  // of designs that are told apart by one number: a few
+  if (families_.size() >= most_kept && !families_.contains(one)) families_.clear();
   return &families_.try_emplace(one, one, number_).first->second;
 }
 
@@ -235,44 +236,60 @@ std::optional<CableMemory::AtRadius> CableFamilies::on_winch(const HangingSituat
   return there;
 }
 
+namespace {
+
+/// Of a cable in normal form, on a winch with whatever tension.
+std::optional<HangingSituation> normal_cable(const HangingSituation& situation) {
+  if (!situation.paid_out.winch_tension) return normal_form(situation);
+  auto normal = normal_surroundings(situation);
+  if (normal) normal->paid_out.winch_tension = 1;
+  return normal;
+}
+
+/// The numbers that differ between two cables in normal form.
+std::vector<CableNumber> numbers_apart(const HangingSituation& a, const HangingSituation& b) {
+  constexpr double rounding = 1e-9;
+  std::vector<CableNumber> apart;
+  // On a winch the tension over each conductor's weight.
+  if (a.paid_out.winch_tension) apart.push_back(CableNumber::winch_tension);
+  for (const CableNumber n : {CableNumber::slack, CableNumber::aside, CableNumber::own_speed}) {
+    if (n == CableNumber::slack && a.paid_out.winch_tension) continue;
+    const double one = number_in(a, n);
+    const double other = number_in(b, n);
+    if (std::abs(one - other) > rounding * std::abs(other)) apart.push_back(n);
+  }
+  return apart;
+}
+
+}  // namespace
+
 std::optional<CableNumber> told_apart_by(std::span<const Design> designs) {
-  struct Told {
-    HangingSituation as_it_is;
-    HangingSituation normal;
-  };
-  std::map<Condition, Told> first;
+  std::map<Condition, HangingSituation> first;
+  std::map<Condition, std::set<HangingSituation>> cables;
   std::optional<CableNumber> number;
   for (const Design& design : designs) {
     if (design.tether.model == TetherModel::straight) continue;
     for (const Condition condition : {Condition::hover, Condition::forward}) {
       const HangingSituation situation = hanging_situation(design, flight_state(design, condition));
-      auto normal = situation.paid_out.winch_tension ? normal_surroundings(situation)
-                                                     : normal_form(situation);
+      const auto normal = normal_cable(situation);
       if (!normal) continue;
-      if (situation.paid_out.winch_tension) normal->paid_out.winch_tension = 1;
-      const auto [known, is_first] = first.try_emplace(condition, Told{situation, *normal});
-      if (is_first || known->second.as_it_is == situation) continue;
-      const HangingSituation& other = known->second.normal;
-      if (situation.paid_out.winch_tension.has_value() !=
-          other.paid_out.winch_tension.has_value()) {
+      const HangingSituation& other = first.try_emplace(condition, *normal).first->second;
+      cables[condition].insert(normal->paid_out.winch_tension ? situation : *normal);
+      if (cables[condition].size() < 2) continue;
+      const std::vector<CableNumber> apart = numbers_apart(*normal, other);
+      if (apart.empty()) continue;
+      const bool only_that =
+          with_number(*normal, apart.front(), 1) == with_number(other, apart.front(), 1);
+      if (apart.size() > 1 || !only_that || number.value_or(apart.front()) != apart.front()) {
         return std::nullopt;
       }
-      std::optional<CableNumber> differs;
-      if (situation.paid_out.winch_tension) differs = CableNumber::winch_tension;
-      for (const CableNumber n : {CableNumber::slack, CableNumber::aside, CableNumber::own_speed}) {
-        if (situation.paid_out.winch_tension && n == CableNumber::slack) continue;
-        constexpr double rounding = 1e-9;
-        const double apart = std::abs(number_in(*normal, n) - number_in(other, n));
-        if (apart <= rounding * std::abs(number_in(other, n))) continue;
-        if (differs) return std::nullopt;
-        differs = n;
-      }
-      if (!differs) continue;
-      if (number && number != differs) return std::nullopt;
-      number = differs;
+      number = apart.front();
     }
   }
-  return number;
+  // Few cables that many designs have are solved sooner by themselves.
+  const bool most_differ = std::ranges::any_of(
+      cables, [&](const auto& of) { return 2 * of.second.size() > designs.size(); });
+  return most_differ ? number : std::nullopt;
 }
 
 }  // namespace tethercalc

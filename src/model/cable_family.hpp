@@ -97,7 +97,7 @@ class CableFamilies : public CableMemory {
 };
 
 /// The only number by which the solved tethers of these designs differ in hover and in forward
-/// flight, beside drag over weight; nothing where none or more do.
+/// flight, beside drag over weight; nothing where none or more do, or few of the cables differ.
 [[nodiscard]] std::optional<CableNumber> told_apart_by(std::span<const Design> designs);
 
 }  // namespace tethercalc

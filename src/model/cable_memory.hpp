@@ -1,6 +1,9 @@
 // Somebody who remembers solved cables of many designs.
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 
 #include "model/load_series.hpp"
@@ -8,11 +11,24 @@
 
 namespace tethercalc {
 
+/// Solved cables among which others are looked up.
+struct KnownCables {
+  std::size_t most = 0;  ///< of each kind; then all are forgotten
+  std::map<HangingSituation, std::shared_ptr<const SimilarCables>> similar{};
+  std::map<HangingSituation, std::shared_ptr<const HangingLoad>> loads{};
+};
+
+/// Those of the situation's memory, or of the thread.
+[[nodiscard]] KnownCables& known_cables(const HangingSituation& situation);
+
 /// Asked for loads of cables. A class of its own kind implements it, so that a program that
 /// computes no sweeps does not hold what only those pay for.
 class CableMemory {
  public:
   virtual ~CableMemory() = default;
+
+  /// Of cables with this memory; they end with it.
+  [[nodiscard]] KnownCables& known() const { return known_; }
 
   /// Whether forces over a piece of drag over weight are a series.
   enum class Piece { smooth, halved, too_sharp, not_known };
@@ -29,6 +45,9 @@ class CableMemory {
   /// Those of a cable on a winch; nothing where they are not known.
   [[nodiscard]] virtual std::optional<AtRadius> on_winch(const HangingSituation& situation,
                                                          double radius) const = 0;
+
+ private:
+  mutable KnownCables known_{64, {}, {}};  // a row has a few
 };
 
 }  // namespace tethercalc

@@ -12,6 +12,10 @@ namespace tethercalc {
 constexpr std::size_t load_degree = 8;
 /// Octaves that one series spans at most.
 constexpr double widest_piece = 1.0 / 4;
+/// And at least: where loads are no series there, they are solved where they are asked for.
+constexpr double narrowest_piece = 1.0 / 1024;
+/// Beyond which nothing is remembered.
+constexpr double most_octaves = 60;
 /// What a series' last two terms may be of the greatest tension: the solver's own error is 1e-10
 /// mostly.
 constexpr double little_of_tension = 4e-9;

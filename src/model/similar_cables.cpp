@@ -11,9 +11,6 @@ namespace {
 
 /// Drag over weight below which a cable above its station is a fold, over its slack.
 constexpr double folded_below = 0.02;
-constexpr double narrowest_piece = 1.0 / 1024;  // octaves
-/// log2(drag/weight) beyond which nothing is remembered.
-constexpr double most_octaves = 60;
 
 /// N/m², of the wind at its reference height on a width.
 double pressure_on(const HangingSituation& situation) {
@@ -142,7 +139,7 @@ std::optional<HangingSituation> normal_surroundings(const HangingSituation& situ
     return std::nullopt;
   }
   HangingSituation normal{.weight = {1, 0, 0}, .width = {0, 2}, .air = {}, .paid_out = {}};
-  normal.shared = situation.shared;
+  normal.memory = situation.memory;
   normal.height = 1;
   normal.offset = situation.offset / height;
   normal.air.density = 1;
@@ -160,14 +157,18 @@ std::optional<HangingSituation> normal_surroundings(const HangingSituation& situ
   return normal;
 }
 
+KnownCables& known_cables(const HangingSituation& situation) {
+  // A flight log has thousands of states; a sweep over the wind solves up to fifty cables for each.
+  thread_local KnownCables of_thread{1 << 13, {}, {}};
+  return situation.memory != nullptr ? situation.memory->known() : of_thread;
+}
+
 std::shared_ptr<const SimilarCables> SimilarCables::of(const HangingSituation& situation) {
-  // A flight log has thousands of heights.
-  constexpr std::size_t most_kept = 1 << 13;
-  thread_local std::map<HangingSituation, std::shared_ptr<const SimilarCables>> known;
   const std::optional<HangingSituation> normal = normal_form(situation);
   if (!normal) return nullptr;
-  if (known.size() >= most_kept) known.clear();
-  auto& cables = known[*normal];
+  KnownCables& known = known_cables(situation);
+  if (known.similar.size() >= known.most) known.similar.clear();
+  auto& cables = known.similar[*normal];
   if (!cables) cables = std::make_shared<const SimilarCables>(*normal);
   return cables;
 }
@@ -218,7 +219,7 @@ std::optional<SimilarCables::At> SimilarCables::solved_at(double ratio) const {
 
 void SimilarCables::make(Piece& piece, double from, double width) const {
   using Known = CableMemory::Piece;
-  const auto& memory = normal_.shared.memory;
+  const CableMemory* memory = normal_.memory;
   const Known known =
       memory ? memory->along_ratio(normal_, from, width, piece.value) : Known::not_known;
   if (known == Known::smooth || (known == Known::not_known && fit(piece.value, from, width))) {

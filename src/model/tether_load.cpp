@@ -109,8 +109,8 @@ HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked aske
       asked_(asked) {}
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
-  if (const CableMemory* memory = situation_.shared.memory.get()) {
-    if (const auto known = memory->on_winch(situation_, std::exp(log_radius))) {
+  if (situation_.memory != nullptr) {
+    if (const auto known = situation_.memory->on_winch(situation_, std::exp(log_radius))) {
       const bool reaches = known->value.back() <= situation_.cable_there_is;
       return {reaches ? CableOutcome::hangs : CableOutcome::too_short, known->value, known->slope};
     }
@@ -295,13 +295,11 @@ std::shared_ptr<const HangingLoad> hanging_load(const HangingSituation& situatio
   if (asked == ConductorsAsked::one) {
     return std::make_shared<const HangingLoad>(situation, asked);
   }
-  // A flight log has thousands of states; a sweep over the wind solves up to fifty cables for each.
-  constexpr std::size_t most_kept = 1 << 13;
-  thread_local std::map<HangingSituation, std::shared_ptr<const HangingLoad>> known;
   // Similar cables share their solutions beyond one situation.
   if (normal_form(situation)) return std::make_shared<const HangingLoad>(situation);
-  if (known.size() >= most_kept) known.clear();
-  auto& load = known[situation];
+  KnownCables& known = known_cables(situation);
+  if (known.loads.size() >= known.most) known.loads.clear();
+  auto& load = known.loads[situation];
   if (!load) load = std::make_shared<const HangingLoad>(situation);
   return load;
 }
@@ -361,7 +359,7 @@ HangingSituation hanging_situation(const Tether& tether, double wall, const Flig
           .axial_stiffness = tether.axial_stiffness,
           .offset = flight.horizontal_offset,
           .height = state.deployed,
-          .shared = tether.shared};
+          .memory = tether.memory};
 }
 
 HangingSituation hanging_situation(const Design& design, const FlightState& state) {

@@ -26,9 +26,8 @@ JudgedRow judged(const SweepOutcome& outcome, const Design& design) {
   return {outcome.area(), judged_power(outcome, design), outcome.feasible};
 }
 
-/// Whether the designs of a sweep differ by one number that decides how a solved tether hangs, so
-/// that each would have its own cables; nothing where so few rows would not pay for solving the
-/// cables between them as well.
+/// The number that tells the cables of a sweep's rows apart, where each would have its own; nothing
+/// where the rows are too few to pay for solving the cables between them as well.
 std::optional<CableNumber> number_of_cables(const SweepSpace& space, const Design& base) {
   constexpr std::uint64_t worth_it = 500;
   constexpr std::uint64_t looked_at = 16;
@@ -42,19 +41,32 @@ std::optional<CableNumber> number_of_cables(const SweepSpace& space, const Desig
   return told_apart_by(designs);
 }
 
-/// For one thread.
-Design sharing_cables(Design base, std::optional<CableNumber> number) {
-  if (number) base.tether.shared.memory = std::make_shared<const CableFamilies>(*number);
-  return base;
-}
+/// Outcomes of a sweep's rows, the same in whatever order and by however many threads, each of
+/// which has its own.
+class RowOutcomes {
+ public:
+  RowOutcomes(bool given_area, std::optional<CableNumber> number) : given_area_(given_area) {
+    if (number) memory_ = std::make_shared<const CableFamilies>(*number);
+  }
+  [[nodiscard]] SweepOutcome of(const Design& row) const {
+    if (!memory_) return sweep_outcome(row, given_area_);
+    Design design = row;  // who writes rows must not keep the memory
+    design.tether.memory = memory_.get();
+    return sweep_outcome(design, given_area_);
+  }
+
+ private:
+  bool given_area_;
+  std::shared_ptr<const CableMemory> memory_;
+};
 
 /// Appends what a point of two samples comes to: in the first, in the second, and in the first with
 /// each axis in turn taken from the second. `unit` holds its place in both, in shares.
-void add_mixtures(std::span<const SweepAxis> axes, std::span<const double> unit, bool given_area,
-                  SweepCursor& cursor, std::vector<JudgedRow>& rows) {
+void add_mixtures(std::span<const SweepAxis> axes, std::span<const double> unit,
+                  const RowOutcomes& outcomes, SweepCursor& cursor, std::vector<JudgedRow>& rows) {
   const auto add = [&](const std::vector<double>& values) {
     cursor.set_values(values);
-    rows.push_back(judged(sweep_outcome(cursor.design(), given_area), cursor.design()));
+    rows.push_back(judged(outcomes.of(cursor.design()), cursor.design()));
   };
   std::vector<double> a;
   std::vector<double> b;
@@ -150,15 +162,16 @@ void compute_sweep(const SweepJob& job, const std::function<bool(const SweepChun
   const auto number = number_of_cables(*job.space, *job.base);
 
   const auto make_worker = [&] {
-    return [&, cursor = SweepCursor(*job.space, sharing_cables(*job.base, number))](
-               std::uint64_t index, SweepChunk& chunk) mutable {
+    return [&, cursor = SweepCursor(*job.space, *job.base),
+            outcomes = RowOutcomes(given_area, number)](std::uint64_t index,
+                                                        SweepChunk& chunk) mutable {
       chunk.range.begin = all.begin + index * rows_per_chunk;
       chunk.range.end = std::min(chunk.range.begin + rows_per_chunk, all.end);
       chunk.text.clear();
       chunk.judged.clear();
       for (std::uint64_t row = chunk.range.begin; row < chunk.range.end; ++row) {
         cursor.move_to(row);
-        const SweepOutcome outcome = sweep_outcome(cursor.design(), given_area);
+        const SweepOutcome outcome = outcomes.of(cursor.design());
         chunk.judged.push_back(judged(outcome, cursor.design()));
         if (row >= job.write_from)
           job.write(chunk.text, {cursor.values(), cursor.design(), outcome});
@@ -190,7 +203,7 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
   const bool given_area = varies_cross_section(space);
   const auto number = number_of_cables(space, base);
   const auto make_worker = [&] {
-    return [&, cursor = SweepCursor(space, sharing_cables(base, number)),
+    return [&, cursor = SweepCursor(space, base), outcomes = RowOutcomes(given_area, number),
             points = UnitPoints(plan, 2 * axes),
             unit = std::vector<double>(2 * axes)](std::uint64_t index, Rows& rows) mutable {
       rows.clear();
@@ -198,7 +211,7 @@ SweepSensitivity sweep_sensitivity(const SweepSpace& space, const Design& base,
       const std::uint64_t end = std::min(begin + points_per_chunk, result.points);
       for (std::uint64_t j = begin; j < end; ++j) {
         points.at(j, unit);
-        add_mixtures(space.axes(), unit, given_area, cursor, rows);
+        add_mixtures(space.axes(), unit, outcomes, cursor, rows);
       }
     };
   };

@@ -265,6 +265,28 @@ TEST_CASE("a broken-off sweep is completed without repeating a row") {
   CHECK(file_text(file) == whole);
 }
 
+TEST_CASE("rows that share solved cables are continued, sharded and threaded to the same bytes") {
+  const TemporaryFolder folder;
+  const auto sweep = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"sweep",  published,
+                                       "--set",  "tether.model=solved",
+                                       "--vary", "tether.slack_percent=2:3:0.002"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tethercalc(arguments);
+  };
+  const std::string whole = sweep({"--jobs", "2"}).out;
+  CHECK(std::count(whole.begin(), whole.end(), '\n') == 502);
+  CHECK(sweep({"--shard", "1/3"}).out + sweep({"--shard", "2/3"}).out +
+            sweep({"--shard", "3/3"}).out ==
+        whole);
+  const auto file = folder.path() / "rows.csv";
+  write_file(file, whole.substr(0, whole.size() * 2 / 3));
+  const Ran run = sweep({"--output", file.string(), "--resume"});
+  INFO(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(file_text(file) == whole);
+}
+
 TEST_CASE("what another sweep wrote is not continued") {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "rows.csv").string();

@@ -51,10 +51,10 @@ TEST_CASE("drag to the side, the wind from there and the roll's trim are told of
     crosswind += holds(parameter(d.base.parameters, "crosswind_m_s"), hidden.crosswind);
     trim += holds(parameter(d.base.parameters, "roll_trim_deg"), hidden.roll_trim);
   }
-  // Intervals of 95 %: two of six may miss in one of 450 cases, three in 12,000.
-  CHECK(side >= draws - 2);
-  CHECK(crosswind >= draws - 2);
-  CHECK(trim >= draws - 2);
+  // Of six intervals of 95 % three miss in one of 450 cases, four in 12,000.
+  CHECK(side >= draws - 3);
+  CHECK(crosswind >= draws - 3);
+  CHECK(trim >= draws - 3);
 }
 
 TEST_CASE("a roll that moves nothing is no second axis") {

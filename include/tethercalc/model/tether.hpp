@@ -1,22 +1,11 @@
 // The tether: two equal insulated conductors from the ground supply to the drone.
 #pragma once
 
-#include <compare>
-#include <memory>
 #include <optional>
 
 namespace tethercalc {
 
 class CableMemory;
-
-/// Where solved cables of many designs are remembered, for one thread; nowhere while null.
-struct SharedCables {
-  std::shared_ptr<const CableMemory> memory{};  ///< of them
-
-  /// By identity.
-  auto operator<=>(const SharedCables& other) const { return memory.get() <=> other.memory.get(); }
-  bool operator==(const SharedCables&) const = default;  ///< likewise
-};
 
 /// A conductor material.
 struct Conductor {
@@ -149,8 +138,10 @@ struct Tether {
   double slack = 0.01;
   std::optional<double>
       axial_stiffness{};  ///< N, EA, of a solved one; nothing: it does not stretch
-  /// Set by a sweep: it saves time, and changes a load by about 1e-9.
-  SharedCables shared{};
+  /// Where a sweep remembers the solved cables of its other rows, for one thread and not owned;
+  /// null elsewhere. It saves time, and changes a load by about 1e-9 of the tension, on a winch
+  /// 1e-5.
+  const CableMemory* memory = nullptr;
 
   bool operator==(const Tether&) const = default;  ///< member by member
 };

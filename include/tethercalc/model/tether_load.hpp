@@ -144,7 +144,7 @@ struct HangingSituation {
   std::optional<double> axial_stiffness{};                          ///< N, EA
   double offset = 0;                                                ///< m aside
   double height = 0;                                                ///< m over the station
-  SharedCables shared{};                                            ///< as in `Tether`
+  const CableMemory* memory = nullptr;                              ///< as in `Tether`
 
   /// m of one conductor with its insulation, where that decides the drag coefficient.
   [[nodiscard]] std::optional<double> cylinder_diameter(double radius) const;
