@@ -8,7 +8,10 @@
 namespace tethercalc {
 namespace {
 
+/// Of squares in which not all cables hang: narrower ones along that border would be many.
 constexpr double narrowest_square = 1.0 / 32;
+/// Of the share of the wind that no profile shapes: over a quarter of it forces bend as over an
+/// octave.
 constexpr double share_scale = 4;
 
 double slack_of(const HangingSituation& normal) {
