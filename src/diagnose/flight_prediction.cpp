@@ -22,8 +22,6 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
-double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
-
 void set_cosines(const std::vector<double>& tangent, std::vector<double>& cosine) {
   // As an expression of arrays, two roots at a time.
   Series::Map(cosine.data(), static_cast<Index>(cosine.size())) =
@@ -124,8 +122,9 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   for (std::size_t i = 0; i < observations.size(); ++i) {
     record.sideward_thrust.push_back(std::tan(observations.roll[i]) /
                                      std::cos(observations.tilt[i]));
-    record.cos_sideward.push_back(cosine_of(record.sideward_thrust[i]));
   }
+  record.cos_sideward.resize(observations.size());
+  set_cosines(record.sideward_thrust, record.cos_sideward);
   record.mean_heading = mean_heading(observations);
   for (const double yaw : observations.yaw) {
     record.along_heading.push_back(std::cos(yaw - record.mean_heading));

@@ -115,13 +115,11 @@ void CableFamily::make(Square& square, const Bounds& bounds) const {
   LoadSeries<terms> series{};
   double tension = 0;
   const bool hangs = solve(bounds, series, tension);
-  bool by_ratio = hangs;  // whether it converges
-  bool by_number = hangs && is_converged(series, tension);
-  for (std::size_t l = 0; l <= load_degree && by_ratio; ++l) {
-    for (std::size_t i = terms - 2 * parts; i < terms; ++i) {
-      by_ratio = by_ratio && std::abs(series[l][i]) < little_of_tension * tension;
-    }
-  }
+  const auto converges_by_ratio = [&](const std::array<double, terms>& of_number) {
+    return is_converged(unpacked<parts>(of_number), tension);
+  };
+  const bool by_ratio = hangs && std::all_of(series.begin(), series.end(), converges_by_ratio);
+  const bool by_number = hangs && is_converged(series, tension);
   if (by_ratio && by_number) {
     square.series = std::make_unique<LoadSeries<terms>>(series);
     square.kind = Kind::smooth;

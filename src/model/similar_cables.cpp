@@ -219,11 +219,15 @@ std::optional<SimilarCables::At> SimilarCables::solved_at(double ratio) const {
 
 void SimilarCables::make(Piece& piece, double from, double width) const {
   using Known = CableMemory::Piece;
+  Series value{};
   const CableMemory* memory = normal_.memory;
-  const Known known =
-      memory ? memory->along_ratio(normal_, from, width, piece.value) : Known::not_known;
-  if (known == Known::smooth || (known == Known::not_known && fit(piece.value, from, width))) {
-    piece.slope = slope_of(piece.value, width);
+  const Known known = memory ? memory->along_ratio(normal_, from, width, value) : Known::not_known;
+  if (known == Known::smooth || (known == Known::not_known && fit(value, from, width))) {
+    const Series slope = slope_of(value, width);
+    for (std::size_t k = 0; k <= load_degree; ++k) {
+      std::copy_n(value[k].begin(), forces, piece.value_and_slope[k].begin());
+      std::copy_n(slope[k].begin(), forces, piece.value_and_slope[k].begin() + forces);
+    }
     piece.kind = Piece::Kind::smooth;
   } else if (width > narrowest_piece && known != Known::too_sharp) {
     piece.halves = std::make_unique<std::array<Piece, 2>>();
@@ -251,23 +255,11 @@ bool SimilarCables::fit(Series& value, double from, double width) const {
 }
 
 SimilarCables::At SimilarCables::on(const Piece& piece, double share) const {
-  // Clenshaw's recurrence.
   const double x = 2 * share - 1;
-  std::array<double, 2 * forces> now{};
-  std::array<double, 2 * forces> before{};
-  for (std::size_t k = load_degree; k > 0; --k) {
-    for (std::size_t i = 0; i < forces; ++i) {
-      const double value = piece.value[k][i] + 2 * x * now[i] - before[i];
-      const double slope = piece.slope[k][i] + 2 * x * now[forces + i] - before[forces + i];
-      before[i] = std::exchange(now[i], value);
-      before[forces + i] = std::exchange(now[forces + i], slope);
-    }
-  }
+  const auto there = value_at(piece.value_and_slope, x);
   At at;
-  for (std::size_t i = 0; i < forces; ++i) {
-    at.value[i] = piece.value[0][i] + x * now[i] - before[i];
-    at.slope[i] = piece.slope[0][i] + x * now[forces + i] - before[forces + i];
-  }
+  std::copy_n(there.begin(), forces, at.value.begin());
+  std::copy_n(there.begin() + forces, forces, at.slope.begin());
   at.value.back() = *normal_.paid_out.length;
   return at;
 }

@@ -79,8 +79,7 @@ class SimilarCables {
   /// A part of an octave of drag over weight.
   struct Piece {
     enum class Kind { unknown, smooth, halved, solved_where_asked } kind = Kind::unknown;
-    Series value{};
-    Series slope{};  ///< by the logarithm
+    LoadSeries<2 * forces> value_and_slope{};  ///< by the logarithm; one recurrence has both
     std::unique_ptr<std::array<Piece, 2>> halves{};
   };
   void make(Piece& piece, double from, double width) const;

@@ -347,8 +347,8 @@ TEST_CASE("two power effects at once are both found") {
   std::size_t number = 0;
   for (std::size_t a = 0; a < effects.size(); ++a) {
     for (std::size_t b = a + 1; b < effects.size(); ++b) {
-      if (degenerate(effects[a].id, effects[b].id) || number++ % sieve != test::run_seed() % sieve)
-        continue;
+      if (degenerate(effects[a].id, effects[b].id)) continue;
+      if (number++ % sieve != test::run_seed() % sieve) continue;
       Scenario scenario;
       scenario.seed = seed(200'000 + number);
       effects[a].hide(scenario.hidden, 0.6);
