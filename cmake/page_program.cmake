@@ -20,8 +20,8 @@ list(FILTER room_sources EXCLUDE REGEX
   "/(solve/constrained_minimum|study/design_search|study/design|page/browser_program)\\.cpp$")
 file(GLOB_RECURSE data_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/data/*")
 list(FILTER data_files EXCLUDE REGEX "/(schema|rules)/")
-# Of codes the page and its report explain limits, warnings and effects.
-list(FILTER data_files EXCLUDE REGEX "/explain/(answers|cable|records|rule-verdicts|verdicts|voltages)\\.md$")
+# Of codes the page and its report explain limits, warnings and effects, but none of bench runs.
+list(FILTER data_files EXCLUDE REGEX "/explain/(answers|cable|motor-warnings|records|rule-verdicts|verdicts|voltages)\\.md$")
 list(SORT data_files)
 
 # A tenth of the program would be the destruction of what an exception leaves behind on its way. Where none is

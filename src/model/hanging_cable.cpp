@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/constants.hpp"
+#include "model/winched_cable.hpp"
 #include "tethercalc/model/catenary.hpp"
 
 namespace tethercalc {
@@ -997,17 +998,43 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
   return std::nullopt;
 }
 
-/// Whether a winch, in still air, pulls with clearly less than the least tension that holds a cable
-/// up beside its station: certain in closed form.
+/// The tauter cable that a winch holds, where that is known but for an integral, or that there is
+/// none; nothing where it lies in no plane with weight, wind and drone.
+template <class Start, class Problem>
+std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p) {
+  const Vector3& wind = p.air.wind;
+  const double speed = std::hypot(wind.x, wind.y);
+  const double aside = std::hypot(p.drone.x, p.drone.y);
+  const Vector3 ahead = aside > 0   ? Vector3{p.drone.x / aside, p.drone.y / aside, 0}
+                        : speed > 0 ? Vector3{wind.x / speed, wind.y / speed, 0}
+                                    : Vector3{1, 0, 0};
+  const double along = dot(wind, ahead);
+  constexpr double digits = 1e-12;
+  const bool plane = wind.z == 0 && std::abs(wind.x * ahead.y - wind.y * ahead.x) <= digits * speed;
+  if (!plane || !p.even() || p.reynolds > 0 || p.compliance > 0) return std::nullopt;
+  const auto cable = taut_cable({.weight = p.steady.z,
+                                 .drag = p.drag * speed * along,
+                                 .tension = *p.winch,
+                                 .aside = aside,
+                                 .height = p.drone.z});
+  if (!cable) return std::nullopt;
+  const auto direction = [&ahead](const TautCable::Place& place) {
+    return place.along_x * ahead + Vector3{0, 0, place.along_z};
+  };
+  Start at;
+  at.direction = direction(cable->slackest);
+  at.tension = cable->slackest.tension;
+  at.sigma = cable->sigma;
+  at.before = cable->before;
+  at.ends = {cable->at_winch.tension * direction(cable->at_winch),
+             cable->at_drone.tension * direction(cable->at_drone), cable->length};
+  return std::pair{cable->hangs, at};
+}
+
+/// Where the cable has come that share of the way.
 template <class Problem>
-bool is_far_too_weak(const Problem& problem) {
-  const EvenLoad even(problem, problem.steady);
-  // The lengths tried lie a factor of 1.5 in slack apart, between which tension hardly falls.
-  constexpr double clearly = 1.05;
-  const bool aside = std::hypot(problem.drone.x, problem.drone.y) > 0.01 * norm(problem.drone);
-  return aside && problem.compliance == 0 && even.weight > 0 &&
-         even.tension_at_station(even.length_with_tension(*problem.winch)) >
-             clearly * *problem.winch;
+Vector3 load_along_chord(const Problem& problem, double share) {
+  return problem.wind_at({unit(problem.drone), 1, share * problem.drone, 0}).load;
 }
 
 /// From the cable under an even load.
@@ -1019,8 +1046,8 @@ std::optional<Start> from_even_load(const Problem& problem, const Vector3& load)
 }
 
 template <int n, class Start, class Problem>
-std::optional<Start> held_by_winch(const Problem& problem, const Vector3& load,
-                                   CableOutcome& why_not) {
+std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not) {
+  const Vector3 load = load_along_chord(problem, 0.6);
   // One that takes more is found sooner by its length.
   constexpr int steps_of_usual_cable = 250;
   int steps = std::min(steps_of_usual_cable, *problem.steps_left);
@@ -1043,14 +1070,13 @@ std::optional<Start> held_by_winch(const Problem& problem, const Vector3& load,
 }
 
 template <int n, class Start, class Problem>
-std::optional<Start> anew(const Problem& problem, CableOutcome& why_not) {
+std::optional<Start> anew(const Problem& problem) {
   // The load along the chord, where that is the same all along; else also nearer to the ends.
   std::vector<Vector3> loads;
   for (const double share : {0.6, 0.3, 1.0}) {
-    loads.push_back(problem.wind_at({unit(problem.drone), 1, share * problem.drone, 0}).load);
+    loads.push_back(load_along_chord(problem, share));
     if (problem.even()) break;
   }
-  if (problem.winch) return held_by_winch<n, Start>(problem, loads.front(), why_not);
   for (const Vector3& load : loads) {
     if (const auto at = from_even_load<n, Start>(problem, load)) return at;
   }
@@ -1118,7 +1144,8 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
   paid_out_ = paid_out;
   drone_ = drone;
   still_.reset();
-  if (!alike) last_.reset();
+  if (!alike || !can_go_on_) last_.reset();
+  can_go_on_ = true;
   Problem p = problem();
   int steps_left = most_steps_;
   p.steps_left = &steps_left;
@@ -1129,9 +1156,11 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
   }
   const bool in_still_air =
       p.drag * (dot(air.wind, air.wind) + dot(air.drone_velocity, air.drone_velocity)) == 0;
-  if (in_still_air && p.winch && is_far_too_weak(p)) {
-    last_.reset();
-    return CableOutcome::tension_too_low;
+  if (const auto known = p.winch ? in_a_plane<Last>(p) : std::nullopt) {
+    const auto& [hangs, in_plane] = *known;
+    last_ = hangs ? std::optional(in_plane) : std::nullopt;
+    can_go_on_ = false;
+    return hangs ? CableOutcome::hangs : CableOutcome::tension_too_low;
   }
   if (in_still_air && paid_out.length) {
     last_.reset();
@@ -1139,6 +1168,8 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
                       cable.axial_stiffness);
     return still_ ? CableOutcome::hangs : CableOutcome::not_found;
   }
+  // With a winch, cables outside of a plane are too few for code of their own.
+  const bool four_unknowns = p.even() && !p.winch;
   if (last_) {
     last_ = in_units_of(p, before, *last_);
     const auto from_last = [&]<int n>(std::integral_constant<int, n>) {
@@ -1148,11 +1179,12 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
       }
       return refined<n>(p, *last_, miss);
     };
-    last_ = p.even() ? from_last(std::integral_constant<int, in_even>())
-                     : from_last(std::integral_constant<int, in_any>());
+    last_ = four_unknowns ? from_last(std::integral_constant<int, in_even>())
+                          : from_last(std::integral_constant<int, in_any>());
   }
   CableOutcome why_not = CableOutcome::not_found;
-  if (!last_) last_ = p.even() ? anew<in_even, Last>(p, why_not) : anew<in_any, Last>(p, why_not);
+  if (!last_ && p.winch) last_ = held_by_winch<in_any, Last>(p, why_not);
+  if (!last_ && !p.winch) last_ = four_unknowns ? anew<in_even, Last>(p) : anew<in_any, Last>(p);
   return last_ ? CableOutcome::hangs : why_not;
 }
 

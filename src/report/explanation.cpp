@@ -27,14 +27,15 @@ namespace {
 
 struct GroupWords {
   std::string_view title;
-  std::string_view name;  ///< in JSON
-  std::string_view file;  ///< with its texts
+  std::string_view name;          ///< in JSON
+  std::string_view file;          ///< with its texts
+  std::string_view further = {};  ///< texts that not every program has
 };
 
 constexpr std::array<GroupWords, code_group_count> group_words{
     {{"Answers", "answer", "explain/answers.md"},
      {"Limits and demands", "limit", "explain/limits.md"},
-     {"Warnings and notes", "warning", "explain/warnings.md"},
+     {"Warnings and notes", "warning", "explain/warnings.md", "explain/motor-warnings.md"},
      {"Verdicts of a diagnosis", "verdict", "explain/verdicts.md"},
      {"Effects that a flight log shows", "flight_effect", "explain/flight-effects.md"},
      {"Effects that a power log shows", "power_effect", "explain/power-effects.md"},
@@ -66,7 +67,10 @@ std::vector<std::string> lines_of(std::string_view text) {
 std::vector<Explanation> pages_of(CodeGroup group) {
   std::vector<Explanation> pages;
   bool in_paragraph = false;
-  for (const std::string& line : lines_of(embedded_file(words_of(group).file))) {
+  const GroupWords& words = words_of(group);
+  std::string texts(embedded_file(words.file));
+  if (const EmbeddedFile* further = find_embedded_file(words.further)) texts += further->content;
+  for (const std::string& line : lines_of(texts)) {
     if (line.starts_with("# ")) {
       pages.push_back({line.substr(2), group, "", {}});
     } else if (line.starts_with("## ")) {

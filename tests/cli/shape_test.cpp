@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/published.hpp"
+#include "support/random.hpp"
 #include "support/reference_data.hpp"
 #include "support/run_program.hpp"
 
@@ -243,7 +244,8 @@ TEST_CASE("a winch that is too weak and a drum with too little cable are named b
 }
 
 TEST_CASE("a drone aside in wind is said to stand on the favourable side") {
-  for (const char* command : {"optimize", "evaluate", "envelope"}) {
+  for (const char* command : {"evaluate", "optimize", "envelope"}) {
+    if (leave_rates_out() && command != std::string("evaluate")) break;
     INFO(command);
     const Ran run =
         run_tethercalc({command, published, "--set", "tether.model=solved", "--set",

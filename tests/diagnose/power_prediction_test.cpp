@@ -92,7 +92,7 @@ Design drawn_design(test::Random& random) {
 }  // namespace
 
 TEST_CASE("a power effect at its neutral values changes no prediction, beyond it every one does") {
-  test::each_random(6, [](test::Random& random) {
+  test::each_random(test::draws(6), [](test::Random& random) {
     const PowerLog log = drawn_log(random);
     const PowerModel model{.design = drawn_design(random)};
     const std::vector<double> plain = predictions(model, log);

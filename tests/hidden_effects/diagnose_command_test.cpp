@@ -235,6 +235,7 @@ TEST_CASE("optimize honours what --into writes") {
        "/tether/conductor/resistivity_20C_ohm_mm2_per_m", 0.0278 * 1.2, 0.0005}};
   int rivals_first = 0;
   for (const Case& c : cases) {
+    if (leave_rates_out() && &c != &cases.front()) break;
     const std::string log =
         written(folder, "power.csv",
                 power_csv_text(a_power_log([&c](power_truth::Scenario& s) { c.hide(s.hidden); })));

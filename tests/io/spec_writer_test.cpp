@@ -123,7 +123,7 @@ TEST_CASE("an unchanged design is written as it was read, whatever its spelling"
 
 TEST_CASE("each field off neutral is written, read again as it was, and changes nothing else") {
   const DesignFile files[] = {parse_design(starting_spec(), "start.json"), inline_spec()};
-  each_random(10, [&](Random& random) {
+  each_random(test::draws(10), [&](Random& random) {
     const DesignFile& file = files[random.integer(0, 1)];
     for (const SpecField& field : spec_fields()) {
       INFO(field.pointer);
@@ -143,7 +143,7 @@ TEST_CASE("each field off neutral is written, read again as it was, and changes 
 
 TEST_CASE("all fields off neutral at once are written and read again as they were") {
   const DesignFile files[] = {parse_design(starting_spec(), "start.json"), inline_spec()};
-  each_random(200, [&](Random& random) {
+  each_random(test::draws(200), [&](Random& random) {
     const DesignFile& file = files[random.integer(0, 1)];
     Design design = file.design;
     for (const SpecField& field : spec_fields()) set_off_neutral(random, field, design);

@@ -162,7 +162,7 @@ TEST_CASE("of ten thousand damaged ULogs none crashes the reader or invents a me
   std::vector<Bytes> logs = real_logs({"annoybot_trig_stats.ulg", "annoybot_short_list.ulg"});
   logs.push_back(random_log(random, 100));
   std::size_t joined = 0;
-  for (int round = 0; round < 10'000; ++round) {
+  for (int round = 0; round < test::draws(10'000); ++round) {
     const Bytes& intact = logs[below(random, logs.size())];
     const std::vector<Message> before = messages_of(intact);
     std::map<std::size_t, std::size_t> length_at;

@@ -301,6 +301,11 @@ TEST_CASE("a winch is called too weak only where no length that it pays out has 
     Drawn d = drawn(random);
     d.cable.axial_stiffness.reset();
     if (random.chance(0.3)) d.air.profile = WindProfile::logarithmic;
+    if (random.chance(0.5)) {  // in one plane with its wind
+      d.cable.cylinder_diameter.reset();
+      d.air.profile = WindProfile::uniform;
+      d.air.wind.y = d.air.wind.z = d.drone.y = 0;
+    }
     // From taut on, until the tension falls no more.
     CableSolver by_length;
     double least = std::numeric_limits<double>::infinity();

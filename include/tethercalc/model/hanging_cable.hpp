@@ -203,6 +203,7 @@ class CableSolver {
     std::array<double, 49> inverse{};  ///< of how the ends follow the unknowns
   };
   std::optional<Last> last_;
+  bool can_go_on_ = true;          ///< `last_` has what Newton's method goes on from
   std::optional<Catenary> still_;  ///< instead, in still air with a known length
 
   [[nodiscard]] Problem problem() const;
