@@ -192,17 +192,19 @@ TEST_CASE("of the conductors that a winch holds up, which may be a few, none is 
     Tether& tether = design.tether;
     tether.model = TetherModel::solved;
     tether.length = random.uniform(10, 80);
-    // Weaker ones hold, in a wind, conductors of sizes closer than they are looked for.
-    tether.winch_pull = random.magnitude(1, 10);
+    const bool aside = random.chance(0.5);
+    // Weaker ones hold aside, in a wind, conductors of sizes closer than they are looked for.
+    tether.winch_pull = random.magnitude(aside ? 1 : 0.05, 10);
     if (random.chance(0.3)) tether.spooled_length = random.magnitude(0.1, 100);
     design.supply.voltage = random.uniform(60, 300);
     design.flight.airspeed = random.uniform(0, 12);
     design.flight.headwind = random.uniform(0, 10);
-    design.flight.horizontal_offset = tether.length * random.uniform(0, 1);
+    if (aside) design.flight.horizontal_offset = tether.length * random.uniform(0, 1);
     design.requirements.thrust_headroom = random.uniform(1, 1.6);
-    // A tenth of the thrust that it takes is far from flying, and its cables may be of a few sizes
-    // that nothing but the wind holds up.
-    check_solved_against_areas(design, 150, 0.1);
+    // A fifth of the thrust that it takes is far from flying, and its cables may be of a few sizes
+    // that nothing but the wind holds up: of 1000 such designs one has a tenth of it at 150 mm²
+    // only.
+    check_solved_against_areas(design, 150, 0.2);
   });
 }
 
