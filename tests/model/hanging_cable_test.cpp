@@ -385,6 +385,39 @@ TEST_CASE("a solver that goes on from its last cable answers as a fresh one") {
   });
 }
 
+TEST_CASE(
+    "whether a winch's cable lies in a plane or not, a solver goes on from it as a fresh one") {
+  each_random(20, [](Random& random) {
+    Drawn d = drawn(random);
+    d.cable.cylinder_diameter.reset();
+    CableSolver going_on;
+    for (int i = 0; i < 10; ++i) {
+      const double wind = random.uniform(-8, 8);
+      d.drone = {random.uniform(1, 20), 0, random.uniform(20, 60)};
+      d.air.wind = {wind, random.chance(0.5) ? 0 : random.uniform(-5, 5), 0};
+      d.paid_out = random.chance(0.3) ? of_length(1.05 * d.distance())
+                                      : PaidOut{.length = {}, .winch_tension = 60};
+      CableSolver fresh;
+      REQUIRE(fresh.solve(d.cable, d.air, d.paid_out, d.drone) == CableOutcome::hangs);
+      REQUIRE(going_on.solve(d.cable, d.air, d.paid_out, d.drone) == CableOutcome::hangs);
+      const Vector3 force = fresh.result().on_drone;
+      check_close(going_on.result().on_drone, force, 1e-8 * length_of(force));
+      const CableShape shape = going_on.shape(20);
+      check_close(shape.points.back().position, d.drone, 1e-6 * d.distance());
+      CHECK(shape.points.back().tension == Approx(length_of(force)).epsilon(1e-6));
+
+      Vector3 up = d.drone;
+      up.z += 1e-3;
+      const Vector3 slope = going_on.derivatives().by_position[2];
+      REQUIRE(fresh.solve(d.cable, d.air, d.paid_out, up) == CableOutcome::hangs);
+      const Vector3 there = fresh.result().on_drone;
+      check_close({there.x - force.x, there.y - force.y, there.z - force.z},
+                  {1e-3 * slope.x, 1e-3 * slope.y, 1e-3 * slope.z},
+                  1e-2 * 1e-3 * length_of(slope) + 1e-8 * length_of(force));
+    }
+  });
+}
+
 TEST_CASE("every cable hangs to its drone or has a name for why not") {
   const int count = test::draws(400);
   int not_found = 0;
