@@ -1011,13 +1011,17 @@ std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p) {
   const double along = dot(wind, ahead);
   constexpr double digits = 1e-12;
   const bool plane = wind.z == 0 && std::abs(wind.x * ahead.y - wind.y * ahead.x) <= digits * speed;
-  if (!plane || !p.even() || p.reynolds > 0 || p.compliance > 0) return std::nullopt;
+  const bool still = dot(wind, wind) == 0 && !p.moves;
+  const bool even = plane && p.even() && p.reynolds == 0;
+  if (p.compliance > 0 || !(still || even)) return std::nullopt;
   const auto cable = taut_cable({.weight = p.steady.z,
                                  .drag = p.drag * speed * along,
                                  .tension = *p.winch,
                                  .aside = aside,
                                  .height = p.drone.z});
-  if (!cable) return std::nullopt;
+  // Whoever asks for a shape follows it in steps of a third of σ's unit or less.
+  constexpr double most_sigma = 0.1 * most_steps_along;
+  if (!cable || cable->sigma > most_sigma) return std::nullopt;
   const auto direction = [&ahead](const TautCable::Place& place) {
     return place.along_x * ahead + Vector3{0, 0, place.along_z};
   };

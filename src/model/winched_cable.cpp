@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace tethercalc {
 namespace {
@@ -21,8 +20,8 @@ constexpr std::array<std::array<double, 2>, 4> points{{{0.18343464249564980, 0.3
 constexpr double straight_beyond = 8.5;
 
 class Plane {
-  /// On which the points miss by 1e-11. Directions have a pole at exp(v²/2) = −q, and turn back at
-  /// |v| = 3.5.
+  /// On which the points miss by 1e-9 or less. Directions have a pole at exp(v²/2) = −q, and turn
+  /// back at |v| = 3.5.
   [[nodiscard]] double piece_for_points() const {
     const double drag = std::abs(cable_.drag);
     const double q = 2 * drag * (1 + std::abs(limit_cos_)) / (cable_.weight + root_ - 2 * drag);
@@ -41,6 +40,8 @@ class Plane {
         widest_piece_(piece_for_points()),
         rise_(2 / m_ * std::log1p(cable.weight * cable.height / cable.tension)) {}
 
+  /// Of v² from the winch to the drone.
+  [[nodiscard]] double rise() const { return rise_; }
   /// How far aside a straight cable would end.
   [[nodiscard]] double straight_aside() const { return cable_.height * limit_cos_ / limit_sin_; }
   [[nodiscard]] double v_at_drone(double v) const { return std::sqrt(v * v + rise_); }
@@ -192,11 +193,19 @@ std::optional<AtWinch> taut_at_winch(const Plane& plane, double wanted) {
 
 std::optional<TautCable> taut_cable(const WinchedCable& cable) {
   constexpr double least_weight_to_drag = 1e-2;
+  constexpr double least_height = 1e-9;  // of the way aside
+  // Of the load: below, rounding leaves 1e-9 of the directions.
+  constexpr double most_tension = 1e5;
+  constexpr double most_rise = 800;  // of v²
   constexpr double least_aside = 1e-9;
-  if (!(cable.height > 0) || !(cable.weight > least_weight_to_drag * std::abs(cable.drag))) {
+  const double load = std::hypot(cable.weight, cable.drag) * std::hypot(cable.aside, cable.height);
+  if (!(cable.height > least_height * std::abs(cable.aside)) ||
+      !(cable.weight > least_weight_to_drag * std::abs(cable.drag)) ||
+      !(cable.tension < most_tension * load)) {
     return std::nullopt;
   }
   Plane plane(cable);
+  if (!(plane.rise() < most_rise)) return std::nullopt;
   double wanted = cable.aside - plane.straight_aside();
   const bool mirrored = wanted < 0;
   if (mirrored) {

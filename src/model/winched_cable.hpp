@@ -36,8 +36,8 @@ struct TautCable {
 /// Engineering, 1976, chapter 4, has those of a towed cable) and φ one of the height. One integral
 /// over the height is left, that of the way aside, by which the angle at the winch is found: with
 /// that angle the way aside rises to a greatest one and falls again, and a drone beyond it is held
-/// by no cable. To about 1e-9. Nothing where the drone is not above the winch or the drag far more
-/// than the weight.
+/// by no cable. To about 1e-9. Nothing where the drone is not above the winch, the drag far more
+/// than the weight, the tension far more than the load or next to none, or the search does not end.
 [[nodiscard]] std::optional<TautCable> taut_cable(const WinchedCable& cable);
 
 }  // namespace tethercalc

@@ -130,10 +130,13 @@ std::vector<Explanation> all_pages() {
   for (std::size_t g = 0; g < code_group_count; ++g) {
     const auto group = static_cast<CodeGroup>(g);
     // The program of a browser's page is built without those that it never shows.
-    if (find_embedded_file(words_of(group).file) == nullptr) continue;
+    const auto& [title, name, file, further] = words_of(group);
+    if (find_embedded_file(file) == nullptr) continue;
+    const bool whole = further.empty() || find_embedded_file(further) != nullptr;
     std::vector<Explanation> own = pages_of(group);
     for (const std::string& code : codes_of(group)) {
       const auto page = std::ranges::find(own, code, &Explanation::code);
+      if (page == own.end() && !whole) continue;
       if (page == own.end()) throw std::logic_error("no page explains " + code);
       if (const Effect* effect = find_effect(code)) complete(*page, *effect);
       pages.push_back(std::move(*page));
