@@ -418,6 +418,22 @@ TEST_CASE(
   });
 }
 
+TEST_CASE("a shape is followed wherever a solver says that the cable hangs, however light it is") {
+  Cable cable{.weight = 1, .diameter = 0.004, .drag_coefficient = 1};
+  MovingAir air;
+  air.wind = {-20, 0, 0};
+  const double drag = drag_across(cable, air, 20);
+  cable.weight = 0.011 * drag;
+  const double balanced = 2 * drag / (cable.weight + std::hypot(cable.weight, 2 * drag));
+  const double height = 50 * std::sqrt(1 - balanced * balanced);
+  const double tension = 0.1 * cable.weight * height;
+  CableSolver solver;
+  const CableOutcome outcome = solver.solve(cable, air, {.length = {}, .winch_tension = tension},
+                                            {50 * balanced, 0, height});
+  if (outcome == CableOutcome::hangs) CHECK(solver.shape(4).points.size() == 5);
+  CHECK(outcome != CableOutcome::too_short);
+}
+
 TEST_CASE("every cable hangs to its drone or has a name for why not") {
   const int count = test::draws(400);
   int not_found = 0;

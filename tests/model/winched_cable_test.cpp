@@ -166,5 +166,11 @@ TEST_CASE("a cable above its winch hangs straight in still air, however weak the
 
 TEST_CASE("a cable nearly without weight, or to a drone no higher, is left to who solves any") {
   CHECK_FALSE(taut_cable({.weight = 1e-3, .drag = 1, .tension = 5, .aside = 3, .height = 10}));
+  CHECK_FALSE(taut_cable({.weight = 1, .drag = 0, .tension = 5, .aside = 10, .height = 1e-20}));
   CHECK_FALSE(taut_cable({.weight = 1, .drag = 0, .tension = 5, .aside = 5, .height = 0}));
+}
+
+TEST_CASE("a tension far beyond the load, or next to none of it, is left to who solves any") {
+  CHECK_FALSE(taut_cable({.weight = 1, .drag = 0.3, .tension = 1e9, .aside = 5, .height = 10}));
+  CHECK_FALSE(taut_cable({.weight = 1, .drag = 0.5, .tension = 1e-300, .aside = 3, .height = 10}));
 }
