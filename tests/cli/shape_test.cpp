@@ -12,6 +12,7 @@
 #include "support/run_program.hpp"
 
 using namespace tethercalc::test;
+using Catch::Contains;
 using Json = nlohmann::json;
 
 namespace {
