@@ -890,7 +890,7 @@ std::optional<Start> led_from(const Problem& problem, const Vector3& load, doubl
 
 /// From a cable that is nearly straight, by a winch that gives way; or how much of the logarithm of
 /// its tension is left where it holds the cable up no more.
-template <int n, class Start, class Problem>
+template <class Start, class Problem>
 std::optional<std::pair<Start, double>> let_out(const Problem& problem, const Vector3& load) {
   constexpr double taut = 30;  // of the load
   const auto changed = [&](double share) {
@@ -900,9 +900,9 @@ std::optional<std::pair<Start, double>> let_out(const Problem& problem, const Ve
   };
   const Problem first = changed(1);
   auto at = under_even_load<Start>(first, load);
-  if (at) at = newton<n>(first, *at, 30);
+  if (at) at = newton<in_any>(first, *at, 30);
   if (!at) return std::nullopt;
-  return led_on<n>(changed, *at);
+  return led_on<in_any>(changed, *at);
 }
 
 /// A cable as long as it is, and what the tension at its station does as it grows longer.
@@ -915,14 +915,14 @@ struct LetOut {
 };
 
 /// How the unknowns change with the length, where that is held.
-template <int n, class Start>
-Unknowns<n> change_by_length(const Start& at) {
+template <class Start>
+Unknowns<in_any> change_by_length(const Start& at) {
   constexpr int held = 3;
-  return Eigen::Map<const Square<n>>(at.inverse.data()).col(held);
+  return Eigen::Map<const Square<in_any>>(at.inverse.data()).col(held);
 }
 
 /// With `log_slack`, from a cable that is nearly so.
-template <int n, class Problem, class Start>
+template <class Problem, class Start>
 std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack, const Start& from,
                                         std::optional<double> length_before) {
   const double slack = norm(problem.drone) * std::exp(log_slack);
@@ -931,15 +931,15 @@ std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack
   of_length.length = norm(problem.drone) + slack;
   Start start = from;
   if (length_before) {
-    const Unknowns<n> step = (of_length.length - *length_before) * change_by_length<n>(from);
-    start = moved<n>(from, std::min(1.0, 0.5 / size_of<n>(step)) * step);
+    const Unknowns<in_any> step = (of_length.length - *length_before) * change_by_length(from);
+    start = moved<in_any>(from, std::min(1.0, 0.5 / size_of<in_any>(step)) * step);
   }
-  const auto found = newton<n>(of_length, start, 30);
+  const auto found = newton<in_any>(of_length, start, 30);
   if (!found) return std::nullopt;
   const double tension = norm(found->ends.at_station);
   Vector3 by_length;
-  const Unknowns<n> unknowns = change_by_length<n>(*found);
-  for (int k = 0; k < n; ++k) {
+  const Unknowns<in_any> unknowns = change_by_length(*found);
+  for (int k = 0; k < in_any; ++k) {
     by_length =
         by_length + unknowns(k) * found->by_unknowns[static_cast<std::size_t>(k)].at_station;
   }
@@ -950,7 +950,7 @@ std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack
 /// The cable of a winch by its length, from that under an even load, until the tension is the
 /// winch's. Where it falls no more before that, the winch is too weak: between a cable whose
 /// tension falls and one whose tension rises the logarithm lies above both of its tangents.
-template <int n, class Start, class Problem>
+template <class Start, class Problem>
 std::optional<Start> by_length(const Problem& problem, const Vector3& load, CableOutcome& why_not) {
   constexpr double longest_step = 1.5;
   constexpr double close = 1e-3;
@@ -964,14 +964,14 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
   Start from = *start;
   std::optional<double> length;
   for (int i = 0; i < 40 && log_slack < most_log_slack; ++i) {
-    const auto here = let_out_to<n>(problem, log_slack, from, length);
+    const auto here = let_out_to(problem, log_slack, from, length);
     if (!here) return std::nullopt;
     from = here->at;
     length = norm(problem.drone) * (1 + std::exp(log_slack));
     const bool falls = here->slope < 0;
     if (falls && std::abs(here->excess / here->slope) < close) {
-      const auto found = newton<n>(problem, here->at, 8);
-      if (found && is_tauter<n>(problem, *found)) return found;
+      const auto found = newton<in_any>(problem, here->at, 8);
+      if (found && is_tauter<in_any>(problem, *found)) return found;
     }
     (falls && here->excess > 0 ? tauter : slacker) = here;
     double next = falls ? log_slack - here->excess / here->slope : log_slack - longest_step;
@@ -1001,7 +1001,7 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
 /// The tauter cable that a winch holds, where that is known but for an integral, or that there is
 /// none; nothing where it lies in no plane with weight, wind and drone.
 template <class Start, class Problem>
-std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p) {
+std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p, bool in_still_air) {
   const Vector3& wind = p.air.wind;
   const double speed = std::hypot(wind.x, wind.y);
   const double aside = std::hypot(p.drone.x, p.drone.y);
@@ -1011,9 +1011,8 @@ std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p) {
   const double along = dot(wind, ahead);
   constexpr double digits = 1e-12;
   const bool plane = wind.z == 0 && std::abs(wind.x * ahead.y - wind.y * ahead.x) <= digits * speed;
-  const bool still = dot(wind, wind) == 0 && !p.moves;
   const bool even = plane && p.even() && p.reynolds == 0;
-  if (p.compliance > 0 || !(still || even)) return std::nullopt;
+  if (p.compliance > 0 || !(in_still_air || even)) return std::nullopt;
   const auto cable = taut_cable({.weight = p.steady.z,
                                  .drag = p.drag * speed * along,
                                  .tension = *p.winch,
@@ -1049,7 +1048,7 @@ std::optional<Start> from_even_load(const Problem& problem, const Vector3& load)
   return at;
 }
 
-template <int n, class Start, class Problem>
+template <class Start, class Problem>
 std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not) {
   const Vector3 load = load_along_chord(problem, 0.6);
   // One that takes more is found sooner by its length.
@@ -1058,16 +1057,16 @@ std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not
   *problem.steps_left -= steps;
   Problem soon = problem;
   soon.steps_left = &steps;
-  const auto at = from_even_load<n, Start>(soon, load);
+  const auto at = from_even_load<in_any, Start>(soon, load);
   *problem.steps_left += std::max(0, steps);
-  if (at && is_tauter<n>(problem, *at)) return at;
+  if (at && is_tauter<in_any>(problem, *at)) return at;
   // Where load and chord are about in line, a tension may be that of cables to either side.
   const double across_load = norm(cross(unit(load), unit(problem.drone)));
   if (problem.compliance == 0 && across_load > 0.3) {
-    if (const auto found = by_length<n, Start>(problem, load, why_not)) return found;
+    if (const auto found = by_length<Start>(problem, load, why_not)) return found;
     if (why_not == CableOutcome::tension_too_low) return std::nullopt;
   }
-  const auto found = let_out<n, Start>(problem, load);
+  const auto found = let_out<Start>(problem, load);
   if (found && found->second == 0) return found->first;
   if (found && found->second < 1) why_not = CableOutcome::tension_too_low;
   return std::nullopt;
@@ -1160,7 +1159,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
   }
   const bool in_still_air =
       p.drag * (dot(air.wind, air.wind) + dot(air.drone_velocity, air.drone_velocity)) == 0;
-  if (const auto known = p.winch ? in_a_plane<Last>(p) : std::nullopt) {
+  if (const auto known = p.winch ? in_a_plane<Last>(p, in_still_air) : std::nullopt) {
     const auto& [hangs, in_plane] = *known;
     last_ = hangs ? std::optional(in_plane) : std::nullopt;
     can_go_on_ = false;
@@ -1187,7 +1186,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
                           : from_last(std::integral_constant<int, in_any>());
   }
   CableOutcome why_not = CableOutcome::not_found;
-  if (!last_ && p.winch) last_ = held_by_winch<in_any, Last>(p, why_not);
+  if (!last_ && p.winch) last_ = held_by_winch<Last>(p, why_not);
   if (!last_ && !p.winch) last_ = four_unknowns ? anew<in_even, Last>(p) : anew<in_any, Last>(p);
   return last_ ? CableOutcome::hangs : why_not;
 }

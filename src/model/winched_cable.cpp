@@ -20,8 +20,8 @@ constexpr std::array<std::array<double, 2>, 4> points{{{0.18343464249564980, 0.3
 constexpr double straight_beyond = 8.5;
 
 class Plane {
-  /// On which the points miss by 1e-9 or less. Directions have a pole at exp(v²/2) = −q, and turn
-  /// back at |v| = 3.5.
+  /// On which the points miss by 1e-9 or less. Directions have a pole at exp(v²/2) = −q; where that
+  /// is far they turn back at |v| = 2.5.
   [[nodiscard]] double piece_for_points() const {
     const double drag = std::abs(cable_.drag);
     const double q = 2 * drag * (1 + std::abs(limit_cos_)) / (cable_.weight + root_ - 2 * drag);
@@ -60,8 +60,7 @@ class Plane {
     const double drag = sign * cable_.drag;
     const double limit = sign * limit_cos_;
     const double least = cable_.weight + root_ - 2 * drag;
-    constexpr double same_beyond = 900;  // and no infinity
-    const double growth = std::expm1(0.5 * std::min(v * v, same_beyond));
+    const double growth = std::expm1(0.5 * v * v);
     const double below = (1 + growth) * least / (1 - limit) + 2 * drag;
     const double from_1 = least * growth / below;
     const double from_limit = (cable_.weight + root_ - 2 * drag * limit) / below;
@@ -196,7 +195,7 @@ std::optional<TautCable> taut_cable(const WinchedCable& cable) {
   constexpr double least_height = 1e-9;  // of the way aside
   // Of the load: below, rounding leaves 1e-9 of the directions.
   constexpr double most_tension = 1e5;
-  constexpr double most_rise = 800;  // of v²
+  constexpr double most_rise = 800;  // of v², whose exponential is a number
   constexpr double least_aside = 1e-9;
   const double load = std::hypot(cable.weight, cable.drag) * std::hypot(cable.aside, cable.height);
   if (!(cable.height > least_height * std::abs(cable.aside)) ||

@@ -130,9 +130,9 @@ std::vector<Explanation> all_pages() {
   for (std::size_t g = 0; g < code_group_count; ++g) {
     const auto group = static_cast<CodeGroup>(g);
     // The program of a browser's page is built without those that it never shows.
-    const auto& [title, name, file, further] = words_of(group);
-    if (find_embedded_file(file) == nullptr) continue;
-    const bool whole = further.empty() || find_embedded_file(further) != nullptr;
+    const GroupWords& words = words_of(group);
+    if (find_embedded_file(words.file) == nullptr) continue;
+    const bool whole = words.further.empty() || find_embedded_file(words.further) != nullptr;
     std::vector<Explanation> own = pages_of(group);
     for (const std::string& code : codes_of(group)) {
       const auto page = std::ranges::find(own, code, &Explanation::code);

@@ -201,10 +201,10 @@ TEST_CASE("of the conductors that a winch holds up, which may be a few, none is 
     design.flight.headwind = random.uniform(0, 10);
     if (aside) design.flight.horizontal_offset = tether.length * random.uniform(0, 1);
     design.requirements.thrust_headroom = random.uniform(1, 1.6);
-    // A fifth of the thrust that it takes is far from flying, and its cables may be of a few sizes
-    // that nothing but the wind holds up: of 1000 such designs one has a tenth of it at 150 mm²
-    // only.
-    check_solved_against_areas(design, 150, 0.2);
+    // Aside, a fifth of the thrust that it takes is far from flying, and its cables may be of a few
+    // sizes that nothing but the wind holds up: of 1000 such designs one has a tenth of it at 150
+    // mm² only.
+    check_solved_against_areas(design, 150, aside ? 0.2 : 0.1);
   });
 }
 
