@@ -16,7 +16,7 @@ using namespace tethercalc;
 
 namespace {
 
-constexpr std::array<CsvColumn, 3> wanted = {
+const std::array<CsvColumn, 3> wanted = {
     CsvColumn{.name = "time_s", .increasing = true},
     CsvColumn{.name = "load_N", .minimum = 0, .maximum = 100},
     CsvColumn{.name = "note_V", .required = false}};
