@@ -11,6 +11,10 @@
 namespace tethercalc {
 namespace {
 
+bool is_logarithmic(const VariableRange& range) {
+  return range.lo > 0 && range.hi >= 10 * range.lo;
+}
+
 /// In place of what is not finite: far above any objective, far below what overflows in sums.
 constexpr double penalty_value = 1e30;
 /// In place of a constraint that is not finite: ten times a gross violation.
@@ -54,10 +58,7 @@ class UnitProblem {
   [[nodiscard]] std::vector<double> actual(std::span<const double> unit) const {
     std::vector<double> x(unit.size());
     for (std::size_t i = 0; i < unit.size(); ++i) {
-      const auto [lo, hi] = problem_.variables[i];
-      const double u = std::clamp(unit[i], 0.0, 1.0);
-      const double value = lo > 0 && hi >= 10 * lo ? lo * std::pow(hi / lo, u) : lo + (hi - lo) * u;
-      x[i] = u == 1 ? hi : std::clamp(value, lo, hi);
+      x[i] = problem_.variables[i].at(std::clamp(unit[i], 0.0, 1.0));
     }
     return x;
   }
@@ -254,6 +255,18 @@ Visited least_violation(const MinimumProblem& source, const Visited& start, int 
 }
 
 }  // namespace
+
+double VariableRange::at(double share) const {
+  const double value =
+      is_logarithmic(*this) ? lo * std::pow(hi / lo, share) : lo + (hi - lo) * share;
+  return share == 1 ? hi : std::clamp(value, lo, hi);
+}
+
+double VariableRange::share_of(double value) const {
+  if (!(hi > lo)) return 0;
+  return is_logarithmic(*this) ? std::log(value / lo) / std::log(hi / lo)
+                               : (value - lo) / (hi - lo);
+}
 
 Minimum constrained_minimum(const MinimumProblem& problem, const MinimumOptions& options) {
   UnitProblem global(problem);

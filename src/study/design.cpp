@@ -126,18 +126,18 @@ class Prices {
     const SweepAxis& axis = problem_.free[i];
     const auto* range = std::get_if<Uniform>(&axis.values);
     if (range == nullptr || !(range->hi > range->lo)) return;
-    const double x = answer_.values[i];
-    const double width = range->hi - range->lo;
-    const bool at_lo = x - range->lo <= binding * width;
-    const bool at_hi = range->hi - x <= binding * width;
+    const double share = VariableRange{range->lo, range->hi}.share_of(answer_.values[i]);
+    const bool at_lo = share <= binding;
+    const bool at_hi = share >= 1 - binding;
     if (!at_lo && !at_hi) return;
+    const double end = at_lo ? range->lo : range->hi;
     DesignProblem changed = problem_;
     ShadowPrice price{Priced::range_end, !at_lo};
     price.name = axis.name;
-    price.step = (at_lo ? -0.01 : 0.01) * std::abs(x);
+    price.step = (at_lo ? -0.01 : 0.01) * std::abs(end);
     auto& moved = std::get<Uniform>(changed.free[i].values);
     (at_lo ? moved.lo : moved.hi) += price.step;
-    if (price.step != 0 && allowed(axis, x + price.step)) add(std::move(price), changed);
+    if (price.step != 0 && allowed(axis, end + price.step)) add(std::move(price), changed);
   }
 
   /// Whether the field may have that value at all.

@@ -1,7 +1,9 @@
 #include "tethercalc/study/design.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
@@ -89,6 +91,41 @@ TEST_CASE("a price lets everything that is free adapt, choices too") {
     return;
   }
   FAIL("no price of mass");
+}
+
+TEST_CASE("an optimum inside of a range is at no end of it, however wide the range") {
+  // The published optimum is 1.0886 mm²; below 1e-3 mm² there is no cable.
+  for (const auto& [lo, hi] :
+       std::vector<std::pair<double, double>>{{0.9, 1.2}, {0.4, 1e6}, {1e-3, 1e6}}) {
+    INFO(lo << " to " << hi);
+    DesignQuestion question;
+    question.problem.base = test::published_design();
+    question.problem.free = {
+        {std::string(cross_section_path), Uniform{lo, hi}, [](Design& d, double mm2) {
+           if (!(mm2 >= 1e-3)) throw std::invalid_argument("no cable");
+           d.tether.cross_section = mm2 * unit::square_millimetre;
+         }}};
+    const DesignStudy study = study_design(question);
+    CHECK(study.answer.best.area == Approx(1.0886e-6).epsilon(1e-4));
+    for (const ShadowPrice& price : study.prices) CHECK(price.of != Priced::range_end);
+  }
+}
+
+TEST_CASE("an end of a range that binds has a price, and has none where nothing lies beyond it") {
+  for (const double least : {0.0, 1.3}) {
+    DesignQuestion question;
+    question.problem.base = test::published_design();
+    question.problem.free = {
+        {std::string(cross_section_path), Uniform{1.3, 1e6}, [least](Design& d, double mm2) {
+           if (mm2 < least) throw std::invalid_argument("no cable");
+           d.tether.cross_section = mm2 * unit::square_millimetre;
+         }}};
+    const DesignStudy study = study_design(question);
+    CHECK(study.answer.best.area == Approx(1.3e-6).epsilon(1e-6));
+    const auto ends = std::ranges::count_if(
+        study.prices, [](const ShadowPrice& price) { return price.of == Priced::range_end; });
+    CHECK(ends == (least == 0 ? 1 : 0));
+  }
 }
 
 TEST_CASE("the condition in which power is judged may be free") {

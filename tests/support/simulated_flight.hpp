@@ -100,8 +100,12 @@ inline FlightLog simulate(const SimulatedFlight& f) {
   const auto wait_on_ground = [&](double from, double until) {
     // Standing on uneven ground: the attitude says nothing about thrust.
     for (double t = from; t < until; t += step * steps_a_sample) {
-      record(t, 0.06 + 1e-4 * dice.normal(), -0.02, f.heading, 0.01 * dice.normal(),
-             0.01 * dice.normal(), 0.01 * dice.normal());
+      // One after the other: compilers differ in the order of arguments.
+      const double downwards = 0.01 * dice.normal();
+      const double to_the_right = 0.01 * dice.normal();
+      const double ahead = 0.01 * dice.normal();
+      const double lean = 0.06 + 1e-4 * dice.normal();
+      record(t, lean, -0.02, f.heading, ahead, to_the_right, downwards);
     }
   };
 

@@ -13,6 +13,11 @@ namespace tethercalc {
 struct VariableRange {
   double lo = 0;  ///< the least
   double hi = 1;  ///< the greatest
+
+  /// The value a `share` of the way, from 0 to 1, along the scale on which it is searched.
+  [[nodiscard]] double at(double share) const;
+  /// The share of the way at which `value` lies; 0 where there is no way.
+  [[nodiscard]] double share_of(double value) const;
 };
 
 /// What is to be minimised. `evaluate` fills `constraints` with values that must be at most 0, each
