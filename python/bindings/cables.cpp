@@ -27,7 +27,8 @@ Answer evaluation(const py::object& spec, const Texts& areas_mm2) {
   const EvaluationStudy study =
       interruptible([=](const StopFlag&) { return study_evaluation(file->design, areas); });
   return {[=] { return evaluate_text(*file, study, {}); },
-          [=] { return evaluate_json(*file, study); }, [=] { return evaluate_csv(study.table); }};
+          [=] { return evaluate_json(*file, study); },
+          [=] { return evaluate_csv(file->design, study.table); }};
 }
 
 Answer comparison(const py::object& spec, const Texts& motors) {

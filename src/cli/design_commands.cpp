@@ -137,7 +137,8 @@ int run_evaluate(const SpecOptions& spec, const std::vector<std::string>& areas_
   const EvaluationStudy answer = study_evaluation(file.design, chosen_areas(areas, file.design));
   emit(
       output, [&] { return evaluate_text(file, answer, style_for(output)); },
-      [&] { return evaluate_json(file, answer); }, [&] { return evaluate_csv(answer.table); });
+      [&] { return evaluate_json(file, answer); },
+      [&] { return evaluate_csv(file.design, answer.table); });
   point_to_explanations({}, evaluation_warnings(file, answer), output);
   return done;
 }

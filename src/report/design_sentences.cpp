@@ -440,6 +440,12 @@ ordered_json thermal_json(const Design& design, const AreaPoints& points) {
           {"forward", temperatures_json(points.forward)}};
 }
 
+ordered_json verdict_json(const Design& design, const AreaPoints& points) {
+  const std::string fault = shortcoming(design, points);
+  return {{"feasible", fault.empty()},
+          {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)}};
+}
+
 ordered_json cable_json(const Design& design, const AreaPoints& points) {
   const double load = breaking_load(design.tether, points.area);
   const double breakdown = breakdown_voltage(design);

@@ -130,14 +130,10 @@ ordered_json envelope_json(const DesignFile& file, const EnvelopeStudy& study) {
     });
     return ordered_json{{"of", of.key}, {"against", against.key}, {"points", points}};
   });
-  const std::string fault = shortcoming(file.design, study.as_given);
-  const ordered_json as_given{
-      {"feasible", fault.empty()},
-      {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)}};
   ordered_json out{
       {"name", file.name},
       {"cross_section_mm2", *file.design.tether.cross_section / unit::square_millimetre},
-      {"as_given", as_given},
+      {"as_given", verdict_json(file.design, study.as_given)},
       {"greatest", greatest},
       {"curves", curves}};
   add_estimates(out, file.design);

@@ -239,14 +239,12 @@ ordered_json optimize_json(const DesignFile& file, const OptimumStudy& study) {
                         number_or_null(range.hi / unit::square_millimetre)};
   });
   const ordered_json sizes = json_list(study.sizes, [&](const SizePoints& size) {
-    const std::string fault = shortcoming(design, size.points);
-    return ordered_json{
-        {"name", size.name},
-        {"cross_section_mm2", size.points.area / unit::square_millimetre},
-        {"feasible", fault.empty()},
-        {"shortcoming", fault.empty() ? ordered_json(nullptr) : ordered_json(fault)},
-        {"hover", operating_point_json(size.points.hover)},
-        {"forward", operating_point_json(size.points.forward)}};
+    ordered_json entry{{"name", size.name},
+                       {"cross_section_mm2", size.points.area / unit::square_millimetre}};
+    entry.update(verdict_json(design, size.points));
+    entry["hover"] = operating_point_json(size.points.hover);
+    entry["forward"] = operating_point_json(size.points.forward);
+    return entry;
   });
   ordered_json out{
       {"name", file.name},
@@ -310,6 +308,8 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
 }
 
 ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study) {
+  const ordered_json verdicts =
+      json_list(study.table, [&](const AreaPoints& row) { return verdict_json(file.design, row); });
   const ordered_json thermal =
       json_list(study.table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
   const ordered_json cables =
@@ -317,6 +317,7 @@ ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study)
   ordered_json out{
       {"name", file.name},
       {"table", table_json(study.table)},
+      {"verdict", verdicts},
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
       {"cable", cables},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};
@@ -325,16 +326,19 @@ ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study)
   return out;
 }
 
-std::string evaluate_csv(std::span<const AreaPoints> table) {
+std::string evaluate_csv(const Design& design, std::span<const AreaPoints> table) {
   std::string out = "condition";
   for (const OperatingPointField& field : operating_point_fields())
     out.append(",").append(field.key);
+  out += ",feasible,shortcoming";
   for (const AreaPoints& row : table) {
+    const std::string fault = shortcoming(design, row);
     for (const Condition condition : {Condition::hover, Condition::forward}) {
       out.append("\n").append(condition_name(condition));
       for (const OperatingPointField& field : operating_point_fields()) {
         out += "," + csv_number(practical_value(row.in(condition), field));
       }
+      out += (fault.empty() ? ",true," : ",false,") + csv_text(fault);
     }
   }
   return out + "\n";

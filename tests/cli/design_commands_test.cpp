@@ -106,6 +106,21 @@ TEST_CASE("evaluate returns the table of both conditions, null where a quantity 
   CHECK_THAT(csv.out, Contains(",,"));
 }
 
+TEST_CASE("evaluate tells programs of each area whether it will do, and what it lacks") {
+  // The published headroom of 2 is met from 1.0886 mm² on.
+  const auto told = [](const std::string& format) {
+    return run_tethercalc({"evaluate", published, "--area-mm2", "0.8,1.1", "--format", format}).out;
+  };
+  const json verdict = json::parse(told("json"))["verdict"];
+  REQUIRE(verdict.size() == 2);
+  CHECK(verdict[0] == json{{"feasible", false}, {"shortcoming", "headroom 1.68 < 2.00"}});
+  CHECK(verdict[1] == json{{"feasible", true}, {"shortcoming", nullptr}});
+  const std::string csv = told("csv");
+  CHECK_THAT(csv, Contains(",feasible,shortcoming\n"));
+  CHECK_THAT(csv, Contains(",false,headroom 1.68 < 2.00\n"));
+  CHECK_THAT(csv, Catch::EndsWith(",true,\n"));
+}
+
 TEST_CASE("evaluate tells the same of a cable as optimize does") {
   const std::vector<std::string> solved{"--set", "tether.model=solved", "--format", "json"};
   const auto told = [&](std::vector<std::string> arguments) {

@@ -21,6 +21,9 @@ namespace tethercalc {
 /// Why a cable cannot be used in this design, in a few words; empty where it can.
 [[nodiscard]] std::string shortcoming(const Design& design, const AreaPoints& points);
 
+/// The same for programs: `feasible`, and `shortcoming`, null where there is none.
+[[nodiscard]] nlohmann::ordered_json verdict_json(const Design& design, const AreaPoints& points);
+
 /// Why the optimum is where it is. For a feasible result.
 [[nodiscard]] std::string limit_sentence(const Design& design, const Optimization& result);
 
@@ -156,12 +159,12 @@ struct Answer {
 /// A table a condition, and what keeps an area from being usable.
 [[nodiscard]] std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
                                         const TextStyle& style);
-/// The keys `table`, `thermal` and `cable` of `evaluate`, lists with an entry an area (`thermal`
-/// null without a heat balance): the objects of `optimize`.
+/// The keys `table`, `verdict`, `thermal` and `cable` of `evaluate`, lists with an entry an area
+/// (`thermal` null without a heat balance): the objects of `optimize`, and `verdict_json`.
 [[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
                                                    const EvaluationStudy& study);
-/// A header and two rows an area, hover first.
-[[nodiscard]] std::string evaluate_csv(std::span<const AreaPoints> table);
+/// A header and two rows an area, hover first, each with the verdict on its area.
+[[nodiscard]] std::string evaluate_csv(const Design& design, std::span<const AreaPoints> table);
 
 /// The feasible motors of a ranking of `compare_motors`.
 [[nodiscard]] TitledTable motor_table(const Design& design, std::span<const MotorOptimum> ranking);
