@@ -639,6 +639,47 @@ void tell_tilt(const TiltComparison& tilt, const PowerModel& base, const PowerMo
   }
 }
 
+/// Where nothing was measured behind the converter's input, how far the model is off there, by
+/// whichever of its parts.
+void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& found,
+                         Diagnosis& diagnosis) {
+  const std::span<const PowerStage> stages = residuals.stages();
+  if (stages.size() != 1 || stages.front().stage != Stage::tether) return;
+  if (residuals.log().airspeed.empty()) return;
+  constexpr double least = 0.02;  // flights are seldom as steady, nor masses weighed as exactly
+  constexpr double least_t = 3;
+  const std::vector<double> share = residuals.predicted_share_of_input(found);
+  std::vector<double> of_block(most_power_blocks, 0);
+  std::vector<double> samples(most_power_blocks, 0);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    if (!stages.front().usable[i] || !(share[i] > 0)) continue;
+    const auto block = static_cast<std::size_t>(block_at(residuals.log(), i));
+    of_block[block] -= std::log(share[i]);
+    samples[block] += 1;
+  }
+  double blocks = 0;
+  double mean = 0;
+  double square = 0;
+  for (std::size_t block = 0; block < of_block.size(); ++block) {
+    if (samples[block] == 0) continue;
+    const double x = of_block[block] / samples[block];
+    const double before = mean;
+    mean += (x - mean) / ++blocks;
+    square += (x - before) * (x - mean);
+  }
+  const double off = std::expm1(mean);
+  const double error = std::sqrt(square / (blocks * (blocks - 1)));
+  const double unsure = found.design.drone.motor.uncertainty().value_or(0);
+  if (!(std::abs(off) > std::max(least, unsure) && std::abs(mean) > least_t * error)) return;
+  diagnosis.notes.push_back(
+      {WarningKind::log_power_untold,
+       fmt::format(
+           "the drone draws {:.1f} % {} than the spec with what was found comes to: whether "
+           "by its mass, drag, motors or converter only bus_voltage_V and bus_current_A tell, "
+           "and the optimum does not know of it",
+           100 * std::abs(off), off > 0 ? "more" : "less")});
+}
+
 /// In words, of the stages that are measured.
 std::string compared_quantities(const PowerLog& log) {
   std::vector<std::string> words;
@@ -726,6 +767,7 @@ PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
   compare_stages(residuals, view, selection, diagnosis);
   if (tilt) compare_tilt(view, selection, diagnosis);
   const PowerModel found = view.model(selection.extended.values);
+  tell_power_of_drone(residuals, found, diagnosis);
   result.extended = found.design;
   if (tilt) {
     diagnosis.drag_by_tilt = tilt->shown();

@@ -463,6 +463,17 @@ void PowerResiduals::standardised(std::size_t k, const PowerModel& model,
   }
 }
 
+std::vector<double> PowerResiduals::predicted_share_of_input(const PowerModel& model) const {
+  const PowerLog log = without_errors(screened_.log, model.instruments);
+  std::vector<double> share = motor_power(model, log, memory_.loads);
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const double predicted = model.design.drone.auxiliary_power +
+                             converter_input_power(model.design.supply.converter, share[i]);
+    share[i] = predicted / (log.drone_voltage[i] * log.supply_current[i]);
+  }
+  return share;
+}
+
 void PowerResiduals::whitened(std::size_t k, std::span<const double> standardised,
                               std::span<double> out) const {
   const PowerStage& stage = stages_[k];

@@ -72,6 +72,10 @@ class PowerResiduals {
   /// `stages()`.
   void standardised(std::size_t k, const PowerModel& model, std::span<double> out) const;
 
+  /// Power in W that the flight takes at the converter's input, whatever was measured at the bus,
+  /// over the power measured there, one ratio a sample. NaN where the model cannot fly.
+  [[nodiscard]] std::vector<double> predicted_share_of_input(const PowerModel& model) const;
+
   /// Averages a stage's samples into its rows, takes the memory out of them and divides by the
   /// standard deviation of what is left: rows of independent noise of size 1. Linear. Unusable rows
   /// become 0.

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <utility>
 
+#include "tethercalc/model/units.hpp"
+
 namespace tethercalc {
 namespace {
-
-constexpr double sea_level_density = 1.225;  // kg/m³, ρ₀ of both
 
 /// What differs between autopilots.
 struct Convention {
@@ -75,7 +75,7 @@ AutopilotParameter momentum_drag(const DragFit& fit, const Convention& conventio
   const double linear_speed = fit.linear_speed().estimate.value;
   const double density = fit.conditions.air_density;
   const double factor = 0.5 * density / fit.conditions.mass /
-                        std::pow(density / sea_level_density, convention.density_exponent);
+                        std::pow(density / standard_air_density, convention.density_exponent);
   std::vector<double> gradient(fit.parameters.size(), 0.0);
   gradient[0] = factor * linear_speed;  // by A_f
   gradient[2] = factor * area;          // by j
@@ -108,7 +108,7 @@ std::optional<AutopilotDragCheck> checked(const DragFit& fit, const AutopilotDra
   const double by_autopilot =
       (ballistic ? 0.5 * density * along * speed / ballistic->value : 0) +
       (momentum ? momentum->value * along *
-                      std::pow(density / sea_level_density, convention.density_exponent)
+                      std::pow(density / standard_air_density, convention.density_exponent)
                 : 0);
   return AutopilotDragCheck{flight->airspeed, tilt,
                             flight->force.value * std::cos(tilt) / fit.conditions.mass,

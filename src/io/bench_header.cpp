@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/letters.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
@@ -15,8 +16,8 @@ struct BenchUnit {
   double factor;
 };
 
-constexpr double grams_per_newton = 1000 / 9.80665;  // standard gravity, ISO 80000-3
-constexpr double grams_per_pound = 453.59237;        // international avoirdupois pound
+constexpr double grams_per_newton = 1 / unit::gram_force;
+constexpr double grams_per_pound = 453.59237;  // international avoirdupois pound
 constexpr double grams_per_ounce = grams_per_pound / 16;
 
 // Longer names of the same ending first: "kg" ends in "g".

@@ -58,6 +58,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "log_mean_heading",
                                                                    "log_free_flight",
                                                                    "log_ambient_missing",
+                                                                   "log_power_untold",
                                                                    "tilt_drag_shown",
                                                                    "tilt_drag_taken",
                                                                    "tilt_tells_nothing",

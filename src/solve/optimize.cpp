@@ -315,8 +315,10 @@ Limit limit_of(Demand demand) {
 }
 
 Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand) {
+  if (demand != Demand::thrust_headroom) return limit_of(demand);
+  if (point.thermal_runaway) return Limit::conductor_temperature;
   const bool saturated = point.available_thrust >= motor_in_flight(design).max_thrust();
-  return demand == Demand::thrust_headroom && saturated ? Limit::motor_thrust : limit_of(demand);
+  return saturated ? Limit::motor_thrust : limit_of(demand);
 }
 
 Optimization optimum_alone(const Design& design) { return optimum_of(flights_of(design)); }

@@ -369,6 +369,19 @@ TEST_CASE("an interrupted sweep leaves whole rows and says how to go on") {
   CHECK(rows.back() == '\n');
 }
 
+TEST_CASE(
+    "a cable that overheats without end is limited by its heat, in the row as in the reason") {
+  const Ran run =
+      run_tethercalc({"sweep", published, "--vary", "tether.cross_section_mm2=3", "--set",
+                      "tether.ambient_temperature_C=40", "--set", "supply.voltage_V=60", "--set",
+                      "requirements.thrust_headroom=1", "--set", "tether.drum.layers=3", "--set",
+                      "tether.spooled_length_m=50", "--format", "jsonl"});
+  const json row = json::parse(run.out);
+  CHECK(row["status"] == "infeasible");
+  CHECK(row["limited_by"] == "conductor_temperature");
+  CHECK(row["reason"] == "overheats without end in forward flight");
+}
+
 TEST_CASE("a summary's quantiles are those of a plain run, its indices those of a simple model") {
   const TemporaryFolder folder;
   const std::string summary_file = (folder.path() / "summary.json").string();

@@ -452,6 +452,25 @@ TEST_CASE("without the bus channels the tether is still judged") {
   }
 }
 
+TEST_CASE("without the bus channels a drone that draws more is noticed, one as designed is not") {
+  const auto is_noticed = [](double extra_mass, double contact_resistance, unsigned number) {
+    Scenario scenario;
+    scenario.hidden.extra_mass = extra_mass;
+    scenario.hidden.contact_resistance = contact_resistance;
+    scenario.seed = seed(400'100 + number);
+    PowerLog log = as_power_log(simulate(scenario));
+    log.bus_current.clear();
+    const Diagnosis d = diagnosis_of(log);
+    INFO(summary(d));
+    return std::ranges::count(d.notes, WarningKind::log_power_untold, &Warning::kind) > 0;
+  };
+  for (unsigned i = 0; i < static_cast<unsigned>(test::draws(6)); ++i) {
+    CHECK(is_noticed(0.15, 0, 3 * i));
+    CHECK_FALSE(is_noticed(0, 0, 3 * i + 1));
+    CHECK_FALSE(is_noticed(0, 0.3, 3 * i + 2));
+  }
+}
+
 TEST_CASE("bus, height and airspeed alone are judged by the motors") {
   Scenario scenario;
   scenario.hidden.contact_resistance = 0.3;

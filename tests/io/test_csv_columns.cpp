@@ -16,10 +16,9 @@ using namespace tethercalc;
 
 namespace {
 
-const std::array<CsvColumn, 3> wanted = {
-    CsvColumn{.name = "time_s", .increasing = true},
-    CsvColumn{.name = "load_N", .minimum = 0, .maximum = 100},
-    CsvColumn{.name = "note_V", .required = false}};
+const std::array<CsvColumn, 3> wanted = {CsvColumn{.name = "time_s", .increasing = true},
+                                         CsvColumn{.name = "load_N", .minimum = 0, .maximum = 100},
+                                         CsvColumn{.name = "note_V", .required = false}};
 
 std::vector<std::vector<double>> read(const std::string& text,
                                       OtherCsvColumns others = OtherCsvColumns::rejected) {

@@ -7,6 +7,7 @@
 
 #include "tethercalc/model/drum_package.hpp"
 #include "tethercalc/model/tether.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 
@@ -53,11 +54,11 @@ struct AirProperties {
 
 /// What a conductor of the tether is surrounded by.
 struct Surroundings {
-  double temperature_C = 20;   ///< of the air
-  double air_density = 1.293;  ///< kg/m³ at that temperature
-  double wind = 0;             ///< m/s across the conductor, ≥ 0
-  double sun = 0;              ///< W/m² across it
-  double gravity = 9.80665;    ///< m/s²
+  double temperature_C = 20;          ///< of the air
+  double air_density = 1.293;         ///< kg/m³ at that temperature
+  double wind = 0;                    ///< m/s across the conductor, ≥ 0
+  double sun = 0;                     ///< W/m² across it
+  double gravity = standard_gravity;  ///< m/s²
   /// rad over the ground, in [0, π/2], of the conductor. Set, the wind along the ground meets it at
   /// this angle, and in still air it has the greater of the convection of a horizontal cylinder in
   /// the part of gravity across it and of a vertical one in the part along it. Unset, the wind

@@ -62,6 +62,7 @@ enum class WarningKind {
   log_mean_heading,            ///< which way "ahead" is
   log_free_flight,             ///< a power log flown without its tether
   log_ambient_missing,         ///< a cable whose surroundings nobody measured
+  log_power_untold,            ///< a drone that draws more or less, and no channel tells of what
   tilt_drag_shown,             ///< drag over mass as the tilt shows it
   tilt_drag_taken,             ///< the drag of the extended spec, from the tilt
   tilt_tells_nothing,          ///< a tilt that tells no drag from none
@@ -69,7 +70,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 57;
+inline constexpr std::size_t warning_kind_count = 58;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.

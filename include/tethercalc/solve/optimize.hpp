@@ -30,7 +30,7 @@ inline constexpr std::size_t limit_count = 11;
 [[nodiscard]] Limit limit_of(Demand demand);
 
 /// The same for one that is missed at `point`: too little thrust there is the motors' fault where
-/// they give their most.
+/// they give their most, and the heat's where the cable overheats without end.
 [[nodiscard]] Limit missed_limit(const Design& design, const OperatingPoint& point, Demand demand);
 
 /// The answer to "which cross-section", the area NaN and the points meaningless where there is
