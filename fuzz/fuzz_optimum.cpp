@@ -67,7 +67,9 @@ void hold_against_areas(const Design& design) {
     const OperatingPoint& judged = need.headroom_at == Condition::hover ? at_hover : at_forward;
     require(!(judged.headroom > least_headroom) ||
             best.value >= judged.headroom * (1 - 1e-8 - cubics));
-    if (power < least && demand_margins(design, at_hover, at_forward).met()) least = power;
+    const Margins margins = demand_margins(design, at_hover, at_forward);
+    const bool kept = margins.met() && (!hangs || margins.worst().value > cubics);
+    if (power < least && kept) least = power;
   }
   require(result.feasible || std::isinf(least));
   if (!result.feasible) return;
@@ -75,7 +77,8 @@ void hold_against_areas(const Design& design) {
   const OperatingPoint at_forward = evaluate(forward, result.area);
   require(demand_margins(design, at_hover, at_forward).met());
   const bool priced_at_hover = need.power_at == Condition::hover;
-  require((priced_at_hover ? at_hover : at_forward).total_power <= least * (1 + 1e-7 + cubics));
+  require((priced_at_hover ? at_hover : at_forward).total_power <=
+          least * (1 + 1e-7 + 10 * cubics));
 }
 
 }  // namespace

@@ -645,14 +645,15 @@ void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& foun
                          Diagnosis& diagnosis) {
   const std::span<const PowerStage> stages = residuals.stages();
   if (stages.size() != 1 || stages.front().stage != Stage::tether) return;
-  if (residuals.log().airspeed.empty()) return;
+  if (residuals.log().airspeed.empty() || found.design.drone.drag.is_estimate) return;
   constexpr double least = 0.02;  // flights are seldom as steady, nor masses weighed as exactly
   constexpr double least_t = 3;
   const std::vector<double> share = residuals.predicted_share_of_input(found);
   std::vector<double> of_block(most_power_blocks, 0);
   std::vector<double> samples(most_power_blocks, 0);
   for (std::size_t i = 0; i < share.size(); ++i) {
-    if (!stages.front().usable[i] || !(share[i] > 0)) continue;
+    // On the ground a drone draws next to nothing, or idles.
+    if (!stages.front().usable[i] || !(share[i] > 0.3 && share[i] < 3)) continue;
     const auto block = static_cast<std::size_t>(block_at(residuals.log(), i));
     of_block[block] -= std::log(share[i]);
     samples[block] += 1;
@@ -674,9 +675,9 @@ void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& foun
   diagnosis.notes.push_back(
       {WarningKind::log_power_untold,
        fmt::format(
-           "the drone draws {:.1f} % {} than the spec with what was found comes to: whether "
-           "by its mass, drag, motors or converter only bus_voltage_V and bus_current_A tell, "
-           "and the optimum does not know of it",
+           "the drone is read to draw {:.1f} % {} than the spec with what was found comes to: "
+           "whether its mass, drag, motors, converter or the ammeter is otherwise only power "
+           "measured at the bus tells, and the optimum does not know of it",
            100 * std::abs(off), off > 0 ? "more" : "less")});
 }
 

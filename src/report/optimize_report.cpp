@@ -308,7 +308,7 @@ std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
 }
 
 ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study) {
-  const ordered_json verdicts =
+  const ordered_json as_given =
       json_list(study.table, [&](const AreaPoints& row) { return verdict_json(file.design, row); });
   const ordered_json thermal =
       json_list(study.table, [&](const AreaPoints& row) { return thermal_json(file.design, row); });
@@ -317,7 +317,7 @@ ordered_json evaluate_json(const DesignFile& file, const EvaluationStudy& study)
   ordered_json out{
       {"name", file.name},
       {"table", table_json(study.table)},
-      {"verdict", verdicts},
+      {"as_given", as_given},
       {"thermal", file.design.tether.ambient_temperature_C ? thermal : ordered_json(nullptr)},
       {"cable", cables},
       {"voltage_class", voltage_class_json(file.design.supply.voltage)}};

@@ -111,10 +111,10 @@ TEST_CASE("evaluate tells programs of each area whether it will do, and what it 
   const auto told = [](const std::string& format) {
     return run_tethercalc({"evaluate", published, "--area-mm2", "0.8,1.1", "--format", format}).out;
   };
-  const json verdict = json::parse(told("json"))["verdict"];
-  REQUIRE(verdict.size() == 2);
-  CHECK(verdict[0] == json{{"feasible", false}, {"shortcoming", "headroom 1.68 < 2.00"}});
-  CHECK(verdict[1] == json{{"feasible", true}, {"shortcoming", nullptr}});
+  const json as_given = json::parse(told("json"))["as_given"];
+  REQUIRE(as_given.size() == 2);
+  CHECK(as_given[0] == json{{"feasible", false}, {"shortcoming", "headroom 1.68 < 2.00"}});
+  CHECK(as_given[1] == json{{"feasible", true}, {"shortcoming", nullptr}});
   const std::string csv = told("csv");
   CHECK_THAT(csv, Contains(",feasible,shortcoming\n"));
   CHECK_THAT(csv, Contains(",false,headroom 1.68 < 2.00\n"));

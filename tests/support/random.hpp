@@ -22,7 +22,7 @@ inline unsigned run_seed() {
 
 /// One case of so many is tried under a sanitizer, which looks at code and not at rates and makes
 /// it four to ten times slower.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef TETHERCALC_SANITIZED
 constexpr std::size_t stride() { return 20; }
 #else
 constexpr std::size_t stride() { return 1; }

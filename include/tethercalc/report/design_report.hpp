@@ -159,7 +159,7 @@ struct Answer {
 /// A table a condition, and what keeps an area from being usable.
 [[nodiscard]] std::string evaluate_text(const DesignFile& file, const EvaluationStudy& study,
                                         const TextStyle& style);
-/// The keys `table`, `verdict`, `thermal` and `cable` of `evaluate`, lists with an entry an area
+/// The keys `table`, `as_given`, `thermal` and `cable` of `evaluate`, lists with an entry an area
 /// (`thermal` null without a heat balance): the objects of `optimize`, and `verdict_json`.
 [[nodiscard]] nlohmann::ordered_json evaluate_json(const DesignFile& file,
                                                    const EvaluationStudy& study);
