@@ -675,9 +675,8 @@ void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& foun
   diagnosis.notes.push_back(
       {WarningKind::log_power_untold,
        fmt::format(
-           "the drone is read to draw {:.1f} % {} than the spec with what was found comes to: "
-           "whether its mass, drag, motors, converter or the ammeter is otherwise only power "
-           "measured at the bus tells, and the optimum does not know of it",
+           "the drone is read to draw {:.1f} % {} than the spec with what was found comes to; "
+           "only power measured at the bus tells of what, and the optimum does not know of it",
            100 * std::abs(off), off > 0 ? "more" : "less")});
 }
 
