@@ -7,7 +7,7 @@
 using namespace tethercalc;
 
 int main(int, char** argv) {
-  Drone drone = read_design(argv[1]).design.drone;
+  const Drone drone = read_design(argv[1]).design.drone;
   PowerLog flight{.free_flight = true};
   for (int second = 0; second < 120; ++second) {
     flight.time.push_back(second);

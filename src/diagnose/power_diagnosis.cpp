@@ -645,7 +645,7 @@ void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& foun
                          Diagnosis& diagnosis) {
   const std::span<const PowerStage> stages = residuals.stages();
   if (stages.size() != 1 || stages.front().stage != Stage::tether) return;
-  if (residuals.log().airspeed.empty() || found.design.drone.drag.is_estimate) return;
+  if (found.design.drone.drag.is_estimate) return;
   constexpr double least = 0.02;  // flights are seldom as steady, nor masses weighed as exactly
   constexpr double least_t = 3;
   const std::vector<double> share = residuals.predicted_share_of_input(found);
@@ -658,20 +658,17 @@ void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& foun
     of_block[block] -= std::log(share[i]);
     samples[block] += 1;
   }
-  double blocks = 0;
-  double mean = 0;
-  double square = 0;
+  std::vector<double> means;
   for (std::size_t block = 0; block < of_block.size(); ++block) {
-    if (samples[block] == 0) continue;
-    const double x = of_block[block] / samples[block];
-    const double before = mean;
-    mean += (x - mean) / ++blocks;
-    square += (x - before) * (x - mean);
+    if (samples[block] > 0) means.push_back(of_block[block] / samples[block]);
   }
-  const double off = std::expm1(mean);
-  const double error = std::sqrt(square / (blocks * (blocks - 1)));
+  if (means.size() < 2) return;
+  const MeanOfStretches mean = mean_of_stretches(means);
+  const double off = std::expm1(mean.value);
   const double unsure = found.design.drone.motor.uncertainty().value_or(0);
-  if (!(std::abs(off) > std::max(least, unsure) && std::abs(mean) > least_t * error)) return;
+  if (!(std::abs(off) > std::max(least, unsure) && std::abs(mean.value) > least_t * mean.error)) {
+    return;
+  }
   diagnosis.notes.push_back(
       {WarningKind::log_power_untold,
        fmt::format(

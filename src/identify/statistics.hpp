@@ -47,6 +47,23 @@ template <typename T, typename Value>
   return a;
 }
 
+/// A mean and its standard error.
+struct MeanOfStretches {
+  double value = 0;
+  double error = 0;
+};
+
+/// Of at least two stretches that stand for each other, by the means of each.
+[[nodiscard]] inline MeanOfStretches mean_of_stretches(std::span<const double> means) {
+  const auto count = static_cast<double>(means.size());
+  MeanOfStretches mean;
+  for (const double x : means) mean.value += x / count;
+  double squares = 0;
+  for (const double x : means) squares += (x - mean.value) * (x - mean.value);
+  mean.error = std::sqrt(squares / ((count - 1) * count));
+  return mean;
+}
+
 /// The value that Student's t with `degrees` > 0 of freedom stays below with probability `p`, in
 /// (0, 1).
 [[nodiscard]] double student_quantile(double degrees, double p);

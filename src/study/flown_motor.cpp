@@ -32,12 +32,8 @@ double relative_interval(std::span<const double> values) {
     for (std::size_t i = from; i < to; ++i) sum += values[i];
     means.push_back(sum / double(to - from));
   }
-  double mean = 0;
-  for (const double value : means) mean += value / double(stretches);
-  double squares = 0;
-  for (const double value : means) squares += (value - mean) * (value - mean);
-  const double error = std::sqrt(squares / double((stretches - 1) * stretches));
-  return student_quantile(double(stretches - 1), 0.975) * error / mean;
+  const MeanOfStretches mean = mean_of_stretches(means);
+  return student_quantile(double(stretches - 1), 0.975) * mean.error / mean.value;
 }
 
 /// By how much measured motors leave a curve k·T^1.5 through the point nearest to half their
