@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "model/constants.hpp"
-#include "model/winched_cable.hpp"
+#include "model/planar_cable.hpp"
 #include "tethercalc/model/catenary.hpp"
 
 namespace tethercalc {
@@ -998,8 +998,8 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
   return std::nullopt;
 }
 
-/// The tauter cable that a winch holds, where that is known but for an integral, or that there is
-/// none; nothing where it lies in no plane with weight, wind and drone.
+/// The cable where that is known but for integrals, or that there is none; nothing where it lies in
+/// no plane with weight, wind and drone.
 template <class Start, class Problem>
 std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p, bool in_still_air) {
   const Vector3& wind = p.air.wind;
@@ -1012,26 +1012,27 @@ std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p, bool in_still
   constexpr double digits = 1e-12;
   const bool plane = wind.z == 0 && std::abs(wind.x * ahead.y - wind.y * ahead.x) <= digits * speed;
   const bool even = plane && p.even() && p.reynolds == 0;
-  if (p.compliance > 0 || !(in_still_air || even)) return std::nullopt;
-  const auto cable = taut_cable({.weight = p.steady.z,
-                                 .drag = p.drag * speed * along,
-                                 .tension = *p.winch,
-                                 .aside = aside,
-                                 .height = p.drone.z});
+  if (!(in_still_air || even) || (!p.winch && p.compliance > 0)) return std::nullopt;
+  const PlanarCable cable{.weight = p.steady.z,
+                          .drag = p.drag * speed * along,
+                          .compliance = p.compliance,
+                          .aside = aside,
+                          .height = p.drone.z};
+  const auto shape = p.winch ? held_by_winch(cable, *p.winch) : of_length(cable, p.length);
   // Whoever asks for a shape follows it in steps of a third of σ's unit or less.
   constexpr double most_sigma = 0.1 * most_steps_along;
-  if (!cable || cable->sigma > most_sigma) return std::nullopt;
-  const auto direction = [&ahead](const TautCable::Place& place) {
+  if (!shape || shape->sigma > most_sigma) return std::nullopt;
+  const auto direction = [&ahead](const PlanarShape::Place& place) {
     return place.along_x * ahead + Vector3{0, 0, place.along_z};
   };
   Start at;
-  at.direction = direction(cable->slackest);
-  at.tension = cable->slackest.tension;
-  at.sigma = cable->sigma;
-  at.before = cable->before;
-  at.ends = {cable->at_winch.tension * direction(cable->at_winch),
-             cable->at_drone.tension * direction(cable->at_drone), cable->length};
-  return std::pair{cable->hangs, at};
+  at.direction = direction(shape->slackest);
+  at.tension = shape->slackest.tension;
+  at.sigma = shape->sigma;
+  at.before = shape->before;
+  at.ends = {shape->at_station.tension * direction(shape->at_station),
+             shape->at_drone.tension * direction(shape->at_drone), shape->length};
+  return std::pair{shape->hangs, at};
 }
 
 /// Where the cable has come that share of the way.
@@ -1159,17 +1160,17 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
   }
   const bool in_still_air =
       p.drag * (dot(air.wind, air.wind) + dot(air.drone_velocity, air.drone_velocity)) == 0;
-  if (const auto known = p.winch ? in_a_plane<Last>(p, in_still_air) : std::nullopt) {
-    const auto& [hangs, in_plane] = *known;
-    last_ = hangs ? std::optional(in_plane) : std::nullopt;
-    can_go_on_ = false;
-    return hangs ? CableOutcome::hangs : CableOutcome::tension_too_low;
-  }
   if (in_still_air && paid_out.length) {
     last_.reset();
     still_ = catenary(std::hypot(drone.x, drone.y), drone.z, *paid_out.length, cable.weight,
                       cable.axial_stiffness);
     return still_ ? CableOutcome::hangs : CableOutcome::not_found;
+  }
+  if (const auto known = in_a_plane<Last>(p, in_still_air)) {
+    const auto& [hangs, in_plane] = *known;
+    last_ = hangs ? std::optional(in_plane) : std::nullopt;
+    can_go_on_ = false;
+    return hangs ? CableOutcome::hangs : CableOutcome::tension_too_low;
   }
   // With a winch, cables outside of a plane are too few for code of their own.
   const bool four_unknowns = p.even() && !p.winch;
