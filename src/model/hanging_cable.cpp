@@ -565,6 +565,22 @@ void learn(std::array<double, 49>& of, const Unknowns<n>& step, const Unknowns<n
   inverse += correction;
 }
 
+/// After a last step, taken at the ends by their derivatives.
+template <int n, class Start>
+Start arrived(const Start& from, const Unknowns<n>& step, const Point& station,
+              const Point& drone) {
+  Start at = moved<n>(from, step);
+  at.position = at.position - station.position;
+  at.ends = {station.tension * unit(station.direction), drone.tension * unit(drone.direction),
+             drone.length - station.length};
+  for (int k = 0; k < n; ++k) {
+    const auto& by = at.by_unknowns[static_cast<std::size_t>(k)];
+    at.ends = {at.ends.at_station + step(k) * by.at_station,
+               at.ends.at_drone + step(k) * by.at_drone, at.ends.length + step(k) * by.length};
+  }
+  return at;
+}
+
 /// Steps with one inverse, corrected by what they led to, as long as each is less than a quarter of
 /// the one before. The last is taken at the ends by their derivatives. The first may be known
 /// beforehand by the `miss` that it is to mend.
@@ -586,18 +602,7 @@ std::optional<Start> refined(const Problem& problem, Start at,
     const double size = size_of<n>(step);
     if (!(size < 0.25 * before)) return std::nullopt;
     if (ends && size < small_step) {
-      const Point station = point_at(ends->station.data());
-      const Point drone = point_at(ends->drone.data());
-      at = moved<n>(at, step);
-      at.position = at.position - station.position;
-      at.ends = {station.tension * unit(station.direction), drone.tension * unit(drone.direction),
-                 drone.length - station.length};
-      for (int k = 0; k < n; ++k) {
-        const auto& by = at.by_unknowns[static_cast<std::size_t>(k)];
-        at.ends = {at.ends.at_station + step(k) * by.at_station,
-                   at.ends.at_drone + step(k) * by.at_drone, at.ends.length + step(k) * by.length};
-      }
-      return at;
+      return arrived<n>(at, step, point_at(ends->station.data()), point_at(ends->drone.data()));
     }
     at = moved<n>(at, step);
     last_step = step;
@@ -671,9 +676,17 @@ std::optional<Start> moved_evenly(const Problem& problem, const Start& from, con
   return to;
 }
 
-/// Newton's method, halved where it would lead away, until `refined` can take over.
+enum class Digits {
+  all,
+  few,  ///< three or so, by coarse steps
+};
+
+/// Newton's method, halved where it would lead away, until `refined` can take over or a step is
+/// short enough.
 template <int n, class Problem, class Start>
-std::optional<Start> newton(const Problem& problem, Start at, int most_iterations) {
+std::optional<Start> newton(const Problem& problem, Start at, int most_iterations,
+                            Digits wanted = Digits::all) {
+  constexpr double short_step = 0.01;  // whose square is left
   constexpr std::size_t columns = columns_of(n);
   Accuracy accuracy = coarse;
   auto ends = ends_of<n, columns>(problem, at, accuracy);
@@ -692,6 +705,9 @@ std::optional<Start> newton(const Problem& problem, Start at, int most_iteration
                            by[k].drone.length - by[k].station.length};
     }
     const double size = size_of<n>(step);
+    if (wanted == Digits::few && size < short_step) {
+      return arrived<n>(at, step, at_ends.station, at_ends.drone);
+    }
     if (size < 0.03) {
       if (const auto found = refined<n>(problem, moved<n>(at, step))) return found;
       if (accuracy.step > fine.step) {  // whose own error may stand in the way
@@ -924,7 +940,7 @@ Unknowns<in_any> change_by_length(const Start& at) {
 /// With `log_slack`, from a cable that is nearly so.
 template <class Problem, class Start>
 std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack, const Start& from,
-                                        std::optional<double> length_before) {
+                                        std::optional<double> length_before, Digits wanted) {
   const double slack = norm(problem.drone) * std::exp(log_slack);
   Problem of_length = problem;
   of_length.winch.reset();
@@ -934,7 +950,7 @@ std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack
     const Unknowns<in_any> step = (of_length.length - *length_before) * change_by_length(from);
     start = moved<in_any>(from, std::min(1.0, 0.5 / size_of<in_any>(step)) * step);
   }
-  const auto found = newton<in_any>(of_length, start, 30);
+  const auto found = newton<in_any>(of_length, start, 30, wanted);
   if (!found) return std::nullopt;
   const double tension = norm(found->ends.at_station);
   Vector3 by_length;
@@ -949,7 +965,8 @@ std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack
 
 /// The cable of a winch by its length, from that under an even load, until the tension is the
 /// winch's. Where it falls no more before that, the winch is too weak: between a cable whose
-/// tension falls and one whose tension rises the logarithm lies above both of its tangents.
+/// tension falls and one whose tension rises the logarithm lies above both of its tangents. Roughly
+/// first, until it may hang on the rest.
 template <class Start, class Problem>
 std::optional<Start> by_length(const Problem& problem, const Vector3& load, CableOutcome& why_not) {
   constexpr double longest_step = 1.5;
@@ -961,10 +978,12 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
   if (!start) return std::nullopt;
   const EvenLoad even(problem, load);
   double log_slack = std::log(even.length_with_tension(*problem.winch) / even.distance() - 1);
+  constexpr double error_of_few = 0.02;
+  Digits wanted = Digits::few;
   Start from = *start;
   std::optional<double> length;
   for (int i = 0; i < 40 && log_slack < most_log_slack; ++i) {
-    const auto here = let_out_to(problem, log_slack, from, length);
+    const auto here = let_out_to(problem, log_slack, from, length, wanted);
     if (!here) return std::nullopt;
     from = here->at;
     length = norm(problem.drone) * (1 + std::exp(log_slack));
@@ -981,10 +1000,22 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
       const bool rises = slacker->slope >= 0;
       const double crossing = (tauter->excess - slacker->excess + slacker->slope * apart) / bend;
       constexpr double near = 0.2;
-      if (rises && slacker->excess > 0 && apart < near &&
-          tauter->excess + tauter->slope * crossing > 0) {
-        why_not = CableOutcome::tension_too_low;
-        return std::nullopt;
+      const double least = tauter->excess + tauter->slope * crossing;
+      // The farther from the winch's tension, the less it takes to be sure that it is not reached.
+      if (rises && slacker->excess > 0 && (apart < near || least > apart)) {
+        if (least > (wanted == Digits::few ? error_of_few : 0)) {
+          why_not = CableOutcome::tension_too_low;
+          return std::nullopt;
+        }
+        if (wanted == Digits::few) {
+          wanted = Digits::all;
+          log_slack = tauter->log_slack;
+          from = tauter->at;
+          length = norm(problem.drone) * (1 + std::exp(log_slack));
+          tauter.reset();
+          slacker.reset();
+          continue;
+        }
       }
       if (rises && slacker->excess > 0) next = tauter->log_slack - tauter->slope / bend * apart;
       const double edge = 0.05 * apart;
@@ -1063,13 +1094,14 @@ std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not
   if (at && is_tauter<in_any>(problem, *at)) return at;
   // Where load and chord are about in line, a tension may be that of cables to either side.
   const double across_load = norm(cross(unit(load), unit(problem.drone)));
-  if (problem.compliance == 0 && across_load > 0.3) {
+  if (across_load > 0.03) {
     if (const auto found = by_length<Start>(problem, load, why_not)) return found;
     if (why_not == CableOutcome::tension_too_low) return std::nullopt;
   }
   const auto found = let_out<Start>(problem, load);
   if (found && found->second == 0) return found->first;
-  if (found && found->second < 1) why_not = CableOutcome::tension_too_low;
+  const bool looked_everywhere = *problem.steps_left > 0;
+  if (found && found->second < 1 && looked_everywhere) why_not = CableOutcome::tension_too_low;
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ using LoadShares = std::array<double, 6>;
 [[nodiscard]] double first_ratio(const HangingSituation& normal);
 
 /// Of a solver whose loads are remembered.
-constexpr int most_steps_for_load = 4000;
+constexpr int most_steps_for_load = 8000;
 /// Of a logarithm: half of the solver's digits for a slope, and no more error than its square.
 constexpr double slope_step = 1e-4;
 

@@ -106,6 +106,20 @@ double edge_towards_minimum_power(const Optimization& result) {
   return area > result.minimum_power.area ? range->lo : range->hi;
 }
 
+/// Whether a solved tether reaches its drone with conductors of some of these areas, looked at in
+/// steps as small as a search takes.
+bool hangs_within(const TetherInFlight& tether, const IntervalSet& areas) {
+  constexpr double thinnest = 1e-6;  // m, of what is searched
+  constexpr double thickest_searched = 1;
+  const auto hangs = [&tether](double radius) { return std::isfinite(tether.load(radius).down); };
+  return std::ranges::any_of(areas, [&](const Interval& range) {
+    const double thickest = std::min(conductor_radius(range.hi), thickest_searched);
+    double radius = std::max(conductor_radius(range.lo), thinnest);
+    while (radius < thickest && !hangs(radius)) radius *= hanging_step;
+    return radius < thickest || hangs(thickest);
+  });
+}
+
 /// Whether a solved tether hangs at `area` and no more with a slightly thicker conductor.
 bool hangs_just(const SteadyFlight& flight, double area) {
   constexpr double thicker = 1 + 2e-3;  // edges are found to a sixth of a thousandth of the radius
@@ -274,7 +288,8 @@ void search_feasible_areas(Optimization& result, const Flights& flights) {
   if (met > 0) take_within(result, flights, result.feasible_areas, met);
 }
 
-Optimization optimum_of(const Flights& flights) {
+/// The optimum where there is one, without a name for what limits it.
+Optimization searched(const Flights& flights) {
   Optimization result;
   result.minimum_power = minimum_power(flights.in(flights.hover.design().requirements.power_at));
   // The cheapest of all areas is the optimum if it is feasible, which saves a search that takes
@@ -283,6 +298,11 @@ Optimization optimum_of(const Flights& flights) {
     take(result, flights, result.minimum_power.area);
   }
   if (!result.feasible) search_feasible_areas(result, flights);
+  return result;
+}
+
+Optimization optimum_of(const Flights& flights) {
+  Optimization result = searched(flights);
   if (result.feasible) {
     step_back_from_leap(result, flights);
     name_limit(result, flights);
@@ -322,6 +342,18 @@ Limit missed_limit(const Design& design, const OperatingPoint& point, Demand dem
 }
 
 Optimization optimum_alone(const Design& design) { return optimum_of(flights_of(design)); }
+
+bool is_feasible(const Design& design) {
+  const Flights flights = flights_of(design);
+  if (flights.hover.tether().is_solved()) {
+    // In hover a tether mostly hangs still, which is soon solved; that the winch is too weak in
+    // forward flight is not.
+    const double wanted = demanded_headroom(design.requirements, Condition::hover);
+    const IntervalSet hovers = areas_meeting_demands(flights.hover, wanted);
+    if (!hangs_within(flights.forward.tether(), hovers)) return false;
+  }
+  return searched(flights).feasible;
+}
 
 Optimization optimize(const Design& design) {
   const Flights flights = flights_of(design);

@@ -15,7 +15,7 @@ double& quantity_of(Design& design, Quantity quantity) {
 }
 
 bool feasible_at(const Design& design, Quantity quantity, double value) {
-  return optimum_alone(remedied(design, {quantity, value})).feasible;
+  return is_feasible(remedied(design, {quantity, value}));
 }
 
 /// `value` to `digits` significant digits, up or down.
@@ -46,7 +46,10 @@ std::optional<double> threshold(const Design& design, Quantity quantity, double 
                                 double bound) {
   const double ratio = bound / present;
   // Hanging cables are solved anew for each step.
-  const double stride = std::log(design.tether.model == TetherModel::solved ? 1.1 : 1.02);
+  const bool solved = design.tether.model == TetherModel::solved;
+  const double stride = std::log(solved ? 1.1 : 1.02);
+  // A thousandth of the last of the digits that are shown, of solved ones a tenth.
+  const double close = solved ? 1e-4 : 1e-6;
   const int steps = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / stride));
   double infeasible = present;
   for (int step = 1; step <= steps; ++step) {
@@ -55,8 +58,7 @@ std::optional<double> threshold(const Design& design, Quantity quantity, double 
       infeasible = value;
       continue;
     }
-    // A thousandth of the last of the digits that are shown.
-    while (std::abs(value - infeasible) > 1e-6 * value) {
+    while (std::abs(value - infeasible) > close * value) {
       const double middle = 0.5 * (value + infeasible);
       (feasible_at(design, quantity, middle) ? value : infeasible) = middle;
     }
@@ -74,7 +76,7 @@ Design remedied(Design design, const Remedy& remedy) {
 
 std::vector<Remedy> remedies(const Design& design) {
   std::vector<Remedy> found;
-  if (optimum_alone(design).feasible) return found;
+  if (is_feasible(design)) return found;
   for (const Quantity quantity : {Quantity::supply_voltage, Quantity::drone_mass,
                                   Quantity::tether_length, Quantity::airspeed}) {
     Design copy = design;

@@ -23,7 +23,7 @@ double load_on(const PlanarCable& cable) {
   return std::hypot(cable.weight, cable.drag) * std::hypot(cable.aside, cable.height);
 }
 
-PlanarCable drawn(Random& random) {
+PlanarCable drawn_in_plane(Random& random) {
   PlanarCable cable{.weight = random.magnitude(0.02, 1), .height = random.uniform(3, 100)};
   const double speed = random.chance(0.1) ? 0 : random.uniform(-20, 20);
   cable.drag = random.magnitude(2e-4, 4e-3) * speed * std::abs(speed);
@@ -33,7 +33,7 @@ PlanarCable drawn(Random& random) {
 
 /// Half of them stretch, at the tension of their load by up to a thirtieth.
 OnWinch drawn_on_winch(Random& random) {
-  PlanarCable cable = drawn(random);
+  PlanarCable cable = drawn_in_plane(random);
   if (random.chance(0.5)) cable.compliance = random.magnitude(1e-4, 0.03) / load_on(cable);
   return {cable, load_on(cable) * random.magnitude(0.05, 5)};
 }
@@ -169,7 +169,7 @@ TEST_CASE("a cable in a plane with a known length turns under its load to its dr
   int found_at_all = 0;
   constexpr int cables = 400;
   each_random(test::draws(cables), [&found_at_all](Random& random) {
-    PlanarCable cable = drawn(random);
+    PlanarCable cable = drawn_in_plane(random);
     if (random.chance(0.3)) cable.height = -cable.height;
     if (random.chance(0.1)) cable.height = 0;
     const double chord = std::hypot(cable.aside, cable.height);
@@ -225,7 +225,7 @@ TEST_CASE("a cable above its winch hangs straight in still air, however weak the
     REQUIRE(found);
     REQUIRE(found->hangs);
     CHECK(found->at_drone.along_z == Approx(1));
-    CHECK(found->at_winch.tension == Approx(tension));
+    CHECK(found->at_station.tension == Approx(tension));
     CHECK(found->length == Approx(10));
     CHECK(found->sigma == Approx(std::log1p(10 / tension)));
     CHECK(found->before == 0);

@@ -70,4 +70,7 @@ struct Optimization : AreaPoints {
 /// The same but for the two sets of areas, which may be empty: sooner, for many designs.
 [[nodiscard]] Optimization optimum_alone(const Design& design);
 
+/// `optimize(design).feasible`, sooner.
+[[nodiscard]] bool is_feasible(const Design& design);
+
 }  // namespace tethercalc
