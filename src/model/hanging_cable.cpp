@@ -146,10 +146,7 @@ auto* column_of(StateType& state, std::size_t k) {
   return state.data() + 8 * k;
 }
 
-/// Of the state, what the change along the cable depends on: direction and tension where the air is
-/// the same everywhere, else the place too. The other rows are integrals.
-constexpr int all_rows = 8;
-constexpr int rows_in_even_air = 4;
+constexpr int rows = 8;
 
 constexpr std::size_t stages = 12;
 /// Order 8 (Fehlberg 1968, NASA TR R-287) without the stage that his estimate of the error alone
@@ -173,8 +170,8 @@ constexpr std::size_t first_weighed = 5;
 constexpr std::array<double, stages> step_weights{
     0, 0, 0, 0, 0, 34. / 105, 9. / 35, 9. / 35, 9. / 280, 9. / 280, 41. / 840, 41. / 840};
 
-/// One step of `h`. `change` writes how a state changes, by its first `rows`.
-template <int rows, class StateType, class System>
+/// One step of `h`. `change` writes how a state changes.
+template <class StateType, class System>
 void take_step(const System& change, StateType& state, double h) {
   constexpr Eigen::Index columns = StateType::ColsAtCompileTime;
   std::array<StateType, stages> changes;
@@ -202,7 +199,7 @@ void take_step(const System& change, StateType& state, double h) {
   }
   (std::make_index_sequence<stages>());
   for (Eigen::Index column = 0; column < columns; ++column) {
-    for (Eigen::Index row = 0; row < all_rows; ++row) {
+    for (Eigen::Index row = 0; row < rows; ++row) {
       double sum = 0;
       for (std::size_t j = first_weighed; j < stages; ++j) {
         sum += step_weights[j] * changes[j](row, column);
@@ -213,7 +210,7 @@ void take_step(const System& change, StateType& state, double h) {
 }
 
 /// In steps of order 8 from 0 to `end`, each as long as `longest_step` says of the state.
-template <int rows, class StateType, class System, class LongestStep>
+template <class StateType, class System, class LongestStep>
 bool integrate(const System& change, StateType& state, double end,
                const LongestStep& longest_step) {
   double at = 0;
@@ -223,7 +220,7 @@ bool integrate(const System& change, StateType& state, double end,
     if (!std::isfinite(step)) return false;
     // Two halves rather than a whole and a scrap.
     const double taken = step >= rest ? rest : 2 * step > rest ? 0.5 * rest : step;
-    take_step<rows>(change, state, taken);
+    take_step(change, state, taken);
     if (taken == rest) return state.allFinite();
     at += taken;
   }
@@ -387,21 +384,17 @@ struct CableSolver::Problem {
 
 namespace {
 
-/// What Newton's method looks for: both ways of the direction, ln of σ and of the tension, and,
-/// where the air is not the same everywhere, the place (3). All by their change.
-template <int n>
-using Unknowns = Eigen::Matrix<double, n, 1>;
-template <int n>
-using Square = Eigen::Matrix<double, n, n>;
-constexpr int in_even = 4;
-constexpr int in_any = 7;
-
-/// Derivatives that a state carries for that many unknowns: σ's is the change along the cable.
-constexpr std::size_t columns_of(int unknowns) { return static_cast<std::size_t>(unknowns) - 1; }
+/// What Newton's method looks for: both ways of the direction, ln of σ and of the tension, and the
+/// place (3). All by their change.
+constexpr int unknown_count = 7;
+using Unknowns = Eigen::Matrix<double, unknown_count, 1>;
+using Square = Eigen::Matrix<double, unknown_count, unknown_count>;
+/// Derivatives that a state carries for them: σ's is the change along the cable.
+constexpr std::size_t columns_of_unknowns = unknown_count - 1;
 
 /// Follows the cable from `start` to one of its ends, with derivatives by the unknowns there and,
 /// of six more, three by the wind and three by the drone's place.
-template <int unknowns, std::size_t columns, class Problem, class Start>
+template <std::size_t columns, class Problem, class Start>
 std::optional<State<columns>> followed(const Problem& problem, const Start& start, double sigma,
                                        const Accuracy& accuracy) {
   State<columns> state = State<columns>::Zero();
@@ -411,10 +404,8 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
     put(&state(0, 1), {sideways[0], 0, {}, 0});
     put(&state(0, 2), {sideways[1], 0, {}, 0});
     put(&state(0, 3), {{}, start.tension, {}, 0});
-    if constexpr (unknowns == in_any) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        put(column_of(state, 4 + axis), {{}, 0, axis_direction(axis), 0});
-      }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      put(column_of(state, 4 + axis), {{}, 0, axis_direction(axis), 0});
     }
   }
   if (sigma == 0) return state;
@@ -425,8 +416,8 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
     put(change.data(), sign * problem.change(p, wind));
     for (std::size_t k = 1; k <= columns; ++k) {
       Vector3 air_change;
-      if (k > columns_of(unknowns)) {
-        air_change = problem.air_change(p.position, k - 1 - columns_of(unknowns));
+      if (k > columns_of_unknowns) {
+        air_change = problem.air_change(p.position, k - 1 - columns_of_unknowns);
       }
       put(column_of(change, k),
           sign * problem.change_of_change(p, wind, point_at(column_of(at, k)), air_change));
@@ -437,8 +428,7 @@ std::optional<State<columns>> followed(const Problem& problem, const Start& star
     if (problem.steps_left && --*problem.steps_left < 0) return nan;
     return std::min(longest, problem.step_before_corner(point_at(at.data()), sign, accuracy));
   };
-  constexpr int rows = unknowns == in_even ? rows_in_even_air : all_rows;
-  if (!integrate<rows>(system, state, std::abs(sigma), longest_step)) return std::nullopt;
+  if (!integrate(system, state, std::abs(sigma), longest_step)) return std::nullopt;
   return state;
 }
 
@@ -449,47 +439,44 @@ struct EndStates {
   State<columns> drone;
 };
 
-template <int unknowns, std::size_t columns, class Problem, class Start>
+template <std::size_t columns, class Problem, class Start>
 std::optional<EndStates<columns>> ends_of(const Problem& problem, const Start& start,
                                           const Accuracy& accuracy) {
   const double before = start.before * start.sigma;
-  const auto station = followed<unknowns, columns>(problem, start, -before, accuracy);
+  const auto station = followed<columns>(problem, start, -before, accuracy);
   if (!station) return std::nullopt;
-  const auto drone = followed<unknowns, columns>(problem, start, start.sigma - before, accuracy);
+  const auto drone = followed<columns>(problem, start, start.sigma - before, accuracy);
   if (!drone) return std::nullopt;
   return EndStates<columns>{*station, *drone};
 }
 
 /// How far the ends are from where they should be, or how that changes; the length or the tension
 /// at the station is what else is `held`.
-template <int n>
-Unknowns<n> equations(const Vector3& station, const Vector3& drone, double held) {
-  Unknowns<n> out;
-  const Vector3 apart = n == in_even ? drone - station : drone;
-  out.template head<4>() << apart.x, apart.y, apart.z, held;
-  if constexpr (n == in_any) out.template tail<3>() << station.x, station.y, station.z;
+Unknowns equations(const Vector3& station, const Vector3& drone, double held) {
+  Unknowns out;
+  out << drone.x, drone.y, drone.z, held, station.x, station.y, station.z;
   return out;
 }
 
-template <int n, class Problem>
-Unknowns<n> miss_of(const Problem& problem, const Point& station, const Point& drone) {
+template <class Problem>
+Unknowns miss_of(const Problem& problem, const Point& station, const Point& drone) {
   const double held = problem.winch ? std::log(station.tension / *problem.winch)
                                     : drone.length - station.length - problem.length;
-  return equations<n>(station.position, drone.position - problem.drone, held);
+  return equations(station.position, drone.position - problem.drone, held);
 }
 
-template <int n, class Problem, std::size_t columns>
-Unknowns<n> miss_of(const Problem& problem, const EndStates<columns>& ends) {
-  return miss_of<n>(problem, point_at(ends.station.data()), point_at(ends.drone.data()));
+template <class Problem, std::size_t columns>
+Unknowns miss_of(const Problem& problem, const EndStates<columns>& ends) {
+  return miss_of(problem, point_at(ends.station.data()), point_at(ends.drone.data()));
 }
 
 /// For a change of both ends.
-template <int n, class Problem>
-Unknowns<n> change_of_miss(const Problem& problem, const Point& station_at, const Point& station,
-                           const Point& drone) {
+template <class Problem>
+Unknowns change_of_miss(const Problem& problem, const Point& station_at, const Point& station,
+                        const Point& drone) {
   const double held =
       problem.winch ? station.tension / station_at.tension : drone.length - station.length;
-  return equations<n>(station.position, drone.position, held);
+  return equations(station.position, drone.position, held);
 }
 
 /// Both ends, or how they change with something.
@@ -499,31 +486,32 @@ struct BothEnds {
 };
 
 /// How the ends change with each unknown.
-template <int n, std::size_t columns, class Problem, class Start>
-std::array<BothEnds, n> by_each_unknown(const Problem& problem, const EndStates<columns>& ends,
-                                        const Start& start) {
+template <std::size_t columns, class Problem, class Start>
+std::array<BothEnds, unknown_count> by_each_unknown(const Problem& problem,
+                                                    const EndStates<columns>& ends,
+                                                    const Start& start) {
   const auto derivative = [&ends](std::size_t k) {
     return BothEnds{point_at(column_of(ends.station, k)), point_at(column_of(ends.drone, k))};
   };
   const Point station = point_at(ends.station.data());
   const Point drone = point_at(ends.drone.data());
   const double before = start.before * start.sigma;
-  std::array<BothEnds, n> by{
+  std::array<BothEnds, unknown_count> by{
       derivative(1), derivative(2),
       BothEnds{-before * problem.change(station, problem.wind_at(station)),
                (start.sigma - before) * problem.change(drone, problem.wind_at(drone))}};
-  for (std::size_t k = 3; k < n; ++k) by[k] = derivative(k);
+  for (std::size_t k = 3; k < unknown_count; ++k) by[k] = derivative(k);
   return by;
 }
 
 /// How `miss_of` changes with the unknowns.
-template <int n, class Problem>
-Square<n> changes_of_miss(const Problem& problem, const Point& station,
-                          const std::array<BothEnds, n>& by) {
-  Square<n> out;
-  for (int k = 0; k < n; ++k) {
+template <class Problem>
+Square changes_of_miss(const Problem& problem, const Point& station,
+                       const std::array<BothEnds, unknown_count>& by) {
+  Square out;
+  for (int k = 0; k < unknown_count; ++k) {
     const BothEnds& one = by[static_cast<std::size_t>(k)];
-    out.col(k) = change_of_miss<n>(problem, station, one.station, one.drone);
+    out.col(k) = change_of_miss(problem, station, one.station, one.drone);
   }
   return out;
 }
@@ -535,45 +523,43 @@ Vector3 change_of_pull(const Point& at, const Point& change) {
 
 /// The largest of the angle by which the direction turns, the changes of logarithms, and the way
 /// of the place.
-template <int n>
-double size_of(const Unknowns<n>& step) {
-  return std::max(std::hypot(step(0), step(1)), step.template tail<n - 2>().cwiseAbs().maxCoeff());
+double size_of(const Unknowns& step) {
+  return std::max(std::hypot(step(0), step(1)),
+                  step.tail<unknown_count - 2>().cwiseAbs().maxCoeff());
 }
 
-template <int n, class Start>
-Start moved(const Start& from, const Unknowns<n>& step) {
+template <class Start>
+Start moved(const Start& from, const Unknowns& step) {
   Start to = from;
   const auto sideways = across(from.direction);
   to.direction = unit(from.direction + step(0) * sideways[0] + step(1) * sideways[1]);
   to.sigma *= std::exp(step(2));
   to.tension *= std::exp(step(3));
-  if constexpr (n == in_any) to.position = to.position + Vector3{step(4), step(5), step(6)};
+  to.position = to.position + Vector3{step(4), step(5), step(6)};
   return to;
 }
 
 /// The inverse `of` how misses follow unknowns, made to hold for a step and the change of the miss
 /// that it led to (Broyden's method).
-template <int n>
-void learn(std::array<double, 49>& of, const Unknowns<n>& step, const Unknowns<n>& change) {
+void learn(std::array<double, 49>& of, const Unknowns& step, const Unknowns& change) {
   constexpr double of_rounding = 1e-7;
   if (step.norm() < of_rounding) return;
-  Eigen::Map<Square<n>> inverse(of.data());
-  const Unknowns<n> expected = inverse * change;
+  Eigen::Map<Square> inverse(of.data());
+  const Unknowns expected = inverse * change;
   const double along = step.dot(expected);
   if (!(std::abs(along) > 0.5 * step.squaredNorm())) return;
-  const Square<n> correction = (step - expected) * (step.transpose() * inverse) / along;
+  const Square correction = (step - expected) * (step.transpose() * inverse) / along;
   inverse += correction;
 }
 
 /// After a last step, taken at the ends by their derivatives.
-template <int n, class Start>
-Start arrived(const Start& from, const Unknowns<n>& step, const Point& station,
-              const Point& drone) {
-  Start at = moved<n>(from, step);
+template <class Start>
+Start arrived(const Start& from, const Unknowns& step, const Point& station, const Point& drone) {
+  Start at = moved(from, step);
   at.position = at.position - station.position;
   at.ends = {station.tension * unit(station.direction), drone.tension * unit(drone.direction),
              drone.length - station.length};
-  for (int k = 0; k < n; ++k) {
+  for (int k = 0; k < unknown_count; ++k) {
     const auto& by = at.by_unknowns[static_cast<std::size_t>(k)];
     at.ends = {at.ends.at_station + step(k) * by.at_station,
                at.ends.at_drone + step(k) * by.at_drone, at.ends.length + step(k) * by.length};
@@ -584,27 +570,27 @@ Start arrived(const Start& from, const Unknowns<n>& step, const Point& station,
 /// Steps with one inverse, corrected by what they led to, as long as each is less than a quarter of
 /// the one before. The last is taken at the ends by their derivatives. The first may be known
 /// beforehand by the `miss` that it is to mend.
-template <int n, class Problem, class Start>
+template <class Problem, class Start>
 std::optional<Start> refined(const Problem& problem, Start at,
-                             std::optional<Unknowns<n>> miss = std::nullopt) {
+                             std::optional<Unknowns> miss = std::nullopt) {
   double before = 0.3;
-  Unknowns<n> last_step = Unknowns<n>::Zero();
-  Unknowns<n> last_miss = Unknowns<n>::Zero();
+  Unknowns last_step = Unknowns::Zero();
+  Unknowns last_miss = Unknowns::Zero();
   for (int i = 0; i < 12; ++i) {
     std::optional<EndStates<0>> ends;
     if (!miss) {
-      ends = ends_of<n, 0>(problem, at, fine);
+      ends = ends_of<0>(problem, at, fine);
       if (!ends) return std::nullopt;
-      miss = miss_of<n>(problem, *ends);
-      if (i > 0) learn<n>(at.inverse, last_step, *miss - last_miss);
+      miss = miss_of(problem, *ends);
+      if (i > 0) learn(at.inverse, last_step, *miss - last_miss);
     }
-    const Unknowns<n> step = -(Eigen::Map<const Square<n>>(at.inverse.data()) * *miss);
-    const double size = size_of<n>(step);
+    const Unknowns step = -(Eigen::Map<const Square>(at.inverse.data()) * *miss);
+    const double size = size_of(step);
     if (!(size < 0.25 * before)) return std::nullopt;
     if (ends && size < small_step) {
-      return arrived<n>(at, step, point_at(ends->station.data()), point_at(ends->drone.data()));
+      return arrived(at, step, point_at(ends->station.data()), point_at(ends->drone.data()));
     }
-    at = moved<n>(at, step);
+    at = moved(at, step);
     last_step = step;
     last_miss = *miss;
     miss.reset();
@@ -635,7 +621,7 @@ std::optional<double> followed_as_far(const Problem& problem, const Point& place
     if (std::abs(left) < next_to_nothing) return sigma + left;
     const double step = std::min(0.5, problem.step_before_corner(p, sign, accuracy));
     const double taken = std::clamp(left, -step, step);
-    take_step<all_rows>(system, state, taken);
+    take_step(system, state, taken);
     sigma += taken;
   }
   return std::nullopt;
@@ -644,10 +630,10 @@ std::optional<double> followed_as_far(const Problem& problem, const Point& place
 /// By a step of the unknowns, of which lengths and the tension, as a vector, follow next to
 /// linearly: a fold opens from one side to the other through a tension of nothing, of which the
 /// logarithm knows nothing.
-template <int n, class Problem, class Start>
+template <class Problem, class Start>
 std::optional<Start> moved_evenly(const Problem& problem, const Start& from, const BothEnds& ends,
-                                  const std::array<BothEnds, n>& by, const Unknowns<n>& step,
-                                  const Accuracy& accuracy) {
+                                  const std::array<BothEnds, unknown_count>& by,
+                                  const Unknowns& step, const Accuracy& accuracy) {
   Start to = from;
   const auto sideways = across(from.direction);
   const Vector3 pull =
@@ -655,10 +641,10 @@ std::optional<Start> moved_evenly(const Problem& problem, const Start& from, con
   const double ratio = norm(pull);
   to.direction = (1 / ratio) * pull;
   to.tension *= ratio;
-  if constexpr (n == in_any) to.position = to.position + Vector3{step(4), step(5), step(6)};
+  to.position = to.position + Vector3{step(4), step(5), step(6)};
   double before = -ends.station.length;
   double after = ends.drone.length;
-  for (int k = 0; k < n; ++k) {
+  for (int k = 0; k < unknown_count; ++k) {
     const BothEnds& one = by[static_cast<std::size_t>(k)];
     before -= step(k) * one.station.length;
     after += step(k) * one.drone.length;
@@ -683,36 +669,36 @@ enum class Digits {
 
 /// Newton's method, halved where it would lead away, until `refined` can take over or a step is
 /// short enough.
-template <int n, class Problem, class Start>
+template <class Problem, class Start>
 std::optional<Start> newton(const Problem& problem, Start at, int most_iterations,
                             Digits wanted = Digits::all) {
   constexpr double short_step = 0.01;  // whose square is left
-  constexpr std::size_t columns = columns_of(n);
+  constexpr std::size_t columns = columns_of_unknowns;
   Accuracy accuracy = coarse;
-  auto ends = ends_of<n, columns>(problem, at, accuracy);
+  auto ends = ends_of<columns>(problem, at, accuracy);
   if (!ends) return std::nullopt;
   for (int i = 0; i < most_iterations; ++i) {
-    const Unknowns<n> miss = miss_of<n>(problem, *ends);
+    const Unknowns miss = miss_of(problem, *ends);
     const BothEnds at_ends{point_at(ends->station.data()), point_at(ends->drone.data())};
-    const auto by = by_each_unknown<n>(problem, *ends, at);
-    const Square<n> inverse = changes_of_miss<n>(problem, at_ends.station, by).inverse();
-    const Unknowns<n> step = -(inverse * miss);
+    const auto by = by_each_unknown(problem, *ends, at);
+    const Square inverse = changes_of_miss(problem, at_ends.station, by).inverse();
+    const Unknowns step = -(inverse * miss);
     if (!step.allFinite()) return std::nullopt;
-    Eigen::Map<Square<n>>(at.inverse.data()) = inverse;
-    for (std::size_t k = 0; k < n; ++k) {
+    Eigen::Map<Square>(at.inverse.data()) = inverse;
+    for (std::size_t k = 0; k < unknown_count; ++k) {
       at.by_unknowns[k] = {change_of_pull(at_ends.station, by[k].station),
                            change_of_pull(at_ends.drone, by[k].drone),
                            by[k].drone.length - by[k].station.length};
     }
-    const double size = size_of<n>(step);
+    const double size = size_of(step);
     if (wanted == Digits::few && size < short_step) {
-      return arrived<n>(at, step, at_ends.station, at_ends.drone);
+      return arrived(at, step, at_ends.station, at_ends.drone);
     }
     if (size < 0.03) {
-      if (const auto found = refined<n>(problem, moved<n>(at, step))) return found;
+      if (const auto found = refined(problem, moved(at, step))) return found;
       if (accuracy.step > fine.step) {  // whose own error may stand in the way
         accuracy = fine;
-        ends = ends_of<n, columns>(problem, at, accuracy);
+        ends = ends_of<columns>(problem, at, accuracy);
         if (!ends) return std::nullopt;
         continue;
       }
@@ -720,16 +706,15 @@ std::optional<Start> newton(const Problem& problem, Start at, int most_iteration
     double part = std::min(1.0, 3 / size);
     std::optional<Start> next;
     for (int halvings = 0; halvings < 7 && !next; ++halvings, part *= 0.4) {
-      const auto tried =
-          moved_evenly<n>(problem, at, at_ends, by, Unknowns<n>(part * step), accuracy);
+      const auto tried = moved_evenly(problem, at, at_ends, by, Unknowns(part * step), accuracy);
       if (!tried) continue;
-      ends = ends_of<n, columns>(problem, *tried, accuracy);
-      if (ends && miss_of<n>(problem, *ends).norm() < miss.norm()) next = tried;
+      ends = ends_of<columns>(problem, *tried, accuracy);
+      if (ends && miss_of(problem, *ends).norm() < miss.norm()) next = tried;
     }
     if (!next) {
       if (accuracy.step <= fine.step) return std::nullopt;
       accuracy = fine;
-      ends = ends_of<n, columns>(problem, at, accuracy);
+      ends = ends_of<columns>(problem, at, accuracy);
       if (!ends) return std::nullopt;
       continue;
     }
@@ -858,22 +843,22 @@ Start from_slackest(const Problem& problem, const Start& at) {
 
 /// Whether less tension at the station goes with more cable: of two lengths with one tension the
 /// tauter. Where both become one, the unknowns follow no more from what is held.
-template <int n, class Problem, class Start>
+template <class Problem, class Start>
 bool is_tauter(const Problem& problem, const Start& at) {
-  return !problem.winch || Eigen::Map<const Square<n>>(at.inverse.data()).determinant() > 0;
+  return !problem.winch || Eigen::Map<const Square>(at.inverse.data()).determinant() > 0;
 }
 
 /// Follows a solution while `changed` turns its problem from share 1 of a known one into share 0,
 /// by as much at a time as leads on; the last that was found, and what is left there.
-template <int n, class Start, class Changed>
+template <class Start, class Changed>
 std::pair<Start, double> led_on(const Changed& changed, Start at) {
   double left = 1;
   double part = 0.5;
   while (left > 0 && part < 0.99) {
     const double next = part < 0.01 ? 0 : left * part;
     const auto problem = changed(next);
-    const auto found = newton<n>(problem, at, 8);
-    if (found && is_tauter<n>(problem, *found)) {
+    const auto found = newton(problem, at, 8);
+    if (found && is_tauter(problem, *found)) {
       at = from_slackest(problem, *found);
       left = next;
       part *= part;
@@ -886,7 +871,7 @@ std::pair<Start, double> led_on(const Changed& changed, Start at) {
 
 /// From the cable under an even load, which also presses it `aside`: where load and chord are about
 /// in line the cable folds, and turns from one side to the other past that, not through it.
-template <int n, class Start, class Problem>
+template <class Start, class Problem>
 std::optional<Start> led_from(const Problem& problem, const Vector3& load, double aside) {
   const Vector3 chord = unit(problem.drone);
   const Vector3 normal = cross(chord, load);
@@ -898,9 +883,9 @@ std::optional<Start> led_from(const Problem& problem, const Vector3& load, doubl
     return p;
   };
   auto at = under_even_load<Start>(problem, first);
-  if (at) at = newton<n>(changed(1), *at, 30);
+  if (at) at = newton(changed(1), *at, 30);
   if (!at) return std::nullopt;
-  const auto [found, left] = led_on<n>(changed, *at);
+  const auto [found, left] = led_on(changed, *at);
   return left > 0 ? std::nullopt : std::optional<Start>(found);
 }
 
@@ -916,9 +901,9 @@ std::optional<std::pair<Start, double>> let_out(const Problem& problem, const Ve
   };
   const Problem first = changed(1);
   auto at = under_even_load<Start>(first, load);
-  if (at) at = newton<in_any>(first, *at, 30);
+  if (at) at = newton(first, *at, 30);
   if (!at) return std::nullopt;
-  return led_on<in_any>(changed, *at);
+  return led_on(changed, *at);
 }
 
 /// A cable as long as it is, and what the tension at its station does as it grows longer.
@@ -932,9 +917,9 @@ struct LetOut {
 
 /// How the unknowns change with the length, where that is held.
 template <class Start>
-Unknowns<in_any> change_by_length(const Start& at) {
+Unknowns change_by_length(const Start& at) {
   constexpr int held = 3;
-  return Eigen::Map<const Square<in_any>>(at.inverse.data()).col(held);
+  return Eigen::Map<const Square>(at.inverse.data()).col(held);
 }
 
 /// With `log_slack`, from a cable that is nearly so.
@@ -947,15 +932,15 @@ std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack
   of_length.length = norm(problem.drone) + slack;
   Start start = from;
   if (length_before) {
-    const Unknowns<in_any> step = (of_length.length - *length_before) * change_by_length(from);
-    start = moved<in_any>(from, std::min(1.0, 0.5 / size_of<in_any>(step)) * step);
+    const Unknowns step = (of_length.length - *length_before) * change_by_length(from);
+    start = moved(from, std::min(1.0, 0.5 / size_of(step)) * step);
   }
-  const auto found = newton<in_any>(of_length, start, 30, wanted);
+  const auto found = newton(of_length, start, 30, wanted);
   if (!found) return std::nullopt;
   const double tension = norm(found->ends.at_station);
   Vector3 by_length;
-  const Unknowns<in_any> unknowns = change_by_length(*found);
-  for (int k = 0; k < in_any; ++k) {
+  const Unknowns unknowns = change_by_length(*found);
+  for (int k = 0; k < unknown_count; ++k) {
     by_length =
         by_length + unknowns(k) * found->by_unknowns[static_cast<std::size_t>(k)].at_station;
   }
@@ -989,8 +974,8 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
     length = norm(problem.drone) * (1 + std::exp(log_slack));
     const bool falls = here->slope < 0;
     if (falls && std::abs(here->excess / here->slope) < close) {
-      const auto found = newton<in_any>(problem, here->at, 8);
-      if (found && is_tauter<in_any>(problem, *found)) return found;
+      const auto found = newton(problem, here->at, 8);
+      if (found && is_tauter(problem, *found)) return found;
     }
     (falls && here->excess > 0 ? tauter : slacker) = here;
     double next = falls ? log_slack - here->excess / here->slope : log_slack - longest_step;
@@ -1073,10 +1058,10 @@ Vector3 load_along_chord(const Problem& problem, double share) {
 }
 
 /// From the cable under an even load.
-template <int n, class Start, class Problem>
+template <class Start, class Problem>
 std::optional<Start> from_even_load(const Problem& problem, const Vector3& load) {
   auto at = under_even_load<Start>(problem, load);
-  if (at) at = newton<n>(problem, *at, 30);
+  if (at) at = newton(problem, *at, 30);
   return at;
 }
 
@@ -1089,9 +1074,9 @@ std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not
   *problem.steps_left -= steps;
   Problem soon = problem;
   soon.steps_left = &steps;
-  const auto at = from_even_load<in_any, Start>(soon, load);
+  const auto at = from_even_load<Start>(soon, load);
   *problem.steps_left += std::max(0, steps);
-  if (at && is_tauter<in_any>(problem, *at)) return at;
+  if (at && is_tauter(problem, *at)) return at;
   // Where load and chord are about in line, a tension may be that of cables to either side.
   const double across_load = norm(cross(unit(load), unit(problem.drone)));
   if (across_load > 0.03) {
@@ -1105,7 +1090,7 @@ std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not
   return std::nullopt;
 }
 
-template <int n, class Start, class Problem>
+template <class Start, class Problem>
 std::optional<Start> anew(const Problem& problem) {
   // The load along the chord, where that is the same all along; else also nearer to the ends.
   std::vector<Vector3> loads;
@@ -1114,11 +1099,11 @@ std::optional<Start> anew(const Problem& problem) {
     if (problem.even()) break;
   }
   for (const Vector3& load : loads) {
-    if (const auto at = from_even_load<n, Start>(problem, load)) return at;
+    if (const auto at = from_even_load<Start>(problem, load)) return at;
   }
   for (const Vector3& load : loads) {
     for (const double aside : {0.1, -0.1}) {
-      if (const auto at = led_from<n, Start>(problem, load, aside)) return at;
+      if (const auto at = led_from<Start>(problem, load, aside)) return at;
     }
   }
   return std::nullopt;
@@ -1204,23 +1189,17 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
     can_go_on_ = false;
     return hangs ? CableOutcome::hangs : CableOutcome::tension_too_low;
   }
-  // With a winch, cables outside of a plane are too few for code of their own.
-  const bool four_unknowns = p.even() && !p.winch;
   if (last_) {
     last_ = in_units_of(p, before, *last_);
-    const auto from_last = [&]<int n>(std::integral_constant<int, n>) {
-      std::optional<Unknowns<n>> miss;
-      if (only_the_drone_moved) {
-        miss = equations<n>({}, (before.metre / p.metre) * before.drone - p.drone, 0);
-      }
-      return refined<n>(p, *last_, miss);
-    };
-    last_ = four_unknowns ? from_last(std::integral_constant<int, in_even>())
-                          : from_last(std::integral_constant<int, in_any>());
+    std::optional<Unknowns> miss;
+    if (only_the_drone_moved) {
+      miss = equations({}, (before.metre / p.metre) * before.drone - p.drone, 0);
+    }
+    last_ = refined(p, *last_, miss);
   }
   CableOutcome why_not = CableOutcome::not_found;
   if (!last_ && p.winch) last_ = held_by_winch<Last>(p, why_not);
-  if (!last_ && !p.winch) last_ = four_unknowns ? anew<in_even, Last>(p) : anew<in_any, Last>(p);
+  if (!last_ && !p.winch) last_ = anew<Last>(p);
   return last_ ? CableOutcome::hangs : why_not;
 }
 
@@ -1262,7 +1241,7 @@ void follow_by_length(const Problem& problem, Point from, const std::vector<doub
       const Point p = point_at(s.data());
       return p.tension * std::min(fine.step, problem.step_before_corner(p, sign, fine));
     };
-    integrate<all_rows>(system, state, std::abs(way), longest_step);
+    integrate(system, state, std::abs(way), longest_step);
     out.push_back(point_at(state.data()));
   }
 }
@@ -1301,7 +1280,7 @@ CableShape CableSolver::shape(int pieces) const {
   check(pieces >= 1, "a shape has at least one piece");
   if (still_) return catenary_shape(pieces);
   const Problem p = problem();
-  const auto ends = ends_of<in_any, 0>(p, *last_, fine);
+  const auto ends = ends_of<0>(p, *last_, fine);
   const Point station = point_at(ends->station.data());
   std::vector<double> before;
   std::vector<double> after;
@@ -1344,28 +1323,27 @@ CableSolver::Derivatives CableSolver::catenary_derivatives() const {
 CableSolver::Derivatives CableSolver::derivatives() const {
   if (still_) return catenary_derivatives();
   const Problem p = problem();
-  const auto ends = ends_of<in_any, columns_of(in_any) + 6>(p, *last_, fine);
+  const auto ends = ends_of<columns_of_unknowns + 6>(p, *last_, fine);
   const Point station = point_at(ends->station.data());
   const Point drone = point_at(ends->drone.data());
   const auto at_station = [&](std::size_t k) { return point_at(column_of(ends->station, k)); };
   const auto at_drone = [&](std::size_t k) { return point_at(column_of(ends->drone, k)); };
-  const auto by = by_each_unknown<in_any>(p, *ends, *last_);
-  const Square<in_any> inverse = changes_of_miss<in_any>(p, station, by).inverse();
+  const auto by = by_each_unknown(p, *ends, *last_);
+  const Square inverse = changes_of_miss(p, station, by).inverse();
   const auto force = [&](std::size_t column, const Vector3& moved) {
-    const Unknowns<in_any> change =
-        change_of_miss<in_any>(p, station, at_station(column), at_drone(column)) -
-        equations<in_any>({}, moved, 0);
-    const Unknowns<in_any> unknowns = -(inverse * change);
+    const Unknowns change =
+        change_of_miss(p, station, at_station(column), at_drone(column)) - equations({}, moved, 0);
+    const Unknowns unknowns = -(inverse * change);
     Vector3 sum = change_of_pull(drone, at_drone(column));
-    for (std::size_t k = 0; k < in_any; ++k) {
+    for (std::size_t k = 0; k < unknown_count; ++k) {
       sum = sum + unknowns(static_cast<Eigen::Index>(k)) * change_of_pull(drone, by[k].drone);
     }
     return -p.newton * sum;
   };
   Derivatives out;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    out.by_wind[axis] = force(in_any + axis, {});
-    out.by_position[axis] = (1 / p.metre) * force(in_any + 3 + axis, axis_direction(axis));
+    out.by_wind[axis] = force(unknown_count + axis, {});
+    out.by_position[axis] = (1 / p.metre) * force(unknown_count + 3 + axis, axis_direction(axis));
   }
   return out;
 }
