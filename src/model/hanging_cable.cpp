@@ -664,7 +664,7 @@ std::optional<Start> moved_evenly(const Problem& problem, const Start& from, con
 
 enum class Digits {
   all,
-  few,  ///< three or so, by coarse steps
+  few,  ///< two at least, by coarse steps
 };
 
 /// Newton's method, halved where it would lead away, until `refined` can take over or a step is
@@ -950,12 +950,14 @@ std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack
 
 /// The cable of a winch by its length, from that under an even load, until the tension is the
 /// winch's. Where it falls no more before that, the winch is too weak: between a cable whose
-/// tension falls and one whose tension rises the logarithm lies above both of its tangents. Roughly
-/// first, until it may hang on the rest.
+/// tension falls and one whose tension rises the logarithm lies above both of its tangents. That
+/// holds where the slack is more than what stretches: less is left to who lets it out by its
+/// tension. Roughly first, until it may hang on the rest.
 template <class Start, class Problem>
 std::optional<Start> by_length(const Problem& problem, const Vector3& load, CableOutcome& why_not) {
   constexpr double longest_step = 1.5;
   constexpr double close = 1e-3;
+  constexpr double least_log_slack = -12;
   constexpr double most_log_slack = 2;
   std::optional<LetOut<Start>> tauter;   // its tension falls to the winch's, or may
   std::optional<LetOut<Start>> slacker;  // it has fallen too far, or rises
@@ -967,7 +969,7 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
   Digits wanted = Digits::few;
   Start from = *start;
   std::optional<double> length;
-  for (int i = 0; i < 40 && log_slack < most_log_slack; ++i) {
+  for (int i = 0; i < 40 && log_slack > least_log_slack && log_slack < most_log_slack; ++i) {
     const auto here = let_out_to(problem, log_slack, from, length, wanted);
     if (!here) return std::nullopt;
     from = here->at;
@@ -986,7 +988,8 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
       const double crossing = (tauter->excess - slacker->excess + slacker->slope * apart) / bend;
       constexpr double near = 0.2;
       const double least = tauter->excess + tauter->slope * crossing;
-      // The farther from the winch's tension, the less it takes to be sure that it is not reached.
+      // Tangents that cross high above the winch's tension say so from afar: the logarithm falls by
+      // less than ln of the slack, of a taut cable by half of it.
       if (rises && slacker->excess > 0 && (apart < near || least > apart)) {
         if (least > (wanted == Digits::few ? error_of_few : 0)) {
           why_not = CableOutcome::tension_too_low;
@@ -1077,9 +1080,10 @@ std::optional<Start> held_by_winch(const Problem& problem, CableOutcome& why_not
   const auto at = from_even_load<Start>(soon, load);
   *problem.steps_left += std::max(0, steps);
   if (at && is_tauter(problem, *at)) return at;
-  // Where load and chord are about in line, a tension may be that of cables to either side.
+  // Where load and chord are in line, a tension may be that of cables to either side.
+  constexpr double in_line = 0.03;
   const double across_load = norm(cross(unit(load), unit(problem.drone)));
-  if (across_load > 0.03) {
+  if (across_load > in_line) {
     if (const auto found = by_length<Start>(problem, load, why_not)) return found;
     if (why_not == CableOutcome::tension_too_low) return std::nullopt;
   }

@@ -79,7 +79,7 @@ class Plane {
   }
   /// Where the cable has this direction, or about the last of those that it may have.
   [[nodiscard]] double place_of(double cos, double sin) const {
-    constexpr double last = 4;
+    constexpr double last = 4;  // where the tension is thousands of times the least
     const double sign = sin < 0 ? -1 : 1;
     const double drag = sign * cable_.drag;
     const double least = both_less(2 * drag);
@@ -258,7 +258,9 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted) {
     const double excess = here.value - wanted;
     if (!std::isfinite(excess) || !std::isfinite(here.slope)) return std::nullopt;
     const double to_wanted = -excess / here.slope;
-    if (here.slope < 0 && std::abs(to_wanted) < little * (1 + std::abs(v))) return AtWinch{true, v};
+    if (here.slope < 0 && std::abs(to_wanted) < little * (1 + std::abs(v))) {
+      return AtWinch{true, v + to_wanted};
+    }
     if (excess > 0) {
       reached = true;
       v += here.slope < 0 ? std::min(to_wanted, longest_step) : back_to_falling;
@@ -393,7 +395,7 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
   const double load = std::hypot(cable.weight, cable.drag) * std::hypot(cable.aside, cable.height);
   if (!(cable.height > least_height * std::abs(cable.aside)) ||
       !(cable.weight > least_weight_to_drag * std::abs(cable.drag)) ||
-      !(tension < most_tension * load)) {
+      !(tension * (1 + cable.compliance * tension) < most_tension * load)) {
     return std::nullopt;
   }
   const Seen seen(cable);

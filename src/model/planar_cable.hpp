@@ -33,10 +33,10 @@ struct PlanarShape {
 
 // With φ the angle of the cable over x, w its weight, D its drag and s its length without tension,
 // T·dφ/ds = w·cos φ + D·sin φ·|sin φ| and dT/ds = w·sin φ, so that ln T is an elementary function
-// of φ (Berteaux, Buoy Engineering, 1976, chapter 4, has those of a towed cable); heights follow
-// from the tensions, and integrals are left for the way aside and the length. To about 1e-9.
-// Nothing where the drag is far more than the weight, load and chord are in line, or a search does
-// not end.
+// of φ (Berteaux, Buoy Engineering, 1976, chapter 4, has those of a towed cable). Heights follow
+// from the tensions by w·dz = (1 + T/EA)·dT, and integrals are left for the way aside and the
+// length. To about 1e-9. Nothing where the drag is far more than the weight, load and chord are in
+// line, or a search does not end.
 
 /// The tauter of the two cables that a winch holds with this tension at the station. By the angle
 /// there: with it the way aside rises to a greatest one and falls again, and a drone beyond that is

@@ -106,17 +106,11 @@ double edge_towards_minimum_power(const Optimization& result) {
   return area > result.minimum_power.area ? range->lo : range->hi;
 }
 
-/// Whether a solved tether reaches its drone with conductors of some of these areas, looked at in
-/// steps as small as a search takes.
-bool hangs_within(const TetherInFlight& tether, const IntervalSet& areas) {
-  constexpr double thinnest = 1e-6;  // m, of what is searched
-  constexpr double thickest_searched = 1;
-  const auto hangs = [&tether](double radius) { return std::isfinite(tether.load(radius).down); };
-  return std::ranges::any_of(areas, [&](const Interval& range) {
-    const double thickest = std::min(conductor_radius(range.hi), thickest_searched);
-    double radius = std::max(conductor_radius(range.lo), thinnest);
-    while (radius < thickest && !hangs(radius)) radius *= hanging_step;
-    return radius < thickest || hangs(thickest);
+/// Whether the tilt is within its limit, and a tether hangs, at some of these areas.
+bool is_within_tilt(const SteadyFlight& flight, const IntervalSet& areas) {
+  return std::ranges::any_of(areas, [&flight](const Interval& range) {
+    const Interval radii{conductor_radius(range.lo), conductor_radius(range.hi)};
+    return !intersection({radii}, radii_within_tilt(flight, radii.hi, radii.lo)).empty();
   });
 }
 
@@ -345,12 +339,11 @@ Optimization optimum_alone(const Design& design) { return optimum_of(flights_of(
 
 bool is_feasible(const Design& design) {
   const Flights flights = flights_of(design);
-  if (flights.hover.tether().is_solved()) {
-    // In hover a tether mostly hangs still, which is soon solved; that the winch is too weak in
-    // forward flight is not.
+  if (flights.hover.tether().is_solved() && design.tether.winch_pull > 0) {
+    // In hover mostly soon known; that the winch is too weak in forward flight takes long.
     const double wanted = demanded_headroom(design.requirements, Condition::hover);
     const IntervalSet hovers = areas_meeting_demands(flights.hover, wanted);
-    if (!hangs_within(flights.forward.tether(), hovers)) return false;
+    if (!is_within_tilt(flights.forward, hovers)) return false;
   }
   return searched(flights).feasible;
 }

@@ -48,7 +48,6 @@ std::optional<double> threshold(const Design& design, Quantity quantity, double 
   // Hanging cables are solved anew for each step.
   const bool solved = design.tether.model == TetherModel::solved;
   const double stride = std::log(solved ? 1.1 : 1.02);
-  // A thousandth of the last of the digits that are shown, of solved ones a tenth.
   const double close = solved ? 1e-4 : 1e-6;
   const int steps = static_cast<int>(std::ceil(std::abs(std::log(ratio)) / stride));
   double infeasible = present;

@@ -34,6 +34,8 @@ PlanarCable drawn_in_plane(Random& random) {
 /// Half of them stretch, at the tension of their load by up to a thirtieth.
 OnWinch drawn_on_winch(Random& random) {
   PlanarCable cable = drawn_in_plane(random);
+  if (random.chance(0.2)) cable.height = random.magnitude(1e-4, 3);
+  if (random.chance(0.3)) cable.aside = -cable.aside;
   if (random.chance(0.5)) cable.compliance = random.magnitude(1e-4, 0.03) / load_on(cable);
   return {cable, load_on(cable) * random.magnitude(0.05, 5)};
 }
@@ -153,7 +155,8 @@ double farthest_aside(const OnWinch& winched) {
 
 TEST_CASE("a cable in a plane turns under its load from its winch to its drone") {
   int hanging = 0;
-  each_random(test::draws(400), [&hanging](Random& random) {
+  constexpr int cables = 400;
+  each_random(test::draws(cables), [&hanging](Random& random) {
     const OnWinch winched = drawn_on_winch(random);
     const auto found = hung(winched);
     REQUIRE(found);
@@ -162,7 +165,8 @@ TEST_CASE("a cable in a plane turns under its load from its winch to its drone")
     check_ends(winched.cable, *found);
     CHECK(found->at_station.tension == Approx(winched.tension));
   });
-  CHECK(hanging > 0);
+  // Of those drawn about seven in ten.
+  CHECK(hanging >= 0.5 * test::draws(cables));
 }
 
 TEST_CASE("a cable in a plane with a known length turns under its load to its drone") {

@@ -49,6 +49,26 @@ TEST_CASE("every remedy makes its design feasible, and one percent less of it do
   CHECK(found > 10);
 }
 
+TEST_CASE("a design on a winch is feasible where it has an optimum") {
+  int feasible = 0;
+  constexpr int designs = 60;
+  test::each_random(test::draws(designs), [&feasible](test::Random& random) {
+    Design design = test::published_hanging_design();
+    design.tether.slack = 0;
+    design.tether.winch_pull = random.magnitude(0.3, 30);
+    design.tether.length = random.uniform(10, 60);
+    design.supply.voltage = random.uniform(60, 200);
+    design.flight.airspeed = random.uniform(0, 12);
+    if (random.chance(0.3)) design.flight.horizontal_offset = random.uniform(1, 20);
+    if (random.chance(0.2)) design.tether.axial_stiffness = random.magnitude(1e3, 1e5);
+    const bool expected = optimize(design).feasible;
+    CHECK(is_feasible(design) == expected);
+    feasible += expected ? 1 : 0;
+  });
+  CHECK(feasible > 0);
+  CHECK(feasible < test::draws(designs));
+}
+
 TEST_CASE("more voltage helps a starved drone, and the threshold has three digits") {
   Design design = test::published_design();
   design.supply.voltage = 24;

@@ -144,8 +144,9 @@ struct CableShape {
 /// places with next to none are as smooth as others. Direction and tension at the station and
 /// the end of σ are found by Newton's method with exact derivatives, from the cable under even load
 /// (a catenary in the load's own plane) or, where that does not lead there, with that load turned
-/// into the true one in steps. A winch's cable in one plane with an even wind is known but for an
-/// integral, and solved anew each time. Forces are good to 1e-8 of the greatest, mostly to 1e-10.
+/// into the true one in steps. A cable in one plane with an even wind, on a winch or of a length
+/// that does not stretch, is known but for integrals, and solved anew each time. Forces are good to
+/// 1e-8 of the greatest, mostly to 1e-10.
 ///
 /// Not in it: bending and torsion, drag along the cable, lift, vibration, the ground, waves along
 /// the cable (it is taken to follow at once).

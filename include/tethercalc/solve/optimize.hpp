@@ -70,7 +70,8 @@ struct Optimization : AreaPoints {
 /// The same but for the two sets of areas, which may be empty: sooner, for many designs.
 [[nodiscard]] Optimization optimum_alone(const Design& design);
 
-/// `optimize(design).feasible`, sooner.
+/// `optimize(design).feasible`, sooner; where a winch holds up conductors of some sizes only, and
+/// those closer than `hanging_step`, either may miss them.
 [[nodiscard]] bool is_feasible(const Design& design);
 
 }  // namespace tethercalc

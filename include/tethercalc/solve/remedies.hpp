@@ -26,15 +26,17 @@ inline constexpr double highest_remedy_voltage = 1000;
 /// ... mass, length and airspeed down to this fraction of what they are.
 inline constexpr double smallest_remedy_fraction = 0.01;
 
-/// For each quantity the smallest change that, alone, makes `optimize(design).feasible` true, in
+/// For each quantity the smallest change that, alone, makes the design feasible (`is_feasible`), in
 /// the order of `Quantity`; no entry where no value within the bounds does. Empty for a design that
 /// is feasible already.
 ///
 /// The value is rounded away from the present one to 3 significant digits, in SI and therefore also
 /// in grams; to more digits where 3 would overshoot a narrow range. Every value returned has been
-/// optimised and found feasible. Values are tried 2 % apart before the threshold is bisected, so
-/// that a feasible range narrower than that may be missed: ranges are wide except for the mass,
-/// where a lighter drone also tilts further. Takes about 1000 calls of `optimize`.
+/// found feasible. Values are tried 2 % apart, 10 % with a solved tether, before the threshold is
+/// bisected, so that a feasible range narrower than that may be missed: ranges are wide except for
+/// the mass, where a lighter drone also tilts further. The threshold is found to 1e-6, with a
+/// solved tether to 1e-4, by which its third digit may be one too far. Tries about 1000 values,
+/// with a solved tether 200.
 [[nodiscard]] std::vector<Remedy> remedies(const Design& design);
 
 /// `design` with the remedy applied.
