@@ -26,14 +26,14 @@ class Plane {
   [[nodiscard]] double both_less(double part) const {
     return part > 0 ? 2 * cable_.weight * both_ / (both_ + part) : both_ - part;
   }
-  /// On which the points miss by 1e-10 or so. Directions have a pole at exp(v²/2) = −q; where that
+  /// On which the points miss by 1e-9 or less. Directions have a pole at exp(v²/2) = −q; where that
   /// is far they turn back at |v| = 2.5.
   [[nodiscard]] double piece_for_points() const {
     const double drag = std::abs(cable_.drag);
     const double q = 2 * drag * (1 + std::abs(limit_cos_)) / both_less(2 * drag);
     const double log_q = std::log(q);
     const double beside = std::sqrt(std::hypot(log_q, std::numbers::pi) - log_q);
-    return std::min(1.3, 0.7 * beside);
+    return std::min(1.5, 0.8 * beside);
   }
 
  public:
