@@ -119,9 +119,12 @@ struct Point {
   double length = 0;
 };
 
+/// Numbers of a point.
+constexpr int rows = 8;
+
 /// A point and `columns` of its derivatives, one a column.
 template <std::size_t columns>
-using State = Eigen::Array<double, 8, 1 + static_cast<int>(columns)>;
+using State = Eigen::Array<double, rows, 1 + static_cast<int>(columns)>;
 
 Point operator*(double k, const Point& p) {
   return {k * p.direction, k * p.tension, k * p.position, k * p.length};
@@ -143,10 +146,8 @@ void put(double* n, const Point& p) {
 /// The numbers of a column.
 template <class StateType>
 auto* column_of(StateType& state, std::size_t k) {
-  return state.data() + 8 * k;
+  return state.data() + rows * k;
 }
-
-constexpr int rows = 8;
 
 constexpr std::size_t stages = 12;
 /// Order 8 (Fehlberg 1968, NASA TR R-287) without the stage that his estimate of the error alone
@@ -458,16 +459,13 @@ Unknowns equations(const Vector3& station, const Vector3& drone, double held) {
   return out;
 }
 
-template <class Problem>
-Unknowns miss_of(const Problem& problem, const Point& station, const Point& drone) {
+template <class Problem, std::size_t columns>
+Unknowns miss_of(const Problem& problem, const EndStates<columns>& ends) {
+  const Point station = point_at(ends.station.data());
+  const Point drone = point_at(ends.drone.data());
   const double held = problem.winch ? std::log(station.tension / *problem.winch)
                                     : drone.length - station.length - problem.length;
   return equations(station.position, drone.position - problem.drone, held);
-}
-
-template <class Problem, std::size_t columns>
-Unknowns miss_of(const Problem& problem, const EndStates<columns>& ends) {
-  return miss_of(problem, point_at(ends.station.data()), point_at(ends.drone.data()));
 }
 
 /// For a change of both ends.
@@ -673,9 +671,8 @@ template <class Problem, class Start>
 std::optional<Start> newton(const Problem& problem, Start at, int most_iterations,
                             Digits wanted = Digits::all) {
   constexpr double short_step = 0.01;  // whose square is left
-  constexpr std::size_t columns = columns_of_unknowns;
   Accuracy accuracy = coarse;
-  auto ends = ends_of<columns>(problem, at, accuracy);
+  auto ends = ends_of<columns_of_unknowns>(problem, at, accuracy);
   if (!ends) return std::nullopt;
   for (int i = 0; i < most_iterations; ++i) {
     const Unknowns miss = miss_of(problem, *ends);
@@ -698,7 +695,7 @@ std::optional<Start> newton(const Problem& problem, Start at, int most_iteration
       if (const auto found = refined(problem, moved(at, step))) return found;
       if (accuracy.step > fine.step) {  // whose own error may stand in the way
         accuracy = fine;
-        ends = ends_of<columns>(problem, at, accuracy);
+        ends = ends_of<columns_of_unknowns>(problem, at, accuracy);
         if (!ends) return std::nullopt;
         continue;
       }
@@ -708,13 +705,13 @@ std::optional<Start> newton(const Problem& problem, Start at, int most_iteration
     for (int halvings = 0; halvings < 7 && !next; ++halvings, part *= 0.4) {
       const auto tried = moved_evenly(problem, at, at_ends, by, Unknowns(part * step), accuracy);
       if (!tried) continue;
-      ends = ends_of<columns>(problem, *tried, accuracy);
+      ends = ends_of<columns_of_unknowns>(problem, *tried, accuracy);
       if (ends && miss_of(problem, *ends).norm() < miss.norm()) next = tried;
     }
     if (!next) {
       if (accuracy.step <= fine.step) return std::nullopt;
       accuracy = fine;
-      ends = ends_of<columns>(problem, at, accuracy);
+      ends = ends_of<columns_of_unknowns>(problem, at, accuracy);
       if (!ends) return std::nullopt;
       continue;
     }
@@ -922,18 +919,18 @@ Unknowns change_by_length(const Start& at) {
   return Eigen::Map<const Square>(at.inverse.data()).col(held);
 }
 
-/// With `log_slack`, from a cable that is nearly so.
+/// With `log_slack`, from the `last` one or, where there is none, from `start`.
 template <class Problem, class Start>
-std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack, const Start& from,
-                                        std::optional<double> length_before, Digits wanted) {
+std::optional<LetOut<Start>> let_out_to(const Problem& problem, double log_slack, Start start,
+                                        const std::optional<LetOut<Start>>& last, Digits wanted) {
   const double slack = norm(problem.drone) * std::exp(log_slack);
   Problem of_length = problem;
   of_length.winch.reset();
   of_length.length = norm(problem.drone) + slack;
-  Start start = from;
-  if (length_before) {
-    const Unknowns step = (of_length.length - *length_before) * change_by_length(from);
-    start = moved(from, std::min(1.0, 0.5 / size_of(step)) * step);
+  if (last) {
+    const double longer = slack - norm(problem.drone) * std::exp(last->log_slack);
+    const Unknowns step = longer * change_by_length(last->at);
+    start = moved(last->at, std::min(1.0, 0.5 / size_of(step)) * step);
   }
   const auto found = newton(of_length, start, 30, wanted);
   if (!found) return std::nullopt;
@@ -957,6 +954,8 @@ template <class Start, class Problem>
 std::optional<Start> by_length(const Problem& problem, const Vector3& load, CableOutcome& why_not) {
   constexpr double longest_step = 1.5;
   constexpr double close = 1e-3;
+  constexpr double near = 0.2;
+  constexpr double error_of_few = 0.02;
   constexpr double least_log_slack = -12;
   constexpr double most_log_slack = 2;
   std::optional<LetOut<Start>> tauter;   // its tension falls to the winch's, or may
@@ -965,15 +964,12 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
   if (!start) return std::nullopt;
   const EvenLoad even(problem, load);
   double log_slack = std::log(even.length_with_tension(*problem.winch) / even.distance() - 1);
-  constexpr double error_of_few = 0.02;
   Digits wanted = Digits::few;
-  Start from = *start;
-  std::optional<double> length;
+  std::optional<LetOut<Start>> last;
   for (int i = 0; i < 40 && log_slack > least_log_slack && log_slack < most_log_slack; ++i) {
-    const auto here = let_out_to(problem, log_slack, from, length, wanted);
+    const auto here = let_out_to(problem, log_slack, *start, last, wanted);
     if (!here) return std::nullopt;
-    from = here->at;
-    length = norm(problem.drone) * (1 + std::exp(log_slack));
+    last = here;
     const bool falls = here->slope < 0;
     if (falls && std::abs(here->excess / here->slope) < close) {
       const auto found = newton(problem, here->at, 8);
@@ -986,7 +982,6 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
       const double bend = slacker->slope - tauter->slope;
       const bool rises = slacker->slope >= 0;
       const double crossing = (tauter->excess - slacker->excess + slacker->slope * apart) / bend;
-      constexpr double near = 0.2;
       const double least = tauter->excess + tauter->slope * crossing;
       // Tangents that cross high above the winch's tension say so from afar: the logarithm falls by
       // less than ln of the slack, of a taut cable by half of it.
@@ -998,8 +993,7 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
         if (wanted == Digits::few) {
           wanted = Digits::all;
           log_slack = tauter->log_slack;
-          from = tauter->at;
-          length = norm(problem.drone) * (1 + std::exp(log_slack));
+          last = tauter;
           tauter.reset();
           slacker.reset();
           continue;

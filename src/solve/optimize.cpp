@@ -114,14 +114,16 @@ bool is_within_tilt(const SteadyFlight& flight, const IntervalSet& areas) {
   });
 }
 
+bool hangs(const TetherInFlight& tether, double radius) {
+  return std::isfinite(tether.load(radius).down);
+}
+
 /// Whether a solved tether hangs at `area` and no more with a slightly thicker conductor.
 bool hangs_just(const SteadyFlight& flight, double area) {
   constexpr double thicker = 1 + 2e-3;  // edges are found to a sixth of a thousandth of the radius
-  const auto hangs = [&](double radius) {
-    return std::isfinite(flight.tether().load(radius).down);
-  };
   const double radius = conductor_radius(area);
-  return flight.tether().is_solved() && hangs(radius) && !hangs(radius * thicker);
+  const TetherInFlight& tether = flight.tether();
+  return tether.is_solved() && hangs(tether, radius) && !hangs(tether, radius * thicker);
 }
 
 /// Names the edge of the feasible set that keeps the optimum from the minimum-power area.
@@ -171,9 +173,8 @@ SteadyFlight::Radii too_tilted_with_solved_tether(const SteadyFlight& flight) {
 
 /// Whether a solved tether reaches its drone with conductors of some size.
 bool hangs_somewhere(const TetherInFlight& tether) {
-  return std::ranges::any_of(std::array{1e-4, 3e-4, 1e-3, 3e-3}, [&](double radius) {
-    return std::isfinite(tether.load(radius).down);
-  });
+  return std::ranges::any_of(std::array{1e-4, 3e-4, 1e-3, 3e-3},
+                             [&](double radius) { return hangs(tether, radius); });
 }
 
 /// What keeps the best reachable headroom of one condition below `demanded`.
