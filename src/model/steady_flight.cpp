@@ -134,18 +134,17 @@ double SteadyFlight::searched_radius(double limit) const {
     return radius_between(limit, thinnest, without_battery);
   }
   const double thickest = std::min(1.0, tether_.radius_of_tension(limit));
-  double light = -1;
-  double heavy = thinnest;
-  // Beyond radii at which it cannot hang it may hang again.
+  // From the thickest down, which is near: the cable's own weight is most of what it adds. Beyond
+  // radii at which it cannot hang it may hang again.
   const double step = tether_.hangs_alike() ? 2 : hanging_step;
-  for (; heavy <= thickest; heavy *= step) {
-    const double here = weight(heavy);
-    if (here <= limit) light = heavy;
-    if (light > 0 && here > limit && here < std::numeric_limits<double>::infinity()) break;
+  double heavy = thickest;
+  double light = thickest;
+  while (light >= thinnest && !(weight(light) <= limit)) {
+    heavy = light;
+    light /= step;
   }
-  if (light < 0) return light;
-  if (heavy > thickest) heavy = std::min(step * light, thickest);
-  if (weight(heavy) <= limit) return heavy;
+  if (light < thinnest) return -1;
+  if (light == heavy) return heavy;
   if (!has_battery_ && weight(heavy) < std::numeric_limits<double>::infinity()) {
     return radius_between(limit, light, heavy);
   }
@@ -176,14 +175,15 @@ double SteadyFlight::radius_of_takeoff(double takeoff, double start) const {
 }
 
 double SteadyFlight::radius_between(double limit, double light, double heavy) const {
-  // Newton's method in a bracket, which is halved where it leads out, and every fourth step: a
-  // reserve battery may leap.
+  // Newton's method in a bracket, which is halved where it leads out and, where it takes long,
+  // every fourth step: a reserve battery may leap.
+  constexpr int quick = 8;
   double radius = heavy;
   for (int step = 1; step < 300; ++step) {
     const Weight here = weighed(radius);
     (here.value > limit ? heavy : light) = radius;
     const double newton = radius + (limit - here.value) / here.slope;
-    const bool inside = newton > light && newton < heavy && step % 4 != 0;
+    const bool inside = newton > light && newton < heavy && (step < quick || step % 4 != 0);
     const double middle = heavy > 4 * light ? std::sqrt(light * heavy) : 0.5 * (light + heavy);
     const double next = inside ? newton : middle;
     if (!(light < next && next < heavy)) break;

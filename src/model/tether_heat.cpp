@@ -100,8 +100,12 @@ TetherHeat::Loop TetherHeat::loop(const ConductorHeat::Balance& in_air,
   loop.resistance = at_zero_ + of(in_air.steady_inside(), wound.steady_inside());
   loop.by_current = of(in_air.inside_per_surface * in_air.by_current,
                        wound.inside_per_surface * wound.by_current);
-  loop.by_radius = of(in_air.inside_by_radius, wound.inside_by_radius) -
-                   2 * (loop.resistance - flight_.tether().contact_resistance()) / radius_;
+  // What a winch pays out grows with the radius, too.
+  const TetherInFlight& tether = flight_.tether();
+  const double contacts = tether.contact_resistance();
+  loop.by_radius = of(in_air.inside_by_radius, wound.inside_by_radius) +
+                   (loop.resistance - contacts) / (tether.resistance(radius_) - contacts) *
+                       tether.resistance_slope(radius_);
   return loop;
 }
 

@@ -84,8 +84,7 @@ constexpr double stride = 0.25 * std::numbers::ln2;
 /// sharply, by a part of it.
 constexpr long places_per_stride = 1024;
 constexpr long closest_places = 16;
-constexpr double thinnest_solved = 1e-5;  // m, 0.0003 mm²
-constexpr double thickest_solved = 1;     // m
+constexpr double thickest_solved = 1;  // m
 const double log_thinnest = std::log(thinnest_solved);
 constexpr double log_thickest = 0;
 const double first_stride = std::floor(log_thinnest / stride);
@@ -106,13 +105,16 @@ std::optional<double> HangingSituation::cylinder_diameter(double radius) const {
 HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked asked)
     : situation_(situation),
       similar_(asked == ConductorsAsked::many ? SimilarCables::of(situation) : nullptr),
-      asked_(asked) {}
+      asked_(asked) {
+  // Where cables nearby take more than there is, what is between them may reach.
+  situation_.cable_there_is = std::numeric_limits<double>::infinity();
+  cable_there_is_ = situation.cable_there_is;
+}
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   if (situation_.memory != nullptr) {
     if (const auto known = situation_.memory->on_winch(situation_, std::exp(log_radius))) {
-      const bool reaches = known->value.back() <= situation_.cable_there_is;
-      return {reaches ? CableOutcome::hangs : CableOutcome::too_short, known->value, known->slope};
+      return {CableOutcome::hangs, known->value, known->slope};
     }
   }
   // Each from nothing, so that an answer does not depend on what was asked before.
@@ -142,9 +144,11 @@ bool HangingLoad::bends_much(const Node& a, const Node& b, double width) {
   // width³/12. With this little of it the cubic misses by about 1e-5.
   constexpr double little = 2e-3;
   const double tension = std::max(a.value[2], b.value[2]);
-  for (std::size_t i = 0; i + 1 < part_count; ++i) {
+  for (std::size_t i = 0; i < part_count; ++i) {
+    const bool is_length = i + 1 == part_count;
     const double mean_slope = 0.5 * (a.slope[i] + b.slope[i]);
-    if (std::abs(b.value[i] - a.value[i] - width * mean_slope) > little * tension) return true;
+    const double bend = std::abs(b.value[i] - a.value[i] - width * mean_slope);
+    if (bend > little * (is_length ? a.value[i] : tension)) return true;
   }
   return false;
 }
@@ -223,28 +227,28 @@ std::optional<HangingLoad::Shares> HangingLoad::of_similar_cables(double radius)
 
 std::optional<HangingLoad::Shares> HangingLoad::between_nodes(double radius) const {
   const double x = std::clamp(std::log(radius), log_thinnest, log_thickest);
-  // What asks for the point of no area at all gets a tether that does not hang.
-  const auto stretch = std::isnan(x) ? std::nullopt : stretch_about(x);
+  const auto stretch = stretch_about(x);
   if (!stretch) return std::nullopt;
   const auto& [lo, hi, from, width] = *stretch;
   const Node& a = *lo;
   const Node& b = *hi;
   const bool one_place = lo == hi;  // its forces over the cable's own load hold for thinner ones
   const double t = one_place ? 0 : (x - from) / width;
-  // Hermite's cubic, and its slope by ln r.
+  // Hermite's cubic, and its slope by r.
   const double b1 = t * t * (3 - 2 * t);
   const double sa = t * (1 - t) * (1 - t) * width;
   const double sb = t * t * (t - 1) * width;
-  const double b1_slope = 6 * t * (1 - t) / width;
-  const double sa_slope = (1 - t) * (1 - 3 * t);
-  const double sb_slope = t * (3 * t - 2);
+  const double by_radius = 1 / radius;
+  const double b1_slope = 6 * t * (1 - t) / width * by_radius;
+  const double sa_slope = (1 - t) * (1 - 3 * t) * by_radius;
+  const double sb_slope = t * (3 * t - 2) * by_radius;
   const bool moves = !one_place && x > log_thinnest && x < log_thickest;
   Shares shares;
   for (std::size_t i = 0; i < part_count; ++i) {
     const double rise = b.value[i] - a.value[i];
     shares.value[i] = a.value[i] + b1 * rise + sa * a.slope[i] + sb * b.slope[i];
     if (!moves) continue;
-    shares.slope[i] = (b1_slope * rise + sa_slope * a.slope[i] + sb_slope * b.slope[i]) / radius;
+    shares.slope[i] = b1_slope * rise + sa_slope * a.slope[i] + sb_slope * b.slope[i];
   }
   return shares;
 }
@@ -261,12 +265,15 @@ const HangingLoad::AtRadius& HangingLoad::at(double radius) const {
 }
 
 HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
+  const std::optional<double> fixed = fixed_length();
   std::optional<Shares> shares;
-  const bool is_radius = !std::isnan(radius);
-  if (is_radius && asked_ == ConductorsAsked::one) shares = solved_alone(radius);
-  if (is_radius && similar_) shares = of_similar_cables(radius);
-  if (!shares) shares = between_nodes(radius);
-  if (!shares) {
+  // What asks for the point of no area at all gets a tether that does not hang.
+  if (!std::isnan(radius) && !(fixed > cable_there_is_)) {
+    if (asked_ == ConductorsAsked::one) shares = solved_alone(radius);
+    if (similar_) shares = of_similar_cables(radius);
+    if (!shares) shares = between_nodes(radius);
+  }
+  if (!shares || (!fixed && shares->value.back() > cable_there_is_)) {
     constexpr double none = std::numeric_limits<double>::infinity();
     return {{none, none, none, none, none, none}, {}};
   }
@@ -277,8 +284,8 @@ HangingLoad::AtRadius HangingLoad::computed_at(double radius) const {
     slope[i] = slope[i] * load.value + value[i] * load.slope;
     value[i] *= load.value;
   }
-  if (situation_.paid_out.length) {
-    value.back() = *situation_.paid_out.length;
+  if (fixed) {
+    value.back() = *fixed;
     slope.back() = 0;
   }
   return {{value[0], value[1], value[2], value[3], value[4], value[5]},
@@ -371,7 +378,7 @@ NoWayUp no_way_up(const Design& design, double area, Condition condition) {
   CableSolver solver;
   const auto [outcome, cable] = solve_hanging(
       hanging_situation(design, flight_state(design, condition)), solver, conductor_radius(area));
-  return {outcome, outcome == CableOutcome::too_short ? cable.length : 0};
+  return {area, outcome, outcome == CableOutcome::too_short ? cable.length : 0};
 }
 
 TetherInFlight::TetherInFlight(const Tether& tether, double wall, const FlightState& state,

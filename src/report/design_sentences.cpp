@@ -65,7 +65,7 @@ constexpr LimitWords all_limits[] = {
      "No cross-section works: a supply of {voltage} V is outside the converter's range.",
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"},
-    {"Limited by the tether: any thicker, and {no_way}.",
+    {"Limited by the tether: any {further}, and {no_way}.",
      "No cross-section works: with 1 mm², a usual size, {no_way}.",
      "The tether's way up to the drone", "{no_way}", "no way up for the tether"},
     {"Limited by the drum: any thicker, and no turn of the tether fits into its {drum_mm} mm of "
@@ -100,16 +100,21 @@ std::string no_way_words(const Design& design, const std::optional<NoWayUp>& no_
                        significant(tether.winch_pull, 3), up);
   }
   if (no_way && no_way->needed > 0) {
+    const double there_are = tether.length + tether.spooled_length;
+    int digits = 4;
+    while (digits < 9 && significant(no_way->needed, digits) == significant(there_are, digits)) {
+      ++digits;
+    }
     return fmt::format("{} m of cable are needed {}, and there are {} m",
-                       significant(no_way->needed, 4), up,
-                       significant(tether.length + tether.spooled_length, 4));
+                       significant(no_way->needed, digits), up, significant(there_are, digits));
   }
   return "no way is found for the tether to hang " + up + cable_words(tether);
 }
 
-/// `words` with the design's numbers, and what stands in the tether's way, in place of their names.
+/// `words` with the design's numbers, and what stands in the tether's way, in place of their names;
+/// `area` in m² is that of the optimum which they are of.
 std::string filled_in(const char* words, const Design& design, Condition condition,
-                      const std::optional<NoWayUp>& no_way = {}) {
+                      const std::optional<NoWayUp>& no_way = {}, double area = 0) {
   const Requirements& need = design.requirements;
   const Converter& converter = design.supply.converter;
   const double demanded = demanded_headroom(need, condition);
@@ -117,6 +122,7 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
   return fmt::format(
       fmt::runtime(words), fmt::arg("where", where),
       fmt::arg("no_way", no_way_words(design, no_way, condition)),
+      fmt::arg("further", no_way && no_way->area < area ? "thinner" : "thicker"),
       fmt::arg("demand", headroom_words(demanded) + " in " + where),
       fmt::arg("headroom", fixed(demanded, 2)),
       fmt::arg("tilt", significant(need.max_pitch / unit::degree, 3)),
@@ -298,10 +304,10 @@ std::string limit_sentence(const Design& design, const Optimization& result) {
                        unchecked_sentence(design).empty() ? "" : "that was checked ",
                        condition_words(where));
   }
-  std::string sentence =
-      filled_in(limit_words(result.limited_by).of_optimum, design, where, result.no_way);
+  std::string sentence = filled_in(limit_words(result.limited_by).of_optimum, design, where,
+                                   result.no_way, result.area);
   const MinimumPower& least = result.minimum_power;
-  if (least.power > 0) {
+  if (least.power > 0 && least.area != result.area) {
     sentence += fmt::format(" Power alone would ask for {} mm² ({} W in {}).",
                             significant(least.area / unit::square_millimetre, 4),
                             fixed(least.power, 1), condition_words(design.requirements.power_at));

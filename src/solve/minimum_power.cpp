@@ -586,8 +586,6 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   // Thick enough to deliver what the lightest tether needs in still air, light enough for the
   // motors there.
   const double lightest = radii.lo;
-  radii.hi = std::min(radii.hi, flight.radius_of_weight(flight.full_thrust()));
-  if (!(lightest <= radii.hi)) return none;
   const double weight = least_weight(flight, lightest);
   if (!(least_hover_power(flight, weight) < infinity)) return none;
   radii.lo = std::max(lightest, delivering_radius(flight, weight));

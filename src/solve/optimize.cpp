@@ -118,12 +118,16 @@ bool hangs(const TetherInFlight& tether, double radius) {
   return std::isfinite(tether.load(radius).down);
 }
 
-/// Whether a solved tether hangs at `area` and no more with a slightly thicker conductor.
-bool hangs_just(const SteadyFlight& flight, double area) {
-  constexpr double thicker = 1 + 2e-3;  // edges are found to a sixth of a thousandth of the radius
+enum class Side { thinner, thicker };
+
+/// Whether a solved tether hangs at `area` and no more with a conductor slightly to that side: a
+/// thicker one may be too heavy for its winch, a thinner one be blown further than there is cable.
+bool hangs_just(const SteadyFlight& flight, double area, Side side) {
+  constexpr double more = 1 + 2e-3;  // edges are found to a sixth of a thousandth of the radius
   const double radius = conductor_radius(area);
   const TetherInFlight& tether = flight.tether();
-  return tether.is_solved() && hangs(tether, radius) && !hangs(tether, radius * thicker);
+  return tether.is_solved() && hangs(tether, radius) &&
+         !hangs(tether, side == Side::thicker ? radius * more : radius / more);
 }
 
 /// Names the edge of the feasible set that keeps the optimum from the minimum-power area.
@@ -142,17 +146,21 @@ void name_limit(Optimization& result, const Flights& flights) {
       return;
     }
   }
-  if (at_minimum) {
-    result.limited_by = Limit::minimum_power;
-    result.limiting_condition = design.requirements.power_at;
-    return;
-  }
+  // The least power is looked for where the tether hangs, and may lie on an end of that.
   for (const Condition condition : {Condition::hover, Condition::forward}) {
-    if (edge < result.minimum_power.area && hangs_just(flights.in(condition), edge)) {
+    const SteadyFlight& flight = flights.in(condition);
+    const auto ends = [&](Side side) { return hangs_just(flight, edge, side); };
+    if ((edge <= result.minimum_power.area && ends(Side::thicker)) ||
+        (edge >= result.minimum_power.area && ends(Side::thinner))) {
       result.limited_by = Limit::tether_shape;
       result.limiting_condition = condition;
       return;
     }
+  }
+  if (at_minimum) {
+    result.limited_by = Limit::minimum_power;
+    result.limiting_condition = design.requirements.power_at;
+    return;
   }
   const Margins margins = demand_margins(design, hover, forward);
   result.limited_by = limit_of(margins.worst().demand);
@@ -181,7 +189,7 @@ bool hangs_somewhere(const TetherInFlight& tether) {
 Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
   const bool solved = flight.tether().is_solved();
   if (solved && !(best.value > 0) && !hangs_somewhere(flight.tether())) return Limit::tether_shape;
-  if (best.value > 0 && hangs_just(flight, best.area)) return Limit::tether_shape;
+  if (best.value > 0 && hangs_just(flight, best.area, Side::thicker)) return Limit::tether_shape;
   const SteadyFlight::Radii beyond =
       solved ? too_tilted_with_solved_tether(flight) : flight.beyond_pitch_limit();
   const bool tilts = beyond.lo < beyond.hi;

@@ -86,61 +86,90 @@ namespace {
 /// What was solved for to lie on a kink may miss it by this much, relative.
 constexpr double kink_rounding = 1e-12;
 
+/// What decides the tilt with conductors of one radius.
+struct TiltLoads {
+  double radius = 0;
+  double weight = 0;  ///< N, all that is lifted; +infinity where a tether does not hang
+  double down = 0;    ///< N of the tether's load
+  double drag = 0;    ///< N of the tether's
+
+  [[nodiscard]] bool hangs() const { return weight < infinity; }
+};
+
 /// Whether the tilt is within its limit with the weight at one radius and the tether's drag at
 /// another, of which `lighter` N of weight and the share `of_drag` count.
-bool within_tilt(const SteadyFlight& flight, double light, double wide, double lighter = 0,
-                 double of_drag = 1) {
-  return (flight.weight(light) - lighter) * flight.tan_pitch_limit() >=
-         flight.airframe_drag_at_pitch_limit() + of_drag * flight.tether().drag(wide);
+bool within_tilt(const SteadyFlight& flight, const TiltLoads& light, const TiltLoads& wide,
+                 double lighter = 0, double of_drag = 1) {
+  return (light.weight - lighter) * flight.tan_pitch_limit() >=
+         flight.airframe_drag_at_pitch_limit() + of_drag * wide.drag;
+}
+
+TiltLoads tilt_loads(const SteadyFlight& flight, double radius) {
+  const TetherInFlight& tether = flight.tether();
+  return {radius, flight.weight(radius), tether.is_solved() ? tether.load(radius).down : 0,
+          tether.drag(radius)};
 }
 
 /// Collects where the tilt is within its limit with a reserve battery, whose mass is no closed form
 /// of the radius. Weight and drag both rise with it, which bounds the tilt between two radii.
-void collect_within_tilt(const SteadyFlight& flight, double a, double b, IntervalSet& radii) {
+void collect_within_tilt(const SteadyFlight& flight, const TiltLoads& a, const TiltLoads& b,
+                         IntervalSet& radii) {
   if (!within_tilt(flight, b, a)) return;
-  if (within_tilt(flight, a, b)) return append(radii, {a, b});
-  const double middle = std::sqrt(a * b);
-  if (!(middle > a * (1 + kink_rounding))) return;
+  if (within_tilt(flight, a, b)) return append(radii, {a.radius, b.radius});
+  const TiltLoads middle = tilt_loads(flight, std::sqrt(a.radius * b.radius));
+  if (!(middle.radius > a.radius * (1 + kink_rounding))) return;
   collect_within_tilt(flight, a, middle, radii);
   collect_within_tilt(flight, middle, b, radii);
 }
 
+/// The last radius from `inside`, where something holds, towards `outside`, where it does not.
+template <typename Holds>
+double last_radius(const Holds& holds, double inside, double outside) {
+  const double rounding = kink_rounding * std::max(inside, outside);
+  while (std::abs(outside - inside) > rounding) {
+    const double middle = 0.5 * (inside + outside);
+    (holds(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
 /// The same with a solved tether, whose load may fall from a to b by as much as `left_of_load` says
 /// before it rises. Closer radii are told apart by their ends.
-void collect_solved_within_tilt(const SteadyFlight& flight, double a, double b,
+void collect_solved_within_tilt(const SteadyFlight& flight, const TiltLoads& a, const TiltLoads& b,
                                 IntervalSet& radii) {
   constexpr double close = 1.05;
-  const double next = flight.tether().hangs_alike() ? infinity : hanging_step;
-  const auto hangs = [&](double r) { return flight.weight(r) < infinity; };
-  const auto within = [&](double r) { return hangs(r) && within_tilt(flight, r, r); };
-  if (!hangs(a) && !hangs(b) && b < next * a) return;
-  if (hangs(a) && hangs(b) && b < next * a) {
-    const double left = left_of_load(a, b);
-    const auto down = [&](double r) { return flight.tether().load(r).down; };
-    if (within_tilt(flight, a, b, (1 - left) * down(a), 1 / left)) return append(radii, {a, b});
-    if (!within_tilt(flight, b, a, (1 - 1 / left) * down(b), left)) return;
+  const double next = flight.tether().hangs_alike(b.radius) ? infinity : hanging_step;
+  const double ratio = b.radius / a.radius;
+  if (!a.hangs() && !b.hangs() && ratio < next) return;
+  if (a.hangs() && b.hangs() && ratio < next) {
+    const double left = left_of_load(a.radius, b.radius);
+    if (within_tilt(flight, a, b, (1 - left) * a.down, 1 / left)) {
+      return append(radii, {a.radius, b.radius});
+    }
+    if (!within_tilt(flight, b, a, (1 - 1 / left) * b.down, left)) return;
   }
-  if (b > close * a) {
-    const double middle = std::sqrt(a * b);
+  if (ratio > close) {
+    const TiltLoads middle = tilt_loads(flight, std::sqrt(a.radius * b.radius));
     collect_solved_within_tilt(flight, a, middle, radii);
     collect_solved_within_tilt(flight, middle, b, radii);
     return;
   }
-  if (within(a) && within(b)) return append(radii, {a, b});
-  const auto last = [b](const auto& holds, double inside, double outside) {
-    while (std::abs(outside - inside) > kink_rounding * b) {
-      const double middle = 0.5 * (inside + outside);
-      (holds(middle) ? inside : outside) = middle;
-    }
-    return inside;
+  const auto hangs = [&](double radius) { return flight.weight(radius) < infinity; };
+  const auto is_within = [&](const TiltLoads& at) {
+    return at.hangs() && within_tilt(flight, at, at);
   };
-  if (within(a)) return append(radii, {a, last(within, a, b)});
-  if (within(b)) return append(radii, {last(within, b, a), b});
-  if (hangs(a) == hangs(b)) return;
+  const auto within = [&](double radius) { return is_within(tilt_loads(flight, radius)); };
+  if (is_within(a)) {
+    const double end = is_within(b) ? b.radius : last_radius(within, a.radius, b.radius);
+    return append(radii, {a.radius, end});
+  }
+  if (is_within(b)) return append(radii, {last_radius(within, b.radius, a.radius), b.radius});
+  if (a.hangs() == b.hangs()) return;
   // The tilt may come within its limit just before the tether hangs no more.
-  const double brink = hangs(a) ? last(hangs, a, b) : last(hangs, b, a);
+  const double hanging = a.hangs() ? a.radius : b.radius;
+  const double brink = last_radius(hangs, hanging, a.hangs() ? b.radius : a.radius);
   if (!within(brink)) return;
-  const double edge = last(within, brink, hangs(a) ? a : b);
+  const double edge = last_radius(within, brink, hanging);
   append(radii, {std::min(edge, brink), std::max(edge, brink)});
 }
 
@@ -294,10 +323,13 @@ IntervalSet radii_within_tilt(const SteadyFlight& flight, double hi, double leas
     }
   }
   IntervalSet radii;
-  if (hi > thinnest_radius && flight.tether().is_solved()) {
-    collect_solved_within_tilt(flight, std::clamp(least_asked, thinnest_radius, hi), hi, radii);
-  } else if (hi > thinnest_radius) {
-    collect_within_tilt(flight, thinnest_radius, hi, radii);
+  if (!(hi > thinnest_radius)) return radii;
+  const TiltLoads heaviest = tilt_loads(flight, hi);
+  if (flight.tether().is_solved()) {
+    const double from = std::clamp(least_asked, thinnest_radius, hi);
+    collect_solved_within_tilt(flight, tilt_loads(flight, from), heaviest, radii);
+  } else {
+    collect_within_tilt(flight, tilt_loads(flight, thinnest_radius), heaviest, radii);
   }
   return radii;
 }

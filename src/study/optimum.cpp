@@ -186,8 +186,11 @@ DesignOptimum optimum_of(const Design& design) {
     optimum.refusal = refusal_of(design, result);
     if (no_way) optimum.refusal->no_way = no_way_up(design, 1 * unit::square_millimetre, where);
   } else if (no_way) {
-    constexpr double thicker = 1.01;
-    result.no_way = no_way_up(design, thicker * result.area, where);
+    constexpr double little = 1.01;
+    result.no_way = no_way_up(design, result.area * little, where);
+    if (result.no_way->outcome == CableOutcome::hangs) {
+      result.no_way = no_way_up(design, result.area / little, where);
+    }
   }
   optimum.best_headroom = best_headroom(design, design.requirements.headroom_at);
   return optimum;

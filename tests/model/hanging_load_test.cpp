@@ -214,6 +214,31 @@ TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of
   CHECK(disagree <= 1);
 }
 
+TEST_CASE("a winch's cable reaches where no more is paid out than there is") {
+  int hangs = 0;
+  int wrong = 0;
+  const int count = std::max(10, test::draws(60));
+  each_random(count, [&](Random& random) {
+    HangingSituation s = drawn_situation(random);
+    s.axial_stiffness.reset();
+    s.paid_out = {.length = {},
+                  .winch_tension = std::hypot(s.height, s.offset) * random.uniform(0.3, 1.5)};
+    const double radius = random.magnitude(1e-4, 2e-3);
+    CableSolver solver;
+    const auto [outcome, cable] = solve_hanging(s, solver, radius);
+    if (outcome != CableOutcome::hangs) return;
+    ++hangs;
+    constexpr double little = 1e-3;  // an error of the length between solved cables
+    s.cable_there_is = cable.length * (1 + little);
+    if (!(HangingLoad(s).at(radius).value.down < INFINITY)) ++wrong;
+    s.cable_there_is = cable.length * (1 - little);
+    if (HangingLoad(s).at(radius).value.down < INFINITY) ++wrong;
+  });
+  CAPTURE(hangs, wrong);
+  CHECK(hangs > count / 2);
+  CHECK(wrong <= std::max(1, hangs / 30));  // where a winch hardly holds its cable
+}
+
 TEST_CASE("cables that differ by one number are remembered by it") {
   HangingSituation s{.weight = {0.05, 50, 3e5}, .width = {1e-3, 3}, .air = {}, .paid_out = {}};
   s.height = 30;

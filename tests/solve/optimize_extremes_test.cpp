@@ -196,6 +196,7 @@ TEST_CASE("of the conductors that a winch holds up, which may be a few, none is 
     // Weaker ones hold aside, in a wind, conductors of sizes closer than they are looked for.
     tether.winch_pull = random.magnitude(aside ? 1 : 0.05, 10);
     if (random.chance(0.3)) tether.spooled_length = random.magnitude(0.1, 100);
+    if (random.chance(0.3)) tether.ambient_temperature_C = random.uniform(-20, 50);
     design.supply.voltage = random.uniform(60, 300);
     design.flight.airspeed = random.uniform(0, 12);
     design.flight.headwind = random.uniform(0, 10);

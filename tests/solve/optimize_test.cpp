@@ -256,6 +256,24 @@ TEST_CASE("a winch that holds up only tethers too thin for the power is what lim
   CHECK(std::isnan(evaluate(design, 1.01 * thin.area, thin.limiting_condition).tether_length));
 }
 
+TEST_CASE("a drum that holds too little for what blows thinner tethers aside is what limits") {
+  Design design = test::published_design();
+  design.tether.model = TetherModel::solved;
+  design.tether.winch_pull = 1.6;
+  design.flight.horizontal_offset = 10;
+  design.supply.voltage = 120;
+  const double ample = optimize(design).area;
+  // As much as a conductor a quarter thicker takes than the one that draws least.
+  const OperatingPoint thicker = evaluate(design, 1.25 * ample, Condition::forward);
+  design.tether.spooled_length = thicker.tether_length - design.tether.length;
+  const Optimization thinnest = optimize(design);
+  REQUIRE(thinnest.feasible);
+  CHECK(thinnest.limited_by == Limit::tether_shape);
+  CHECK(thinnest.limiting_condition == Condition::forward);
+  CHECK(thinnest.area == Approx(1.25 * ample).epsilon(1e-3));
+  CHECK(std::isnan(evaluate(design, 0.99 * thinnest.area, Condition::forward).tether_length));
+}
+
 TEST_CASE("what misses its headroom for a converter's rating is told to miss the rating") {
   Design design = test::published_design();
   design.requirements.thrust_headroom = 1;

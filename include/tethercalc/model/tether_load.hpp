@@ -178,6 +178,7 @@ struct HangingOutcome {
 
 /// Why a solved tether does not hang up to its drone.
 struct NoWayUp {
+  double area = 0;                                 ///< m², of its conductor
   CableOutcome outcome = CableOutcome::not_found;  ///< not `hangs`
   double needed = 0;  ///< m of cable, where there is not as much; else 0
 };
@@ -195,6 +196,9 @@ enum class ConductorsAsked { many, one };
 /// About as far apart, as a ratio, as radii are looked at of a tether that hangs with conductors of
 /// some and not of other sizes (see `TetherInFlight::hangs_alike`).
 inline constexpr double hanging_step = 1.2;
+
+/// m, 0.0003 mm²: tethers with thinner conductors hang as with these.
+inline constexpr double thinnest_solved = 1e-5;
 
 /// The load of a tether that hangs as weight and wind have it (`CableSolver`), as a smooth function
 /// of its conductor's radius. Where length, place and profile of the wind are known, and the cable
@@ -234,11 +238,13 @@ class HangingLoad {
   /// m in the air, where that does not depend on the radius.
   [[nodiscard]] std::optional<double> fixed_length() const { return situation_.paid_out.length; }
 
-  /// Whether it hangs with conductors of every size, or with none.
-  [[nodiscard]] bool hangs_alike() const { return similar_ != nullptr; }
+  /// Whether it hangs with conductors of every radius up to this one, or with none of them.
+  [[nodiscard]] bool hangs_alike(double up_to) const {
+    return similar_ != nullptr || up_to <= thinnest_solved;
+  }
 
-  /// The load with conductors of `radius` ≥ 0; thinner ones than 10 µm have the forces of such over
-  /// their own load.
+  /// The load with conductors of `radius` ≥ 0; thinner ones than `thinnest_solved` have the forces
+  /// of such over their own load.
   [[nodiscard]] const AtRadius& at(double radius) const;
 
  private:
@@ -273,7 +279,8 @@ class HangingLoad {
   };
   [[nodiscard]] std::optional<Stretch> stretch_about(double log_radius) const;
 
-  HangingSituation situation_;
+  HangingSituation situation_;                    ///< as if there were any length of cable
+  double cable_there_is_;                         ///< m
   std::shared_ptr<const SimilarCables> similar_;  ///< null where more decides how it hangs
   ConductorsAsked asked_;
   mutable std::unordered_map<long, Node> nodes_;
@@ -305,8 +312,10 @@ class TetherInFlight {
   /// Whether it hangs as weight and wind have it, so that nothing of it is a polynomial of r.
   [[nodiscard]] bool is_solved() const { return hanging_ != nullptr; }
 
-  /// Whether it hangs with conductors of every size, or with none.
-  [[nodiscard]] bool hangs_alike() const { return !hanging_ || hanging_->hangs_alike(); }
+  /// Whether it hangs with conductors of every radius up to this one, or with none of them.
+  [[nodiscard]] bool hangs_alike(double up_to = std::numeric_limits<double>::infinity()) const {
+    return !hanging_ || hanging_->hangs_alike(up_to);
+  }
 
   /// The load on the drone.
   [[nodiscard]] TetherLoad load(double radius) const;
