@@ -410,16 +410,19 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
   if (best.value >= demanded) {
     return "No cross-section works: each demand can be met by some, but none meets all of them.";
   }
-  const char* reason = refusal.converter_caps
-                           ? "where the converter gives its rated {rated_W} W: a thicker conductor "
-                             "would only weigh more"
-                       : refusal.limit == Limit::motor_thrust
-                           ? "where the motors are at the end of their data sheet: a thicker "
-                             "conductor would only weigh more"
-                       : refusal.limit == Limit::max_pitch
-                           ? "where the tilt is at its limit"
-                           : "where thinner conductors deliver less power and thicker ones weigh "
-                             "more than they deliver";
+  const char* reason =
+      refusal.converter_caps
+          ? "where the converter gives its rated {rated_W} W: a thicker conductor "
+            "would only weigh more"
+      : refusal.limit == Limit::motor_thrust
+          ? "where the motors are at the end of their data sheet: a thicker "
+            "conductor would only weigh more"
+      : refusal.limit == Limit::max_pitch ? "where the tilt is at its limit"
+      : refusal.thicker_overheat
+          ? "where thinner conductors deliver less power and thicker ones overheat "
+            "without end"
+          : "where thinner conductors deliver less power and thicker ones weigh "
+            "more than they deliver";
   return fmt::format("No cross-section gives {}. The most is a headroom of {} at {} mm², {}.",
                      demand, significant(best.value, 3),
                      significant(best.area / unit::square_millimetre, 4),

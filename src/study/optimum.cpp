@@ -160,7 +160,9 @@ std::vector<WireNeighbours> wire_sizes_near(std::span<const WireSize> sizes, dou
 }
 
 Refusal refusal_of(const Design& design, const Optimization& result) {
-  Refusal refusal{result.limited_by, result.limiting_condition, {}, false};
+  Refusal refusal;
+  refusal.limit = result.limited_by;
+  refusal.condition = result.limiting_condition;
   switch (result.limited_by) {
     case Limit::conductor_temperature:
     case Limit::tether_strength:
@@ -172,8 +174,11 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
     default:
       refusal.best = result.best_headroom;
   }
-  refusal.converter_caps =
-      refusal.best.value > 0 && converter_caps(design, refusal.condition, refusal.best.area);
+  if (!(refusal.best.value > 0)) return refusal;
+  constexpr double slightly = 1.01;
+  refusal.converter_caps = converter_caps(design, refusal.condition, refusal.best.area);
+  refusal.thicker_overheat =
+      evaluate(design, slightly * refusal.best.area, refusal.condition).thermal_runaway;
   return refusal;
 }
 

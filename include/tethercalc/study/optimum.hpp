@@ -57,8 +57,9 @@ struct WireNeighbours {
 struct Refusal {
   Limit limit = Limit::available_power;    ///< what no cross-section keeps
   Condition condition = Condition::hover;  ///< where
-  BestHeadroom best;            ///< the most there, for limits of power, weight, thrust and tilt
-  bool converter_caps = false;  ///< whether the converter's rating, not the line, allows no more
+  BestHeadroom best;              ///< the most there, for limits of power, weight, thrust and tilt
+  bool converter_caps = false;    ///< whether the converter's rating, not the line, allows no more
+  bool thicker_overheat = false;  ///< whether a slightly thicker cable has no steady temperature
   std::optional<NoWayUp> no_way{};  ///< of `Limit::tether_shape`, by `optimum_of`: with 1 mm²
 };
 
