@@ -83,6 +83,12 @@ Samples to_samples(const Observations& flight, double gravity) {
   return samples;
 }
 
+std::vector<Samples> samples_of(std::span<const Observations> flights, double gravity) {
+  std::vector<Samples> samples;
+  for (const auto& flight : flights) samples.push_back(to_samples(flight, gravity));
+  return samples;
+}
+
 // ---- demands on the input ----
 
 void demand(bool holds, const char* field, double value, const char* allowed) {
@@ -635,8 +641,7 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
   demand_enough_samples(flights);
   demand_speed_spread(flights);
 
-  std::vector<Samples> samples;
-  for (const auto& flight : flights) samples.push_back(to_samples(flight, conditions.gravity));
+  const std::vector<Samples> samples = samples_of(flights, conditions.gravity);
   const Places places(samples);
   const double k = conditions.air_density / (2 * conditions.mass);
   const Box within = box(options.bounds, places);
@@ -724,6 +729,32 @@ DragFit fit_drag(std::span<const Observations> flights, const DragFitConditions&
                               minimum.bounds[p]});
   }
   return fit;
+}
+
+std::vector<DragAtSample> drag_at_samples(const DragFit& fit,
+                                          std::span<const Observations> flights) {
+  const DragFitConditions& known = fit.conditions;
+  const std::vector<Samples> samples = samples_of(flights, known.gravity);
+  const Places places(samples);
+  if (flights.size() != fit.wind().size() || std::size_t(places.size) != fit.parameters.size()) {
+    throw std::invalid_argument("the flights are not those that the drag was fitted to");
+  }
+  VectorXd x(places.size);
+  for (Index i = 0; i < places.size; ++i) {
+    x(i) = fit.parameters[static_cast<std::size_t>(i)].estimate.value;
+  }
+  const double k = known.air_density / (2 * known.mass);
+  std::vector<DragAtSample> out;
+  for (std::size_t f = 0; f < flights.size(); ++f) {
+    const Local p = local(x, places.of_flight[f]);
+    for (std::size_t i = 0; i < samples[f].size(); ++i) {
+      const Sample& s = samples[f].all[i];
+      const double observed = s.forward.observed;
+      out.push_back({airspeed(s, p).ahead, flights[f].tilt[i], known.mass * observed,
+                     known.mass * (observed - forward_row(s, k, p).residual)});
+    }
+  }
+  return out;
 }
 
 std::optional<SteadyDrag> steady_drag(const DragFit& fit, double airspeed) {

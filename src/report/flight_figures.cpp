@@ -33,35 +33,20 @@ double root_mean_square(std::span<const double> values) {
   return std::sqrt(sum / double(values.size()));
 }
 
-/// Drag at one sample, N.
+/// Drag at one sample as figures show it.
 struct DragSample {
   double airspeed = 0;  ///< m/s
   double tilt = 0;      ///< deg
-  double measured = 0;
-  double fitted = 0;
-  double residual = 0;  ///< measured less fitted
+  double measured = 0;  ///< N
+  double fitted = 0;    ///< N
+  double residual = 0;  ///< N, measured less fitted
 };
 
-std::vector<DragSample> samples_of(const DragStudy& drag) {
+std::vector<DragSample> samples_of(const DragIdentification& drag) {
   std::vector<DragSample> out;
-  const DragFitConditions& known = drag.identified.fit.conditions;
-  const AirframeDrag parameters = drag.identified.fit.drag();
-  for (std::size_t f = 0; f < drag.identified.flights.size(); ++f) {
-    const Observations& flight = drag.identified.flights[f];
-    const double wind = drag.identified.fit.wind()[f].estimate.value;
-    const FittedParameter* crosswind = drag.identified.fit.find("crosswind_m_s", f);
-    const double blown = crosswind == nullptr ? 0 : crosswind->estimate.value;
-    const bool exact = flight.kinematics == Kinematics::exact;
-    const std::vector<double> over_mass = forward_drag_over_mass(flight);
-    for (std::size_t i = 0; i < flight.size(); ++i) {
-      const double airspeed = flight.forward_speed[i] - wind;
-      const double aside = exact ? flight.right_speed[i] - blown : 0;
-      const double measured = known.mass * over_mass[i];
-      const double fitted =
-          airframe_drag_along(parameters, known.air_density, airspeed, aside,
-                              effective_area(parameters, std::tan(flight.tilt[i])));
-      out.push_back({airspeed, flight.tilt[i] / unit::degree, measured, fitted, measured - fitted});
-    }
+  for (const DragAtSample& at : drag_at_samples(drag.fit, drag.flights)) {
+    out.push_back(
+        {at.airspeed, at.tilt / unit::degree, at.measured, at.fitted, at.measured - at.fitted});
   }
   return out;
 }
@@ -255,7 +240,7 @@ Figure log_figure(const std::string& name, const Observations& flight) {
 }
 
 Figure drag_figure(const DragStudy& drag) {
-  const std::vector<DragSample> all = samples_of(drag);
+  const std::vector<DragSample> all = samples_of(drag.identified);
   const std::size_t step = plot::thinning(all.size(), most_samples);
   const std::vector<DragSample> shown = thinned(all, step);
   const std::vector<double> measured = plot::column(all, &DragSample::measured);
@@ -305,7 +290,7 @@ Figure drag_figure(const DragStudy& drag) {
 }
 
 Figure drag_surface_figure(const DragStudy& drag) {
-  const std::vector<DragSample> all = samples_of(drag);
+  const std::vector<DragSample> all = samples_of(drag.identified);
   constexpr std::size_t most_dots = 500;
   const std::size_t step = plot::thinning(all.size(), most_dots);
   const std::vector<DragSample> shown = thinned(all, step);

@@ -45,8 +45,8 @@ double missing_acceleration(const Observations& o, std::size_t i) {
 
 TEST_CASE("the drag figure shows measured drag as mass times missing acceleration") {
   const Observations& flight = fitted().identified.flights.front();
-  const double wind = fitted().identified.fit.wind()[0].estimate.value;
-  const AirframeDrag drag = fitted().identified.fit.drag();
+  const std::vector<DragAtSample> samples =
+      drag_at_samples(fitted().identified.fit, fitted().identified.flights);
   const std::vector<plot::Panel> panels = panels_of(drag_figure(fitted()));
   const auto points = layers_of<plot::Points>(panels[0]);
   REQUIRE(points.size() == 2);  // measured and fitted
@@ -56,15 +56,9 @@ TEST_CASE("the drag figure shows measured drag as mass times missing acceleratio
   const std::size_t step = (flight.size() + points[0].x.size() - 1) / points[0].x.size();
   for (std::size_t k = 0; k < points[0].x.size(); ++k) {
     const std::size_t i = k * step;
-    const double u = flight.forward_speed[i] - wind;
-    CHECK(points[0].x[k] == Approx(u).margin(1e-5));
+    CHECK(points[0].x[k] == Approx(samples[i].airspeed).margin(1e-5));
     CHECK(points[0].y[k] == Approx(truth().mass * missing_acceleration(flight, i)).margin(1e-5));
-    // The paper's drag law, along the airspeed vector, written out.
-    const double area = drag.front_area * std::cos(flight.tilt[i]) +
-                        drag.top_area * std::abs(std::sin(flight.tilt[i]));
-    const double law = 0.5 * truth().air_density * area * u *
-                       (std::hypot(u, flight.right_speed[i]) + drag.linear_speed);
-    CHECK(points[1].y[k] == Approx(law).margin(1e-5));
+    CHECK(points[1].y[k] == Approx(samples[i].fitted).margin(1e-5));
     CHECK(left.y[k] == Approx(points[0].y[k] - points[1].y[k]).margin(1e-5));
   }
 }
@@ -118,15 +112,11 @@ TEST_CASE("lines of equal drag follow the paper's law, and marks are full where 
   const std::size_t shown = points[0].x.size() + points[1].x.size();
   CHECK(shown <= 500);
   const std::size_t step = (flight.size() + shown - 1) / shown;
-  const double wind = fitted().identified.fit.wind()[0].estimate.value;
+  const std::vector<DragAtSample> samples =
+      drag_at_samples(fitted().identified.fit, fitted().identified.flights);
   std::size_t more = 0;
-  for (std::size_t i = 0; i < flight.size(); i += step) {
-    const double u = flight.forward_speed[i] - wind;
-    const double area = drag.front_area * std::cos(flight.tilt[i]) +
-                        drag.top_area * std::abs(std::sin(flight.tilt[i]));
-    const double fitted_drag = 0.5 * truth().air_density * area * u *
-                               (std::hypot(u, flight.right_speed[i]) + drag.linear_speed);
-    more += truth().mass * missing_acceleration(flight, i) > fitted_drag ? 1 : 0;
+  for (std::size_t i = 0; i < samples.size(); i += step) {
+    more += samples[i].measured > samples[i].fitted ? 1 : 0;
   }
   CHECK(std::abs(double(more) - double(points[0].x.size())) <= 1);
 }

@@ -161,6 +161,19 @@ struct DragFit {
                                const DragFitConditions& conditions,
                                const DragFitOptions& options = {});
 
+/// Drag along the forward axis at one sample.
+struct DragAtSample {
+  double airspeed = 0;  ///< m/s along the drone's forward axis, whichever way it points
+  double tilt = 0;      ///< rad, positive leaning forward
+  double measured = 0;  ///< N: mass times `forward_drag_over_mass`
+  double fitted = 0;    ///< N, by the fitted law; measured less fitted is mass times the residual
+};
+
+/// What `fit` makes of every sample of the flights that it was fitted to, flight after flight.
+/// Throws std::invalid_argument where they are others, as far as their number and axes tell.
+[[nodiscard]] std::vector<DragAtSample> drag_at_samples(const DragFit& fit,
+                                                        std::span<const Observations> flights);
+
 /// A quantity computed from the fit, with the errors that follow from those of the parameters:
 /// `gradient` is its derivative with respect to `parameters`, in SI units.
 [[nodiscard]] Estimate propagate(const DragFit& fit, double value,
