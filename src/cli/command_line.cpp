@@ -164,15 +164,14 @@ class Command {
   /// The options that say which part of a flight counts and what is known about it.
   Command& flight(FlightOptions& flight) {
     group("Flight");
-    option("--mass-g G", flight.mass_g,
-           "Mass of the drone as flown, in g (default for diagnose: the spec's)");
+    option("--mass-g G", flight.mass_g, "Mass of the drone as flown, in g (default: the spec's)");
     option("--from PLACE", flight.from, "First sample: seconds (120) or percent (25%)");
     option("--to PLACE", flight.to, "Last sample; with neither, what is flown is used");
     option("--pitch-offset-deg DEGREES", flight.pitch_offset_deg,
            "Pitch that the log shows in level flight, nose-up (default: 0)");
     option("--trim-log LOG", flight.trim_log, "Hover flight whose mean pitch is that offset");
     option("--air-density KG/M3", flight.air_density_kg_m3,
-           "In kg/m³ (default: 1.293 for drag, the spec's for diagnose)");
+           "In kg/m³ (default: the spec's; without a spec 1.293)");
     option("--pressure-hPa HPA", flight.pressure_hPa, "For the air density, with");
     option("--temperature-C CELSIUS", flight.temperature_C, "the air temperature");
     comma_list("--columns COLUMNS", flight.columns,
@@ -540,7 +539,8 @@ class CommandLine {
         .flight(drag_.flight)
         .flag("--published-kinematics", drag_.flight.published_kinematics,
               "The forward axis alone, by the paper's formulas: reproduces its digits")
-        .option("--spec SPEC", drag_.spec.file, "The spec whose drag --into replaces")
+        .option("--spec SPEC", drag_.spec.file,
+                "The spec whose drag --into replaces: its mass, air and gravity are the flight's")
         .option_or_flag("--into FILE", drag_.into_file,
                         "Write the spec with its drag replaced to this file; without a name print "
                         "it instead of the fit")
@@ -548,7 +548,7 @@ class CommandLine {
                 "Print the drag as parameters of this autopilot's wind estimate instead")
         .output(output_)
         .examples({"tethercalc drag flight.bin --mass-g 1550 --pitch-offset-deg 0.8",
-                   "tethercalc drag flight.bin --mass-g 1550 --spec my.json --into learned.json"});
+                   "tethercalc drag flight.bin --spec my.json --into learned.json"});
     add("diagnose", "What the simulation of a measured flight gets wrong, and why",
         [this] {
           diagnose_.into = app_.get_subcommand("diagnose")->count("--into") > 0;

@@ -193,7 +193,7 @@ int run_log(const std::string& file, const std::string& message, const Output& o
 struct DragOptions {
   std::vector<std::string> logs;  ///< flights of one drone
   FlightOptions flight;
-  SpecOptions spec;       ///< whose drag is replaced; without a name none
+  SpecOptions spec;       ///< whose drag is replaced, and mass and air taken; without a name none
   bool into = false;      ///< print that spec instead of the fit
   std::string into_file;  ///< write it there instead, beside the fit
   std::string autopilot;  ///< "ardupilot" or "px4": print its parameter file instead

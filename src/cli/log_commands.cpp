@@ -198,14 +198,14 @@ int run_drag(const DragOptions& options, const Output& output) {
   if (file && !options.into) {
     throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
   }
+  const FlightOptions flight = file ? flown_as(options.flight, file->design) : options.flight;
   std::vector<Warning> notes;
-  const DragIdentification result = studied_drag("", options.logs, options.flight, logs_in_files(),
-                                                 [&notes](const Warning& note) {
-                                                   note_on_error(note);
-                                                   notes.push_back(note);
-                                                 })
-                                        .identified;
-  const std::vector<Warning> assumptions = assumptions_of(options.flight, result.options);
+  const DragIdentification result =
+      studied_drag("", options.logs, flight, logs_in_files(), [&notes](const Warning& note) {
+        note_on_error(note);
+        notes.push_back(note);
+      }).identified;
+  const std::vector<Warning> assumptions = assumptions_of(flight, result.options);
   // What was not said and moves the answer, so that no format hides it.
   remark_warnings("drag", assumptions);
   notes.insert(notes.end(), assumptions.begin(), assumptions.end());

@@ -231,6 +231,33 @@ TEST_CASE("learned drag goes into a spec, to a file or down a pipe to optimize")
   CHECK(json::parse(piped.out).at("optimum") == json::parse(filed.out).at("optimum"));
 }
 
+TEST_CASE(
+    "drag takes mass and air from the spec that it is learned for, where options say nothing") {
+  const TemporaryFolder folder;
+  json spec = json::parse(file_text(published));
+  spec["drone"]["mass_g"] = 2100;
+  spec["flight"]["air_density_kg_m3"] = 1.05;
+  const std::string mine = (folder.path() / "mine.json").string();
+  const std::string learned = (folder.path() / "learned.json").string();
+  write_file(mine, spec.dump());
+  const std::vector<std::string> into{
+      "--pitch-offset-deg", "0.8", "--spec", mine, "--into", learned};
+  const auto taken = [&](const std::vector<std::string>& options, double mass_g, double density) {
+    CAPTURE(options);
+    const json answer = drag_of({example}, and_also(into, options));
+    CHECK(answer.at("mass_g").get<double>() == Approx(mass_g));
+    CHECK(answer.at("air_density_kg_m3").get<double>() == Approx(density).epsilon(1e-4));
+    CHECK(json::parse(file_text(learned)).at("drone").at("drag") == answer.at("drone").at("drag"));
+  };
+  taken({}, 2100, 1.05);
+  taken({"--mass-g", "1550"}, 1550, 1.05);
+  taken({"--air-density", "1.2"}, 2100, 1.2);
+  taken({"--pressure-hPa", "1013.25", "--temperature-C", "15"}, 2100, 1.225);
+  const Ran run = drag({example}, into);
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.empty());  // nothing was assumed
+}
+
 TEST_CASE("drag --into writes a spec: neither without one to learn for, nor over a log") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "flight.csv").string();
