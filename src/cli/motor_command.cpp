@@ -182,8 +182,8 @@ ShownMotor motor_of_flight(const MotorOptions& options) {
   const double density = file.design.flight.air_density;
   FlownMotor flown;
   try {
-    flown = flown_motor(flight.log, file.design.drone, density,
-                        *options.max_thrust_g * unit::gram_force, library_motors());
+    flown = flown_motor(flight.log, file.design, *options.max_thrust_g * unit::gram_force,
+                        library_motors());
   } catch (const UnsuitablePowerFlight& error) {
     throw InputError(options.power_log, error.what());
   }

@@ -275,6 +275,7 @@ std::optional<double> air_density(const FlightOptions& options) {
 FlightOptions flown_as(FlightOptions options, const Design& design) {
   if (!options.mass_g) options.mass_g = design.drone.mass / unit::gram;
   if (!air_density(options)) options.air_density_kg_m3 = design.flight.air_density;
+  options.gravity_m_s2 = design.flight.gravity;
   return options;
 }
 
@@ -287,6 +288,7 @@ DragIdentificationOptions identification_options(const FlightOptions& flight,
   }
   options.conditions.mass = *mass;
   if (const auto density = air_density(flight)) options.conditions.air_density = *density;
+  if (flight.gravity_m_s2) options.conditions.gravity = *flight.gravity_m_s2;
   options.from = log_position("--from", flight.from);
   options.to = log_position("--to", flight.to);
   options.pitch_offset = pitch_offset(flight, read);

@@ -37,7 +37,8 @@ struct FlightOptions {
   std::optional<double> pressure_hPa;
   std::optional<double> temperature_C;
   bool published_kinematics = false;
-  std::vector<std::string> columns{};  ///< of logs in CSV, as in FlightLogOptions
+  std::vector<std::string> columns{};    ///< of logs in CSV, as in FlightLogOptions
+  std::optional<double> gravity_m_s2{};  ///< never typed: of the design, see flown_as
 };
 
 /// Where the part of the log begins or ends that `text`, as given to `option`, names: percent of
@@ -56,7 +57,7 @@ struct FlightOptions {
 /// impossible values, half a pair, or both.
 [[nodiscard]] std::optional<double> air_density(const FlightOptions& options);
 
-/// The options with mass and air as `design` has them where they do not say.
+/// The options with mass and air as `design` has them where they do not say, and its gravity.
 [[nodiscard]] FlightOptions flown_as(FlightOptions options, const Design& design);
 
 /// The numbers of battery monitors as typed for --battery. Throws InputError for what is none.

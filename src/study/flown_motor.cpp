@@ -56,10 +56,10 @@ double shape_band(std::span<const MotorEntry> measured) {
 }
 
 /// Thrust of one motor in steady level flight.
-double thrust_at(const Drone& drone, double air_density, double airspeed) {
-  const double weight = drone.mass * standard_gravity;
+double thrust_at(const Drone& drone, const Flight& where, double airspeed) {
+  const double weight = drone.mass * where.gravity;
   const double tilt =
-      equilibrium_tan_pitch({weight, area_force_factor(drone.drag, air_density, airspeed), 0,
+      equilibrium_tan_pitch({weight, area_force_factor(drone.drag, where.air_density, airspeed), 0,
                              drone.drag.front_area, drone.drag.top_area},
                             std::numeric_limits<double>::infinity());
   return weight * std::sqrt(1 + tilt * tilt) / drone.motor_count;
@@ -88,8 +88,9 @@ std::vector<SampleRange> hover_stretches(const PowerLog& flight) {
 
 }  // namespace
 
-FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_density,
-                       double max_thrust, std::span<const MotorEntry> measured) {
+FlownMotor flown_motor(const PowerLog& flight, const Design& design, double max_thrust,
+                       std::span<const MotorEntry> measured) {
+  const Drone& drone = design.drone;
   std::vector<double> motor_power = bus_power_of(flight);
   if (motor_power.empty()) {
     throw UnsuitablePowerFlight(
@@ -118,7 +119,7 @@ FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_de
         "leaves the motors a mean power of 0 or less in hover: is the current's sign "
         "reversed, or the auxiliary power too large?");
   }
-  out.hover_thrust = drone.mass * standard_gravity / drone.motor_count;
+  out.hover_thrust = drone.mass * design.flight.gravity / drone.motor_count;
   if (max_thrust <= out.hover_thrust) {
     throw UnsuitablePowerFlight(
         fmt::format("hovers with {:.0f} g a motor, which the greatest thrust has to exceed",
@@ -126,7 +127,7 @@ FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_de
   }
   const double factor = out.hover_power / std::pow(out.hover_thrust, 1.5);
   out.curve = momentum_curve(factor, max_thrust);
-  out.curve.set_measured_in(air_density);
+  out.curve.set_measured_in(design.flight.air_density);
   out.hover_interval = relative_interval(hover);
   out.band = std::hypot(out.hover_interval, shape_band(measured));
 
@@ -134,7 +135,7 @@ FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_de
   for (std::size_t i = 0; i < flight.time.size(); ++i) {
     const double airspeed = std::abs(flight.airspeed[i]);
     if (airspeed < slowest_forward) continue;
-    const double expected = factor * std::pow(thrust_at(drone, air_density, airspeed), 1.5);
+    const double expected = factor * std::pow(thrust_at(drone, design.flight, airspeed), 1.5);
     ++forward.rows;
     forward.airspeed += airspeed;
     forward.ratio += motor_power[i] / drone.motor_count / expected;

@@ -258,6 +258,27 @@ TEST_CASE(
   CHECK(run.err.empty());  // nothing was assumed
 }
 
+TEST_CASE("drag is learned where things weigh what the spec says") {
+  const TemporaryFolder folder;
+  const std::string mine = (folder.path() / "mine.json").string();
+  const std::string learned = (folder.path() / "learned.json").string();
+  const auto with_gravity = [&](double gravity) {
+    json spec = json::parse(file_text(published));
+    spec["flight"]["gravity_m_s2"] = gravity;
+    write_file(mine, spec.dump());
+    return drag_of({example}, and_also(known, {"--spec", mine, "--into", learned}));
+  };
+  const json here = drag_of({example}, known);
+  CHECK(with_gravity(9.80665).at("drone") == here.at("drone"));
+  const json elsewhere = with_gravity(9.6);
+  CHECK(elsewhere.at("drone") != here.at("drone"));
+  for (const json& row : elsewhere.at("table")) {
+    const double tilt = row.at("tilt_deg").at("value").get<double>() * 0.017453292519943295;
+    CHECK(row.at("drag_force_N").at("value").get<double>() ==
+          Approx(1.55 * 9.6 * std::tan(tilt)).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("drag --into writes a spec: neither without one to learn for, nor over a log") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "flight.csv").string();

@@ -13,15 +13,17 @@ using Catch::Contains;
 
 namespace {
 
-Drone quadrotor() {
-  Drone drone;
-  drone.mass = 1.6;
-  drone.motor_count = 4;
-  drone.drag = {0.015, 0.014, 19, 0};
-  return drone;
+constexpr double air_density = 1.2;
+
+Design quadrotor() {
+  Design design;
+  design.drone.mass = 1.6;
+  design.drone.motor_count = 4;
+  design.drone.drag = {0.015, 0.014, 19, 0};
+  design.flight.air_density = air_density;
+  return design;
 }
 
-constexpr double air_density = 1.2;
 constexpr double max_thrust = 12;  // N
 
 /// Hover at `hover_power` W in all, then as long at 10 m/s with `forward_power`; each row's noise
@@ -41,8 +43,9 @@ PowerLog flight_of(double hover_power, double forward_power, double noise, std::
 }
 
 /// Thrust of one motor at `airspeed`, by bisection of the balance of forces.
-double thrust_flown(const Drone& drone, double airspeed) {
-  const double weight = drone.mass * 9.80665;
+double thrust_flown(const Design& design, double airspeed) {
+  const Drone& drone = design.drone;
+  const double weight = drone.mass * design.flight.gravity;
   double lo = 0;
   double hi = 1.5;
   for (int i = 0; i < 100; ++i) {
@@ -60,9 +63,9 @@ double thrust_flown(const Drone& drone, double airspeed) {
 
 TEST_CASE("a hover gives its point of the curve, and momentum theory the rest") {
   std::mt19937_64 dice(1);
-  const Drone drone = quadrotor();
+  const Design design = quadrotor();
   const FlownMotor motor =
-      flown_motor(flight_of(400, 400, 0, dice), drone, air_density, max_thrust, library_motors());
+      flown_motor(flight_of(400, 400, 0, dice), design, max_thrust, library_motors());
   const double thrust = 1.6 * 9.80665 / 4;
   CHECK(motor.hover_thrust == Approx(thrust));
   CHECK(motor.hover_power == Approx(100));
@@ -77,7 +80,7 @@ TEST_CASE("a hover gives its point of the curve, and momentum theory the rest") 
 
 TEST_CASE("a drone that turns round between passes does not hover there") {
   std::mt19937_64 dice(1);
-  const Drone drone = quadrotor();
+  const Design design = quadrotor();
   const PowerLog hover = flight_of(260, 200, 0.002, dice);
   PowerLog turning = hover;
   for (int i = 0; i < 400; ++i) {
@@ -86,21 +89,33 @@ TEST_CASE("a drone that turns round between passes does not hover there") {
     turning.airspeed.push_back(turns ? 0.5 : 8);
     turning.bus_power.push_back(turns ? 500 : 200);
   }
-  const double at_rest = flown_motor(hover, drone, air_density, max_thrust, {}).hover_power;
-  CHECK(flown_motor(turning, drone, air_density, max_thrust, {}).hover_power == Approx(at_rest));
+  const double at_rest = flown_motor(hover, design, max_thrust, {}).hover_power;
+  CHECK(flown_motor(turning, design, max_thrust, {}).hover_power == Approx(at_rest));
 }
 
 TEST_CASE("forward flight is compared at the thrust that the drag asks for") {
   std::mt19937_64 dice(1);
-  const Drone drone = quadrotor();
-  const double ratio = std::pow(thrust_flown(drone, 10) / thrust_flown(drone, 0), 1.5);
+  const Design design = quadrotor();
+  const double ratio = std::pow(thrust_flown(design, 10) / thrust_flown(design, 0), 1.5);
   CHECK(ratio > 1.01);
-  const FlownMotor motor = flown_motor(flight_of(400, 0.85 * ratio * 400, 0, dice), drone,
-                                       air_density, max_thrust, library_motors());
+  const FlownMotor motor = flown_motor(flight_of(400, 0.85 * ratio * 400, 0, dice), design,
+                                       max_thrust, library_motors());
   REQUIRE(motor.forward);
   CHECK(motor.forward->rows == 600);
   CHECK(motor.forward->airspeed == Approx(10));
   CHECK(motor.forward->ratio == Approx(0.85).epsilon(1e-6));
+}
+
+TEST_CASE("where things weigh less, the same power is that of a motor that lifts less") {
+  std::mt19937_64 dice(1);
+  Design mars = quadrotor();
+  mars.flight.gravity = 3.71;
+  const double ratio = std::pow(thrust_flown(mars, 10) / thrust_flown(mars, 0), 1.5);
+  const FlownMotor motor = flown_motor(flight_of(400, ratio * 400, 0, dice), mars, max_thrust, {});
+  CHECK(motor.hover_thrust == Approx(1.6 * 3.71 / 4));
+  CHECK(motor.curve.power(1.6 * 3.71 / 4) == Approx(100).epsilon(1e-3));
+  REQUIRE(motor.forward);
+  CHECK(motor.forward->ratio == Approx(1).epsilon(1e-6));
 }
 
 TEST_CASE("the hover's interval holds the true power about as often as it says") {
@@ -111,7 +126,7 @@ TEST_CASE("the hover's interval holds the true power about as often as it says")
   int held = 0;
   for (int i = 0; i < flights; ++i) {
     const FlownMotor motor =
-        flown_motor(flight_of(400, 400, 0.02, dice), quadrotor(), air_density, max_thrust, {});
+        flown_motor(flight_of(400, 400, 0.02, dice), quadrotor(), max_thrust, {});
     if (std::abs(motor.hover_power / 100 - 1) <= motor.hover_interval) ++held;
   }
   // 95 % of 400 is 380 ± 4.4; neighbouring stretches still resemble each other a little.
@@ -126,12 +141,10 @@ TEST_CASE("flights that tell no motor are refused with what is missing") {
   brief.time.resize(40);
   brief.airspeed.resize(40);
   brief.bus_power.resize(40);
-  CHECK_THROWS_WITH(flown_motor(brief, quadrotor(), air_density, max_thrust, {}),
+  CHECK_THROWS_WITH(flown_motor(brief, quadrotor(), max_thrust, {}),
                     Contains("at least 50 rows and 20 s"));
-  CHECK_THROWS_WITH(flown_motor(flight, quadrotor(), air_density, 3.9, {}),
-                    Contains("400 g a motor"));
+  CHECK_THROWS_WITH(flown_motor(flight, quadrotor(), 3.9, {}), Contains("400 g a motor"));
   PowerLog reversed = flight;
   for (double& power : reversed.bus_power) power = -power;
-  CHECK_THROWS_WITH(flown_motor(reversed, quadrotor(), air_density, max_thrust, {}),
-                    Contains("sign reversed"));
+  CHECK_THROWS_WITH(flown_motor(reversed, quadrotor(), max_thrust, {}), Contains("sign reversed"));
 }

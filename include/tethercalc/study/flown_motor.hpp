@@ -35,20 +35,20 @@ struct FlownMotor {
   std::optional<FlownForward> forward;  ///< where the flight has enough of it
 };
 
-/// The motor of `drone` (mass, number of motors, drag and auxiliary power count) in air of
-/// `air_density`, from a free flight's power at the bus and airspeed. The battery feeds the
-/// auxiliaries as well; their power is taken off first, all else is the motors'. A hover
-/// tells one point of the curve, at the weight; the rest follows momentum theory, P = k·T^1.5 with
-/// k from there, up to `max_thrust` (N). The hover is what is flown below 2 m/s for 5 s or more at
-/// a time; its power's interval is that of the means of ten stretches of it, since neighbouring
-/// rows resemble each other. The band adds, as squares, by how much measured motors (`measured`)
-/// leave such a curve through their middle point, at 95 % of their points. Forward flight, from 4
-/// m/s on, is compared, not fitted: there the rotors need less power for a thrust
+/// The motor of `design` (its drone's mass, number of motors, drag and auxiliary power, and the
+/// flight's air density and gravity count), from a free flight's power at the bus and airspeed. The
+/// battery feeds the auxiliaries as well; their power is taken off first, all else is the motors'.
+/// A hover tells one point of the curve, at the weight; the rest follows momentum theory, P =
+/// k·T^1.5 with k from there, up to `max_thrust` (N). The hover is what is flown below 2 m/s for 5
+/// s or more at a time; its power's interval is that of the means of ten stretches of it, since
+/// neighbouring rows resemble each other. The band adds, as squares, by how much measured motors
+/// (`measured`) leave such a curve through their middle point, at 95 % of their points. Forward
+/// flight, from 4 m/s on, is compared, not fitted: there the rotors need less power for a thrust
 /// (`Drone::translational_lift`).
 ///
 /// Throws UnsuitablePowerFlight for a log without power at the bus, less than 20 s or 50 rows of
 /// hover, hover power that is not positive, and a greatest thrust below that of the hover.
-[[nodiscard]] FlownMotor flown_motor(const PowerLog& flight, const Drone& drone, double air_density,
+[[nodiscard]] FlownMotor flown_motor(const PowerLog& flight, const Design& design,
                                      double max_thrust, std::span<const MotorEntry> measured);
 
 }  // namespace tethercalc
