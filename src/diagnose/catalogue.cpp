@@ -10,6 +10,7 @@
 
 #include "diagnose/flight_prediction.hpp"
 #include "diagnose/power_chain.hpp"
+#include "identify/flight_units.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/model/units.hpp"
 
@@ -593,7 +594,9 @@ std::vector<Effect> flight_effects() {
        .change = "forward and right axes turned by δ against the log's",
        .channel = "yaw",
        .flight_phase = FlightPhase::reading,
-       .on_flight = [](FlightPrediction& p, Values x) { misalign(p, x[0]); }},
+       .on_flight = [](FlightPrediction& p, Values x) { misalign(p, x[0]); },
+       // Either way it slows the drone down, so that the error is no slope but a saddle at 0.
+       .starts_at = heading_from_leaning},
 
       {.id = "velocity_lag",
        .title = "Velocity logged late",

@@ -298,6 +298,15 @@ bool is_at_bound(const Record& record, const BlockFit& fit, std::size_t group) {
   return false;
 }
 
+bool is_neutral(const Record& record, const BlockFit& fit, std::size_t group) {
+  const std::vector<ModelParameter>& parameters = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const double value = fit.values[record.first_parameter(group) + k];
+    if (!parameters[k].shape_only && value != parameters[k].neutral) return false;
+  }
+  return true;
+}
+
 bool spoils_a_kind(const Record& record, const BlockFit& without, const BlockFit& with) {
   constexpr double by_chance = 0.05;
   const std::vector<std::vector<bool>>& kinds = record.problem().kinds;

@@ -46,6 +46,9 @@ struct Gain {
 /// range. A ratio may end there: of drag that is all linear.
 [[nodiscard]] bool is_at_bound(const Record& record, const BlockFit& fit, std::size_t group);
 
+/// Whether all sizes of the group are neutral, so that it changes nothing.
+[[nodiscard]] bool is_neutral(const Record& record, const BlockFit& fit, std::size_t group);
+
 /// Whether a fit has a larger held-out error in the rows of a kind than `without` has, beyond
 /// chance: by Student's test over the blocks that have such rows, at 5 % over all kinds
 /// (Bonferroni). A true cause makes no kind of row worse but by chance.

@@ -274,6 +274,11 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
       if (added && !own) continue;
       add(effect, design, fitted, own ? which(k) : std::nullopt);
       added = true;
+      if (effect.starts_at != nullptr) {
+        ModelParameter& size = problem.groups.back().parameters.front();
+        const double start = effect.starts_at(flights[k].observations, design.flight.gravity);
+        size.start = std::clamp(start, size.lower, size.upper);
+      }
       // Beside a wind along the nose it is looked for only where the nose turns.
       if (!effect.replaces.empty()) problem.groups.back().usual = turns(flights[k].observations);
       hold_hidden(effect, flights[k]);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "identify/statistics.hpp"
+#include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
 namespace {
@@ -371,6 +372,45 @@ void check_heights(const Design& design, const std::vector<double>& height,
   }
 }
 
+/// What the motors may draw at all. Beyond it no effect's range reaches, but a unit does, or a
+/// meter of one motor among several.
+void check_bus_power(const Design& design, const std::vector<double>& bus_power,
+                     const std::function<void(const std::string&)>& report) {
+  constexpr double few = 0.4;
+  constexpr double many = 1.5;
+  const double motors = design.drone.motor_count;
+  const MotorCurve motor = motor_in_flight(design);
+  const double hovering = design.drone.mass * design.flight.gravity / motors;
+  const double least = motors * motor.power(std::min(hovering, motor.max_thrust()));
+  const double most = motors * motor.power(motor.max_thrust());
+  // Of a log in which the drone stood on the ground for long, that of its flight.
+  const double flying = quantile(bus_power, 0.9);
+  if (flying < few * least || median(bus_power) > many * most) {
+    report(fmt::format(
+        "the bus takes {:.3g} W, the motors of the spec {:.3g} W to carry the drone alone and "
+        "{:.3g} W at most; is a current in mA, or that of one motor?",
+        flying, least, most));
+  }
+}
+
+/// Two ends that are measured by one instrument tell nothing of what lies between them.
+void check_own_readings(const PowerLog& log,
+                        const std::function<void(const std::string&)>& report) {
+  struct Ends {
+    const char* words;
+    const std::vector<double>& from;
+    const std::vector<double>& to;
+  };
+  for (const Ends& ends :
+       {Ends{"supply_voltage_V and drone_voltage_V", log.supply_voltage, log.drone_voltage},
+        Ends{"supply_voltage_V and bus_voltage_V", log.supply_voltage, log.bus_voltage},
+        Ends{"supply_current_A and bus_current_A", log.supply_current, log.bus_current}}) {
+    if (ends.from.empty() || ends.from != ends.to) continue;
+    const auto [least, most] = std::minmax_element(ends.from.begin(), ends.from.end());
+    if (*least < *most) report(fmt::format("{} are the same readings", ends.words));
+  }
+}
+
 }  // namespace
 
 void check_power_units(const Design& design, const PowerLog& log) {
@@ -415,6 +455,8 @@ void check_power_units(const Design& design, const PowerLog& log) {
     require_positive("bus_current_A", log.bus_current, "A");
     require_positive("bus_power_W", log.bus_power, "W");
   }
+  if (!bus_power.empty()) check_bus_power(design, bus_power, report);
+  check_own_readings(log, report);
   if (!log.free_flight && !log.height.empty()) check_heights(design, log.height, report);
   if (!log.ambient_temperature_C.empty()) {
     const double ambient = median(log.ambient_temperature_C);

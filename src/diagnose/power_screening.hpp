@@ -58,9 +58,11 @@ void average_fast_samples(ScreenedPowerLog& screened);
 /// Throws std::invalid_argument with all that is wrong of the channels there are: currents, powers
 /// or voltages that are not positive,
 /// a drone voltage above the supply voltage, powers at the two ends of the tether that differ more
-/// than any converter explains, heights beyond the tether, temperatures of no weather. Bounds leave
-/// room for the ammeter gains and spec errors that are effects. Medians are compared, so that
-/// spikes do not matter.
+/// than any converter explains, the same readings at both, a power at the bus that is less than
+/// two fifths of what carries the drone alone or far beyond what the motors take at most, heights
+/// beyond the tether, temperatures of no weather. Bounds leave room for the ammeter gains and spec
+/// errors that are effects. Medians are compared, or what nine tenths of the samples stay below, so
+/// that spikes do not matter.
 void check_power_units(const Design& design, const PowerLog& log);
 
 }  // namespace tethercalc

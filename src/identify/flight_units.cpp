@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "identify/statistics.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 namespace {
@@ -102,68 +103,116 @@ std::optional<Leaning> leaning_over_a_second(const Observations& flight, double 
 
 namespace {
 
+/// What a drone does, and what its attitude makes expect of it.
+struct Motion {
+  LevelSeries seen;
+  LevelSeries leaning;
+};
+
 /// A way in which the columns of a log may mean something else than they should.
 struct AxesMistake {
   const char* words;
   bool velocities_exchanged = false;  ///< north is east and east is north
-  double yaw_sign = 1;
+  bool velocities_of_body = false;    ///< along the heading and to its right
+  double yaw_factor = 1;
   double yaw_offset = 0;  ///< rad
   double pitch_sign = 1;
+  double roll_sign = 1;
+  bool angles_exchanged = false;  ///< pitch is roll and roll is pitch
 };
 
 constexpr double quarter_turn = std::numbers::pi / 2;
 constexpr std::array axes_mistakes{
     AxesMistake{.words = "the north and east velocities were exchanged",
                 .velocities_exchanged = true},
-    AxesMistake{.words = "the yaw were counted the other way round", .yaw_sign = -1},
+    AxesMistake{.words = "the yaw were counted the other way round", .yaw_factor = -1},
     AxesMistake{.words = "the yaw were counted from east, counterclockwise",
-                .yaw_sign = -1,
+                .yaw_factor = -1,
                 .yaw_offset = quarter_turn},
     AxesMistake{.words = "the yaw were a quarter turn more", .yaw_offset = quarter_turn},
     AxesMistake{.words = "the yaw were a quarter turn less", .yaw_offset = -quarter_turn},
     AxesMistake{.words = "the yaw were half a turn off", .yaw_offset = 2 * quarter_turn},
-    AxesMistake{.words = "the pitch were positive nose-up", .pitch_sign = -1},
+    AxesMistake{.words = "the yaw were in radians", .yaw_factor = 1 / unit::degree},
+    AxesMistake{.words = "the velocities were along the drone's own axes, forward and right",
+                .velocities_of_body = true},
+    AxesMistake{.words = "the pitch were positive nose-down", .pitch_sign = -1},
+    AxesMistake{.words = "the roll were positive left side down, or yaw and velocities those of "
+                         "axes to the east and north",
+                .roll_sign = -1},
+    AxesMistake{.words = "pitch and roll were exchanged", .angles_exchanged = true},
 };
 
-/// What is seen, along the axes that the heading has if the columns are mistaken so.
-LevelSeries read_otherwise(const LevelSeries& seen, const std::vector<double>& yaw,
-                           const AxesMistake& mistake) {
-  LevelSeries out;
-  for (std::size_t i = 0; i < yaw.size(); ++i) {
-    const double cosine = std::cos(yaw[i]);
-    const double sine = std::sin(yaw[i]);
-    double north = seen.forward[i] * cosine - seen.right[i] * sine;
-    double east = seen.forward[i] * sine + seen.right[i] * cosine;
-    if (mistake.velocities_exchanged) std::swap(north, east);
-    const double meant = mistake.yaw_sign * yaw[i] + mistake.yaw_offset;
-    out.forward.push_back(mistake.pitch_sign * (north * std::cos(meant) + east * std::sin(meant)));
-    out.right.push_back(east * std::cos(meant) - north * std::sin(meant));
+/// The motion if the columns are mistaken so.
+Motion read_otherwise(const Motion& read, const Observations& flight, const AxesMistake& mistake) {
+  Motion out = read;
+  const std::vector<double> rate = yaw_rate(flight);
+  for (std::size_t i = 0; i < flight.size(); ++i) {
+    const double cosine = std::cos(flight.yaw[i]);
+    const double sine = std::sin(flight.yaw[i]);
+    double& forward = out.seen.forward[i];
+    double& right = out.seen.right[i];
+    double north = forward * cosine - right * sine;
+    double east = forward * sine + right * cosine;
+    if (mistake.velocities_of_body) {
+      forward = north - rate[i] * (flight.forward_speed[i] * sine + flight.right_speed[i] * cosine);
+      right = east + rate[i] * (flight.forward_speed[i] * cosine - flight.right_speed[i] * sine);
+    } else {
+      if (mistake.velocities_exchanged) std::swap(north, east);
+      const double meant = mistake.yaw_factor * flight.yaw[i] + mistake.yaw_offset;
+      forward = north * std::cos(meant) + east * std::sin(meant);
+      right = east * std::cos(meant) - north * std::sin(meant);
+    }
+    double& nose = out.leaning.forward[i];
+    double& wing = out.leaning.right[i];
+    nose *= mistake.pitch_sign;
+    wing *= mistake.roll_sign;
+    if (mistake.angles_exchanged) {
+      // Nose-up is positive as a pitch, and leans backwards.
+      std::swap(nose, wing);
+      nose = -nose;
+      wing = -wing;
+    }
   }
   return out;
+}
+
+double correlation_of(const SecondsCompared& compared) {
+  const std::optional<Leaning> result = compared.result();
+  return result ? result->correlation : 0;
 }
 
 void check_axes(const Observations& flight, double gravity) {
   if (flight.right_acceleration.size() != flight.size()) return;
   const std::size_t lag = samples_a_second(flight);
   const bool rolls = spread(flight.roll) > 0;
-  const LevelSeries leaning = leaning_accelerations(flight, gravity);
-  const auto correlation_with = [&](const LevelSeries& seen) {
+  const auto along = [&](const Motion& motion) {
     SecondsCompared compared;
-    compared.add(leaning.forward, seen.forward, lag);
-    if (rolls) compared.add(leaning.right, seen.right, lag);
-    const std::optional<Leaning> result = compared.result();
-    return result ? result->correlation : 0;
+    compared.add(motion.leaning.forward, motion.seen.forward, lag);
+    return compared;
   };
+  const auto in_plane = [&](const Motion& motion) {
+    SecondsCompared compared = along(motion);
+    if (rolls) compared.add(motion.leaning.right, motion.seen.right, lag);
+    return correlation_of(compared);
+  };
+  const Motion read{seen_accelerations(flight), leaning_accelerations(flight, gravity)};
+  SecondsCompared aside;
+  aside.add(read.leaning.right, read.seen.right, lag);
+  const double as_read = in_plane(read);
+  constexpr double mirrored = -0.5;
+  if (as_read > leans_to_speed_up && !(rolls && correlation_of(aside) < mirrored)) return;
+  // Gusts that a drone leans against leave less of it; what is read rightly goes together far
+  // better, all the same.
   constexpr double clear = 0.7;
+  constexpr double far_better = 0.4;
   constexpr double alike = 0.02;
-  const LevelSeries seen = seen_accelerations(flight);
-  if (correlation_with(seen) > leans_to_speed_up) return;
   std::vector<std::pair<double, const char*>> found;
   for (const AxesMistake& mistake : axes_mistakes) {
-    found.emplace_back(correlation_with(read_otherwise(seen, flight.yaw, mistake)), mistake.words);
+    found.emplace_back(in_plane(read_otherwise(read, flight, mistake)), mistake.words);
   }
   const double best = std::ranges::max(found).first;
-  if (best < clear) return;
+  const bool told = best >= clear || (best > leans_to_speed_up && best > as_read + far_better);
+  if (!told || best <= as_read) return;
   std::vector<const char*> words;
   for (const auto& [correlation, said] : found) {
     if (correlation > best - alike) words.push_back(said);
@@ -206,6 +255,25 @@ void check_leans_into_its_speed(const Observations& flight) {
 }
 
 }  // namespace
+
+double heading_from_leaning(const Observations& flight, double gravity) {
+  const LevelSeries seen = seen_accelerations(flight);
+  if (seen.right.size() != flight.size()) return 0;
+  const std::size_t lag = samples_a_second(flight);
+  const LevelSeries leaning = leaning_accelerations(flight, gravity);
+  double along = 0;
+  double aside = 0;
+  for (std::size_t i = lag; i < flight.size(); ++i) {
+    const auto change = [i, lag](const std::vector<double>& series) {
+      return series[i] - series[i - lag];
+    };
+    along +=
+        change(leaning.forward) * change(seen.forward) + change(leaning.right) * change(seen.right);
+    aside +=
+        change(leaning.forward) * change(seen.right) - change(leaning.right) * change(seen.forward);
+  }
+  return -std::atan2(aside, along);
+}
 
 double mean_heading(const Observations& flight) {
   double north = 0;

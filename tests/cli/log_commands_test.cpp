@@ -477,7 +477,7 @@ TEST_CASE("drag refuses a flight in other units as diagnose does") {
   };
   for (const auto& [columns, factor, told] :
        {Mistake{{1, 2, 3}, degree, "radians"}, Mistake{{4, 5, 6}, 3.6, "km/h"},
-        Mistake{{0}, 1000, "milliseconds"}, Mistake{{2}, -1, "pitch were positive nose-up"}}) {
+        Mistake{{0}, 1000, "milliseconds"}, Mistake{{2}, -1, "pitch were positive nose-down"}}) {
     std::istringstream original(file_text(example));
     std::ostringstream changed;
     std::string line;

@@ -347,7 +347,7 @@ TEST_CASE("logs that cannot be what they say are refused with the reason, and no
              [](FlightLog& l) { l.north_velocity[100] = std::nan(""); });
   bad_flight("a stuck pitch", {"pitch", "never moves"},
              [](FlightLog& l) { l.pitch.assign(l.pitch.size(), 0.01); });
-  bad_flight("pitch upside down", {"pitch", "positive nose-up"},
+  bad_flight("pitch upside down", {"pitch", "positive nose-down"},
              [&](FlightLog& l) { l.pitch = scaled(l.pitch, -1); });
   bad_flight("radians", {"pitch", "radians"}, [&](FlightLog& l) {
     constexpr double degree = 0.017453292519943295;
@@ -367,6 +367,14 @@ TEST_CASE("logs that cannot be what they say are refused with the reason, and no
             [](PowerLog& l) { l.bus_current[10] = std::nan(""); });
   bad_power("milliampere", {"another unit"},
             [&](PowerLog& l) { l.supply_current = scaled(l.supply_current, 1000); });
+  bad_power("milliampere at both ends", {"in mA"}, [&](PowerLog& l) {
+    l.supply_current = scaled(l.supply_current, 1000);
+    l.bus_current = scaled(l.bus_current, 1000);
+  });
+  bad_power("the ammeter of one motor of six", {"of one motor"},
+            [&](PowerLog& l) { l.bus_current = scaled(l.bus_current, 1.0 / 6); });
+  bad_power("one voltmeter for both ends", {"drone_voltage_V are the same readings"},
+            [](PowerLog& l) { l.drone_voltage = l.supply_voltage; });
   bad_power("voltages exchanged", {"drone_voltage_V", "supply_voltage_V"},
             [](PowerLog& l) { std::swap(l.drone_voltage, l.supply_voltage); });
   bad_power("feet", {"height_m", "feet"}, [&](PowerLog& l) { l.height = scaled(l.height, 3.281); });

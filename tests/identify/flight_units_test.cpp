@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "support/random.hpp"
+#include "tethercalc/model/units.hpp"
 
 using namespace tethercalc;
 
@@ -87,7 +88,46 @@ TEST_CASE("a flight whose north and east or yaw mean something else is refused b
                Catch::Contains("a quarter turn less"));
     CHECK_THAT(with_yaw([](double yaw) { return yaw + 2 * quarter; }),
                Catch::Contains("half a turn off"));
+    CHECK_THAT(with_yaw([](double yaw) { return yaw * unit::degree; }),
+               Catch::Contains("the yaw were in radians"));
     CHECK(with_yaw([](double yaw) { return yaw + 0.3; }).empty());
+  }
+}
+
+TEST_CASE("a flight whose roll, angles or axes mean something else is refused by that name") {
+  test::Random random(test::run_seed());
+  for (const double yaw_rate : {0.05, -0.1, 0.3}) {
+    const FlightLog right = flown(random, {.yaw_rate = yaw_rate});
+    FlightLog exchanged = right;
+    std::swap(exchanged.pitch, exchanged.roll);
+    CHECK_THAT(refusal(exchanged), Catch::Contains("pitch and roll were exchanged"));
+    FlightLog mirrored = right;
+    for (double& roll : mirrored.roll) roll = -roll;
+    CHECK_THAT(refusal(mirrored), Catch::Contains("the roll were positive left side down"));
+    // x east, y north, yaw from east: forward stays forward, and right is left.
+    FlightLog east_north_up = right;
+    std::swap(east_north_up.north_velocity, east_north_up.east_velocity);
+    for (double& yaw : east_north_up.yaw) yaw = quarter - yaw;
+    CHECK_THAT(refusal(east_north_up), Catch::Contains("those of axes to the east and north"));
+    FlightLog of_body = right;
+    for (std::size_t i = 0; i < right.time.size(); ++i) {
+      const double c = std::cos(right.yaw[i]);
+      const double s = std::sin(right.yaw[i]);
+      of_body.north_velocity[i] = right.north_velocity[i] * c + right.east_velocity[i] * s;
+      of_body.east_velocity[i] = right.east_velocity[i] * c - right.north_velocity[i] * s;
+    }
+    CHECK_THAT(refusal(of_body), Catch::Contains("along the drone's own axes"));
+  }
+}
+
+TEST_CASE("a heading is off from where a drone leans by what its yaw is off") {
+  test::Random random(test::run_seed());
+  for (const double off : {-0.9, -0.3, 0.0, 0.5, 1.1}) {
+    FlightLog log = flown(random, {});
+    for (double& yaw : log.yaw) yaw += off;
+    const Observations flight = observe(log, {0, log.time.size()}, 0, gravity);
+    // Drag lags behind the lean, half a degree here.
+    CHECK(heading_from_leaning(flight, gravity) == Approx(off).margin(0.03));
   }
 }
 

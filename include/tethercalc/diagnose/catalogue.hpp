@@ -11,6 +11,7 @@ namespace tethercalc {
 
 struct Design;            // model/design.hpp
 struct FlightPrediction;  // diagnose/flight_prediction.hpp
+struct Observations;      // identify/observations.hpp
 struct PowerModel;        // diagnose/power_chain.hpp
 
 /// Where in the chain from the ground to the air an effect acts.
@@ -103,6 +104,10 @@ struct Effect {
   /// How it changes the prediction of a flight; values in SI, in the order of `parameters`. Null
   /// for effects of power logs.
   std::function<void(FlightPrediction&, std::span<const double>)> on_flight{};
+
+  /// Where its first parameter is looked for in a flight, in SI, where the fit would not find there
+  /// from the neutral value; null: there.
+  double (*starts_at)(const Observations&, double gravity) = nullptr;
 
   /// How it changes the model of a power log, which must not contain the effect already; values in
   /// SI, in the order of `parameters`. Null for effects of flight logs.
