@@ -251,6 +251,23 @@ bool testable(const Effect& effect, const LogFaults& faults) {
   return !(faults.height_unknown && contains(effect.needs, "vd_m_s"));
 }
 
+namespace {
+
+/// A size that is looked for elsewhere than at its neutral value begins where the first of the
+/// flights from `first` on shows it that does.
+void start_where_shown(const Effect& effect, const std::vector<FlightData>& flights,
+                       std::size_t first, double gravity, ModelParameter& size) {
+  if (effect.starts_at == nullptr) return;
+  for (std::size_t k = first; k < flights.size(); ++k) {
+    const double start = effect.starts_at(flights[k].observations, gravity);
+    if (start == 0) continue;
+    size.start = std::clamp(start, size.lower, size.upper);
+    return;
+  }
+}
+
+}  // namespace
+
 FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& flights,
                          const std::vector<const Effect*>& tried,
                          const std::vector<std::string>& base)
@@ -274,11 +291,8 @@ FlightModel::FlightModel(const Design& design, const std::vector<FlightData>& fl
       if (added && !own) continue;
       add(effect, design, fitted, own ? which(k) : std::nullopt);
       added = true;
-      if (effect.starts_at != nullptr) {
-        ModelParameter& size = problem.groups.back().parameters.front();
-        const double start = effect.starts_at(flights[k].observations, design.flight.gravity);
-        size.start = std::clamp(start, size.lower, size.upper);
-      }
+      start_where_shown(effect, flights, k, design.flight.gravity,
+                        problem.groups.back().parameters.front());
       // Beside a wind along the nose it is looked for only where the nose turns.
       if (!effect.replaces.empty()) problem.groups.back().usual = turns(flights[k].observations);
       hold_hidden(effect, flights[k]);

@@ -372,17 +372,19 @@ void check_heights(const Design& design, const std::vector<double>& height,
   }
 }
 
-/// What the motors may draw at all. Beyond it no effect's range reaches, but a unit does, or a
-/// meter of one motor among several.
+/// As far off as no effect's range reaches, but a unit does, or the meter of one motor among many.
 void check_bus_power(const Design& design, const std::vector<double>& bus_power,
                      const std::function<void(const std::string&)>& report) {
-  constexpr double few = 0.4;
-  constexpr double many = 1.5;
+  constexpr double few = 0.25;
+  constexpr double many = 4;
   const double motors = design.drone.motor_count;
   const MotorCurve motor = motor_in_flight(design);
   const double hovering = design.drone.mass * design.flight.gravity / motors;
-  const double least = motors * motor.power(std::min(hovering, motor.max_thrust()));
-  const double most = motors * motor.power(motor.max_thrust());
+  const double factor = design.drone.motor_power_factor;
+  const double least = factor * motors * motor.power(std::min(hovering, motor.max_thrust()));
+  // A drone without a tether feeds the rest from the same bus.
+  const double most =
+      factor * motors * motor.power(motor.max_thrust()) + design.drone.auxiliary_power;
   // Of a log in which the drone stood on the ground for long, that of its flight.
   const double flying = quantile(bus_power, 0.9);
   if (flying < few * least || median(bus_power) > many * most) {
@@ -455,7 +457,7 @@ void check_power_units(const Design& design, const PowerLog& log) {
     require_positive("bus_current_A", log.bus_current, "A");
     require_positive("bus_power_W", log.bus_power, "W");
   }
-  if (!bus_power.empty()) check_bus_power(design, bus_power, report);
+  if (!bus_power.empty() && problems.empty()) check_bus_power(design, bus_power, report);
   check_own_readings(log, report);
   if (!log.free_flight && !log.height.empty()) check_heights(design, log.height, report);
   if (!log.ambient_temperature_C.empty()) {

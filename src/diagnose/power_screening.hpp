@@ -59,7 +59,7 @@ void average_fast_samples(ScreenedPowerLog& screened);
 /// or voltages that are not positive,
 /// a drone voltage above the supply voltage, powers at the two ends of the tether that differ more
 /// than any converter explains, the same readings at both, a power at the bus that is less than
-/// two fifths of what carries the drone alone or far beyond what the motors take at most, heights
+/// a quarter of what carries the drone alone or far beyond what the motors take at most, heights
 /// beyond the tether, temperatures of no weather. Bounds leave room for the ammeter gains and spec
 /// errors that are effects. Medians are compared, or what nine tenths of the samples stay below, so
 /// that spikes do not matter.

@@ -489,12 +489,12 @@ class Search {
     selected_ = std::move(order);
   }
 
-  /// A name whose size the others have moved to nothing or to the end of its range; else the
+  /// The last name whose size the others have moved to nothing or to the end of its range; else the
   /// weakest one whose gain, as it will be told or beside all the other names, does not earn one.
   [[nodiscard]] std::optional<std::size_t> unearned(const BlockFit& base) const {
     const BlockFit all = fit(selected_, {}, &current_);
-    for (const std::size_t g : selected_) {
-      if (is_at_bound(record_, all, g) || is_neutral(record_, all, g)) return g;
+    for (auto g = selected_.rbegin(); g != selected_.rend(); ++g) {
+      if (is_at_bound(record_, all, *g) || is_neutral(record_, all, *g)) return *g;
     }
     BlockFit before = base;
     Groups so_far;

@@ -261,18 +261,17 @@ double heading_from_leaning(const Observations& flight, double gravity) {
   if (seen.right.size() != flight.size()) return 0;
   const std::size_t lag = samples_a_second(flight);
   const LevelSeries leaning = leaning_accelerations(flight, gravity);
-  double along = 0;
-  double aside = 0;
-  for (std::size_t i = lag; i < flight.size(); ++i) {
-    const auto change = [i, lag](const std::vector<double>& series) {
-      return series[i] - series[i - lag];
-    };
-    along +=
-        change(leaning.forward) * change(seen.forward) + change(leaning.right) * change(seen.right);
-    aside +=
-        change(leaning.forward) * change(seen.right) - change(leaning.right) * change(seen.forward);
-  }
-  return -std::atan2(aside, along);
+  SecondsCompared along;
+  along.add(leaning.forward, seen.forward, lag);
+  along.add(leaning.right, seen.right, lag);
+  SecondsCompared to_the_right;
+  to_the_right.add(leaning.forward, seen.right, lag);
+  SecondsCompared to_the_left;
+  to_the_left.add(leaning.right, seen.forward, lag);
+  const double aside = to_the_right.both - to_the_left.both;
+  const double all = std::sqrt(along.leaning * along.measured);
+  if (!(std::hypot(along.both, aside) > leans_to_speed_up * all)) return 0;
+  return std::atan2(-aside, along.both);
 }
 
 double mean_heading(const Observations& flight) {

@@ -32,9 +32,9 @@ inline constexpr double leans_to_speed_up = 0.5;
                                                            double gravity,
                                                            Axis axis = Axis::forward);
 
-/// rad in (−π, π], by which the heading is to the right of the axis along which the drone speeds up
+/// rad in [−π, π], by which the heading is to the right of the axis along which the drone speeds up
 /// where its nose leans: the argument of the regression of one on the other as complex numbers, by
-/// changes over a second. 0 where the acceleration to the right is not known or nothing changes.
+/// changes over a second. 0 where the acceleration to the right is not known, or follows no lean.
 [[nodiscard]] double heading_from_leaning(const Observations& flight, double gravity);
 
 /// rad in (−π, π], of the whole flight.

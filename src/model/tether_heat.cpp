@@ -100,7 +100,8 @@ TetherHeat::Loop TetherHeat::loop(const ConductorHeat::Balance& in_air,
   loop.resistance = at_zero_ + of(in_air.steady_inside(), wound.steady_inside());
   loop.by_current = of(in_air.inside_per_surface * in_air.by_current,
                        wound.inside_per_surface * wound.by_current);
-  // What a winch pays out grows with the radius, too.
+  // What a winch pays out grows with the radius, too; that it then warms in the air instead of on
+  // the drum is left out.
   const TetherInFlight& tether = flight_.tether();
   const double contacts = tether.contact_resistance();
   loop.by_radius = of(in_air.inside_by_radius, wound.inside_by_radius) +

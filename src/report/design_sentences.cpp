@@ -66,8 +66,8 @@ constexpr LimitWords all_limits[] = {
      "The converter's highest input of {highest_input} V",
      "the supply is outside the converter's range", "supply outside the converter's range"},
     {"Limited by the tether: any {further}, and {no_way}.",
-     "No cross-section works: with 1 mm², a usual size, {no_way}.",
-     "The tether's way up to the drone", "{no_way}", "no way up for the tether"},
+     "No cross-section works: with {asked}, {no_way}.", "The tether's way up to the drone",
+     "{no_way}", "no way up for the tether"},
     {"Limited by the drum: any thicker, and no turn of the tether fits into its {drum_mm} mm of "
      "width.",
      "No cross-section that meets the other demands has a turn that fits into the drum's {drum_mm} "
@@ -111,6 +111,11 @@ std::string no_way_words(const Design& design, const std::optional<NoWayUp>& no_
   return "no way is found for the tether to hang " + up + cable_words(tether);
 }
 
+std::string asked_words(double area) {
+  return fmt::format("{:.3g} mm²", area / unit::square_millimetre) +
+         (area == usual_area ? ", a usual size" : "");
+}
+
 /// `words` with the design's numbers, and what stands in the tether's way, in place of their names;
 /// `area` in m² is that of the optimum which they are of.
 std::string filled_in(const char* words, const Design& design, Condition condition,
@@ -122,6 +127,7 @@ std::string filled_in(const char* words, const Design& design, Condition conditi
   return fmt::format(
       fmt::runtime(words), fmt::arg("where", where),
       fmt::arg("no_way", no_way_words(design, no_way, condition)),
+      fmt::arg("asked", no_way ? asked_words(no_way->area) : ""),
       fmt::arg("further", no_way && no_way->area < area ? "thinner" : "thicker"),
       fmt::arg("demand", headroom_words(demanded) + " in " + where),
       fmt::arg("headroom", fixed(demanded, 2)),

@@ -68,6 +68,9 @@ Answer refused_answer(const OptimumStudy& study) {
         "The winch has to pull harder (tether.winch_pull_N), or pay out a length of its own "
         "(tether.slack_percent).");
   }
+  if (no_way && no_way->needed > 0) {
+    out.sentences.push_back("There has to be more cable on the drum (tether.spooled_length_m).");
+  }
   out.sentences.push_back(
       study.remedies.empty()
           ? "No single change of supply voltage, drone mass, tether length or airspeed would make "

@@ -583,8 +583,7 @@ MinimumPower minimum_within_tilt(const SteadyFlight& flight, Interval radii) {
   const MinimumPower none{nan, nan};
   const Design& design = flight.design();
   const MotorCurve& motor = flight.motor();
-  // Thick enough to deliver what the lightest tether needs in still air, light enough for the
-  // motors there.
+  // Thick enough to deliver what the lightest tether needs in still air.
   const double lightest = radii.lo;
   const double weight = least_weight(flight, lightest);
   if (!(least_hover_power(flight, weight) < infinity)) return none;

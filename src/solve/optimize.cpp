@@ -189,7 +189,9 @@ bool hangs_somewhere(const TetherInFlight& tether) {
 Limit obstacle(const SteadyFlight& flight, const BestHeadroom& best, double demanded) {
   const bool solved = flight.tether().is_solved();
   if (solved && !(best.value > 0) && !hangs_somewhere(flight.tether())) return Limit::tether_shape;
-  if (best.value > 0 && hangs_just(flight, best.area, Side::thicker)) return Limit::tether_shape;
+  for (const Side side : {Side::thinner, Side::thicker}) {
+    if (best.value > 0 && hangs_just(flight, best.area, side)) return Limit::tether_shape;
+  }
   const SteadyFlight::Radii beyond =
       solved ? too_tilted_with_solved_tether(flight) : flight.beyond_pitch_limit();
   const bool tilts = beyond.lo < beyond.hi;

@@ -182,6 +182,18 @@ Refusal refusal_of(const Design& design, const Optimization& result) {
   return refusal;
 }
 
+namespace {
+
+/// What keeps a tether that hangs with conductors of `area` from hanging with others beside it.
+NoWayUp no_way_beside(const Design& design, double area, Condition condition) {
+  constexpr double little = 1.01;
+  const NoWayUp thicker = no_way_up(design, area * little, condition);
+  if (thicker.outcome != CableOutcome::hangs) return thicker;
+  return no_way_up(design, area / little, condition);
+}
+
+}  // namespace
+
 DesignOptimum optimum_of(const Design& design) {
   DesignOptimum optimum{design, optimize(design), {}, {}};
   Optimization& result = optimum.result;
@@ -189,13 +201,15 @@ DesignOptimum optimum_of(const Design& design) {
   const bool no_way = result.limited_by == Limit::tether_shape;
   if (!result.feasible) {
     optimum.refusal = refusal_of(design, result);
-    if (no_way) optimum.refusal->no_way = no_way_up(design, 1 * unit::square_millimetre, where);
-  } else if (no_way) {
-    constexpr double little = 1.01;
-    result.no_way = no_way_up(design, result.area * little, where);
-    if (result.no_way->outcome == CableOutcome::hangs) {
-      result.no_way = no_way_up(design, result.area / little, where);
+    if (no_way) {
+      std::optional<NoWayUp>& told = optimum.refusal->no_way;
+      told = no_way_up(design, usual_area, where);
+      if (told->outcome == CableOutcome::hangs) {
+        told = no_way_beside(design, result.best_headroom.area, where);
+      }
     }
+  } else if (no_way) {
+    result.no_way = no_way_beside(design, result.area, where);
   }
   optimum.best_headroom = best_headroom(design, design.requirements.headroom_at);
   return optimum;

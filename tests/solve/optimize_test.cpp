@@ -272,6 +272,14 @@ TEST_CASE("a drum that holds too little for what blows thinner tethers aside is 
   CHECK(thinnest.limiting_condition == Condition::forward);
   CHECK(thinnest.area == Approx(1.25 * ample).epsilon(1e-3));
   CHECK(std::isnan(evaluate(design, 0.99 * thinnest.area, Condition::forward).tether_length));
+  // Thinner ones leave more headroom than any that reaches.
+  design.requirements.headroom_at = Condition::forward;
+  design.requirements.thrust_headroom = 1.01 * best_headroom(design, Condition::forward).value;
+  const Optimization refused = optimize(design);
+  REQUIRE_FALSE(refused.feasible);
+  design.tether.spooled_length = 0;
+  REQUIRE(optimize(design).feasible);
+  CHECK(refused.limited_by == Limit::tether_shape);
 }
 
 TEST_CASE("what misses its headroom for a converter's rating is told to miss the rating") {

@@ -53,6 +53,9 @@ struct WireNeighbours {
 [[nodiscard]] std::vector<WireNeighbours> wire_sizes_near(std::span<const WireSize> sizes,
                                                           double area);
 
+/// m², of conductors that drones are often fed by.
+inline constexpr double usual_area = 1e-6;
+
 /// Why a design has no optimum.
 struct Refusal {
   Limit limit = Limit::available_power;    ///< what no cross-section keeps
@@ -60,7 +63,9 @@ struct Refusal {
   BestHeadroom best;              ///< the most there, for limits of power, weight, thrust and tilt
   bool converter_caps = false;    ///< whether the converter's rating, not the line, allows no more
   bool thicker_overheat = false;  ///< whether a slightly thicker cable has no steady temperature
-  std::optional<NoWayUp> no_way{};  ///< of `Limit::tether_shape`, by `optimum_of`: with 1 mm²
+  /// Of `Limit::tether_shape`, by `optimum_of`: with `usual_area`, or beside that of the most
+  /// headroom where such a tether hangs.
+  std::optional<NoWayUp> no_way{};
 };
 
 /// Of a `result` that is infeasible.
