@@ -273,7 +273,7 @@ TEST_CASE("drag is learned where things weigh what the spec says") {
   const json elsewhere = with_gravity(9.6);
   CHECK(elsewhere.at("drone") != here.at("drone"));
   for (const json& row : elsewhere.at("table")) {
-    const double tilt = row.at("tilt_deg").at("value").get<double>() * 0.017453292519943295;
+    const double tilt = row.at("pitch_deg").at("value").get<double>() * 0.017453292519943295;
     CHECK(row.at("drag_force_N").at("value").get<double>() ==
           Approx(1.55 * 9.6 * std::tan(tilt)).epsilon(1e-6));
   }
