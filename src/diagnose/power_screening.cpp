@@ -388,10 +388,10 @@ void check_bus_power(const Design& design, const std::vector<double>& bus_power,
   // Of a log in which the drone stood on the ground for long, that of its flight.
   const double flying = quantile(bus_power, 0.9);
   if (flying < few * least || median(bus_power) > many * most) {
-    report(fmt::format(
-        "the bus takes {:.3g} W, the motors of the spec {:.3g} W to carry the drone alone and "
-        "{:.3g} W at most; is a current in mA, or that of one motor?",
-        flying, least, most));
+    report(
+        fmt::format("the bus takes {:.3g} W, the motors of the spec {:.3g} to {:.3g} W; is a "
+                    "current in mA, or that of one motor?",
+                    flying, least, most));
   }
 }
 

@@ -133,11 +133,10 @@ constexpr std::array axes_mistakes{
     AxesMistake{.words = "the yaw were a quarter turn less", .yaw_offset = -quarter_turn},
     AxesMistake{.words = "the yaw were half a turn off", .yaw_offset = 2 * quarter_turn},
     AxesMistake{.words = "the yaw were in radians", .yaw_factor = 1 / unit::degree},
-    AxesMistake{.words = "the velocities were along the drone's own axes, forward and right",
+    AxesMistake{.words = "the velocities were along the drone's own axes",
                 .velocities_of_body = true},
     AxesMistake{.words = "the pitch were positive nose-down", .pitch_sign = -1},
-    AxesMistake{.words = "the roll were positive left side down, or yaw and velocities those of "
-                         "axes to the east and north",
+    AxesMistake{.words = "the roll were positive left side down, or the axes were east and north",
                 .roll_sign = -1},
     AxesMistake{.words = "pitch and roll were exchanged", .angles_exchanged = true},
 };

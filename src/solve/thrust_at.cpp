@@ -122,17 +122,6 @@ void collect_within_tilt(const SteadyFlight& flight, const TiltLoads& a, const T
   collect_within_tilt(flight, middle, b, radii);
 }
 
-/// The last radius from `inside`, where something holds, towards `outside`, where it does not.
-template <typename Holds>
-double last_radius(const Holds& holds, double inside, double outside) {
-  const double rounding = kink_rounding * std::max(inside, outside);
-  while (std::abs(outside - inside) > rounding) {
-    const double middle = 0.5 * (inside + outside);
-    (holds(middle) ? inside : outside) = middle;
-  }
-  return inside;
-}
-
 /// The same with a solved tether, whose load may fall from a to b by as much as `left_of_load` says
 /// before it rises. Closer radii are told apart by their ends.
 void collect_solved_within_tilt(const SteadyFlight& flight, const TiltLoads& a, const TiltLoads& b,
@@ -154,22 +143,29 @@ void collect_solved_within_tilt(const SteadyFlight& flight, const TiltLoads& a, 
     collect_solved_within_tilt(flight, middle, b, radii);
     return;
   }
-  const auto hangs = [&](double radius) { return flight.weight(radius) < infinity; };
   const auto is_within = [&](const TiltLoads& at) {
     return at.hangs() && within_tilt(flight, at, at);
   };
-  const auto within = [&](double radius) { return is_within(tilt_loads(flight, radius)); };
+  // The last radius at which the tether hangs, or the tilt is within its limit too, from `inside`
+  // towards `outside`, where that is not so.
+  const auto last = [&](bool within, double inside, double outside) {
+    while (std::abs(outside - inside) > kink_rounding * b.radius) {
+      const TiltLoads middle = tilt_loads(flight, 0.5 * (inside + outside));
+      const bool holds = within ? is_within(middle) : middle.hangs();
+      (holds ? inside : outside) = middle.radius;
+    }
+    return inside;
+  };
   if (is_within(a)) {
-    const double end = is_within(b) ? b.radius : last_radius(within, a.radius, b.radius);
-    return append(radii, {a.radius, end});
+    return append(radii, {a.radius, is_within(b) ? b.radius : last(true, a.radius, b.radius)});
   }
-  if (is_within(b)) return append(radii, {last_radius(within, b.radius, a.radius), b.radius});
+  if (is_within(b)) return append(radii, {last(true, b.radius, a.radius), b.radius});
   if (a.hangs() == b.hangs()) return;
   // The tilt may come within its limit just before the tether hangs no more.
   const double hanging = a.hangs() ? a.radius : b.radius;
-  const double brink = last_radius(hangs, hanging, a.hangs() ? b.radius : a.radius);
-  if (!within(brink)) return;
-  const double edge = last_radius(within, brink, hanging);
+  const double brink = last(false, hanging, a.hangs() ? b.radius : a.radius);
+  if (!is_within(tilt_loads(flight, brink))) return;
+  const double edge = last(true, brink, hanging);
   append(radii, {std::min(edge, brink), std::max(edge, brink)});
 }
 
