@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "bindings/answer.hpp"
@@ -107,11 +106,6 @@ Log read_log(const py::object& path) {
   return Log(interruptible([=](const StopFlag&) { return std::make_shared<const OpenLog>(name); }));
 }
 
-std::string heading(const Texts& logs) {
-  return logs.size() == 1 ? std::filesystem::path(logs.front()).filename().string()
-                          : fmt::format("{} flights", logs.size());
-}
-
 /// What the command says on standard error, as Python's warnings where the package was called.
 void warn(const std::vector<Warning>& notes) {
   for (const Warning& note : notes) {
@@ -123,19 +117,8 @@ void warn(const std::vector<Warning>& notes) {
 }
 
 Answer drag(const Texts& logs, const FlightOptions& flight) {
-  struct Learned {
-    DragStudy study;
-    std::vector<Warning> notes;
-  };
-  const auto learned = std::make_shared<const Learned>(interruptible([=](const StopFlag&) {
-    std::vector<Warning> notes;
-    DragStudy study = studied_drag(heading(logs), logs, flight, logs_in_files(),
-                                   [&](const Warning& note) { notes.push_back(note); });
-    for (Warning& assumed : assumptions_of(flight, study.identified.options)) {
-      notes.push_back(std::move(assumed));
-    }
-    return Learned{std::move(study), std::move(notes)};
-  }));
+  const auto learned = std::make_shared<const LearnedDrag>(
+      interruptible([=](const StopFlag&) { return learned_drag(logs, flight, logs_in_files()); }));
   warn(learned->notes);
   return {[=] { return drag_text(learned->study.identified, {}); },
           [=] { return drag_json(learned->study.identified, learned->notes); },
@@ -178,7 +161,7 @@ Answer diagnose(const py::object& spec, const Texts& flight_logs, const Texts& p
       with_halves({flight_logs, power_logs, whole_logs, batteries, free_flight, base, flight});
   const auto told = std::make_shared<const ToldDiagnosis>(interruptible(
       [=](const StopFlag& stop) { return diagnosed(*file, asked, effect_files, stop); }));
-  return diagnosis_answer(told, heading(asked.flight_logs), heading(asked.power_logs));
+  return diagnosis_answer(told, heading_of(asked.flight_logs), heading_of(asked.power_logs));
 }
 
 }  // namespace

@@ -199,6 +199,11 @@ struct DragOptions {
   std::string autopilot;  ///< "ardupilot" or "px4": print its parameter file instead
 };
 
+/// The drag of these logs. Says on standard error, so that no answer hides it, what was amiss with
+/// them and, as of `command`, what was assumed.
+[[nodiscard]] LearnedDrag learn_drag(std::string_view command, const std::vector<std::string>& logs,
+                                     const FlightOptions& flight);
+
 int run_drag(const DragOptions& options, const Output& output);
 
 struct DiagnoseOptions : LogsAsked {

@@ -71,11 +71,6 @@ Drawn log(const PlotOptions& options) {
   }
 }
 
-/// That of the only one, or how many there are.
-std::string name_of_flights(const std::vector<std::string>& files) {
-  return files.size() == 1 ? base_name(files.front()) : std::to_string(files.size()) + " flights";
-}
-
 Drawn drag(const PlotOptions& options) {
   const std::vector<std::string> views{"speed", "surface"};
   const bool surface = options.view == "surface";
@@ -84,9 +79,8 @@ Drawn drag(const PlotOptions& options) {
                      fmt::format("\"{}\" is no view of drag; allowed are speed and surface{}",
                                  options.view, did_you_mean(options.view, views)));
   }
-  const std::string name = name_of_flights(options.files);
-  const DragStudy fitted = studied_drag(heading(options, name), options.files,
-                                        options.made_of.flight, logs_in_files(), note_on_error);
+  DragStudy fitted = learn_drag("plot drag", options.files, options.made_of.flight).study;
+  fitted.name = heading(options, fitted.name);
   return {surface ? drag_surface_figure(fitted) : drag_figure(fitted)};
 }
 
@@ -95,8 +89,7 @@ Drawn diagnosis(const PlotOptions& options) {
   if (how.flight_logs.empty() == how.power_logs.empty()) {
     throw InputError("plot diagnosis", "draws one log: --flight LOG or --power LOG");
   }
-  const std::string log =
-      name_of_flights(how.power_logs.empty() ? how.flight_logs : how.power_logs);
+  const std::string log = heading_of(how.power_logs.empty() ? how.flight_logs : how.power_logs);
   const AnsweredDiagnosis told = diagnose_logs(how, titled_spec(options));
   try {
     return {diagnosis_figure(heading(options, log), told.flight ? *told.flight : *told.power)};
@@ -186,12 +179,6 @@ void check_options(const PlotOptions& options) {
   problems.throw_if_any();
 }
 
-/// The drag that the flight shows, mass and air as the spec has them where the options do not say.
-DragStudy learn_drag(const DiagnoseOptions& options, const Design& design) {
-  return studied_drag(name_of_flights(options.flight_logs), options.flight_logs,
-                      flown_as(options.flight, design), logs_in_files(), note_on_error);
-}
-
 std::string shell_word(std::string_view word) {
   constexpr std::string_view plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,%+@-";
@@ -255,12 +242,14 @@ int run_report(const DiagnoseOptions& options, const std::string& rules, const s
       {},
       {},
       command};
-  if (!options.flight_logs.empty()) content.drag = learn_drag(options, file.design);
+  if (!options.flight_logs.empty()) {
+    content.drag =
+        learn_drag("report", options.flight_logs, flown_as(options.flight, file.design)).study;
+  }
   if (!options.flight_logs.empty() || !options.power_logs.empty()) {
     const AnsweredDiagnosis told = diagnose_logs(options, file);
-    if (told.flight)
-      content.diagnoses.push_back({name_of_flights(options.flight_logs), *told.flight});
-    if (told.power) content.diagnoses.push_back({name_of_flights(options.power_logs), *told.power});
+    if (told.flight) content.diagnoses.push_back({heading_of(options.flight_logs), *told.flight});
+    if (told.power) content.diagnoses.push_back({heading_of(options.power_logs), *told.power});
   }
   if (book) content.rules = study_rules({file.design, ruled_area(content.optimum)}, *book);
   emit(output, report_page(content));

@@ -163,6 +163,13 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
 
 void note_on_error(const Warning& note) { remark(note.sentence + "\n"); }
 
+LearnedDrag learn_drag(std::string_view command, const std::vector<std::string>& logs,
+                       const FlightOptions& flight) {
+  LearnedDrag learned = learned_drag(logs, flight, logs_in_files(), note_on_error);
+  remark_warnings(command, learned.assumed);
+  return learned;
+}
+
 DiagnoseOptions with_both_halves(DiagnoseOptions options) {
   static_cast<LogsAsked&>(options) = with_halves(options);
   return options;
@@ -198,17 +205,9 @@ int run_drag(const DragOptions& options, const Output& output) {
   if (file && !options.into) {
     throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
   }
-  const FlightOptions flight = file ? flown_as(options.flight, file->design) : options.flight;
-  std::vector<Warning> notes;
-  const DragIdentification result =
-      studied_drag("", options.logs, flight, logs_in_files(), [&notes](const Warning& note) {
-        note_on_error(note);
-        notes.push_back(note);
-      }).identified;
-  const std::vector<Warning> assumptions = assumptions_of(flight, result.options);
-  // What was not said and moves the answer, so that no format hides it.
-  remark_warnings("drag", assumptions);
-  notes.insert(notes.end(), assumptions.begin(), assumptions.end());
+  const LearnedDrag learned = learn_drag(
+      "drag", options.logs, file ? flown_as(options.flight, file->design) : options.flight);
+  const DragIdentification& result = learned.study.identified;
   if (options.into && options.into_file.empty()) {
     remark_warnings("drag", drag_warnings(result.fit));
     emit(output, spec_text(spec_with_drag(*file, result.fit), options.spec.file, output.file));
@@ -224,8 +223,8 @@ int run_drag(const DragOptions& options, const Output& output) {
   }
   emit(
       output, [&] { return drag_text(result, style_for(output)); },
-      [&] { return drag_json(result, notes); }, [&] { return drag_csv(result); });
-  point_to_explanations({}, notes, output);
+      [&] { return drag_json(result, learned.notes); }, [&] { return drag_csv(result); });
+  point_to_explanations({}, learned.notes, output);
   return done;
 }
 

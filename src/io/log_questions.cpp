@@ -182,6 +182,23 @@ void check_power_options(const LogsAsked& options) {
   }
 }
 
+std::vector<Warning> assumptions_of(const FlightOptions& flight, const DragFitConditions& taken) {
+  std::vector<Warning> out;
+  if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
+    out.push_back(
+        {WarningKind::air_density_assumed,
+         fmt::format("no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
+                     "--temperature-C)",
+                     taken.air_density)});
+  }
+  if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
+    out.push_back({WarningKind::pitch_offset_assumed,
+                   "no pitch offset given, 0° taken; what it misses ends up in the wind "
+                   "(--trim-log or --pitch-offset-deg)"});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
@@ -315,32 +332,28 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
   return logs;
 }
 
-DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
-                       const FlightOptions& flight, const LogReaders& read, const NoteTaker& note) {
+std::string heading_of(const std::vector<std::string>& logs) {
+  if (logs.size() != 1) return fmt::format("{} flights", logs.size());
+  if (logs.front() == "-") return "standard input";
+  return logs.front().substr(logs.front().find_last_of('/') + 1);
+}
+
+LearnedDrag learned_drag(const std::vector<std::string>& logs, const FlightOptions& flight,
+                         const LogReaders& read, const NoteTaker& note) {
+  LearnedDrag learned;
+  const NoteTaker keep = [&](const Warning& amiss) {
+    learned.notes.push_back(amiss);
+    if (note) note(amiss);
+  };
   const DragIdentificationOptions how = identification_options(flight, read);
   try {
-    return study_drag(name, read_flight_logs(logs, flight, read, note), how);
+    learned.study = study_drag(heading_of(logs), read_flight_logs(logs, flight, read, keep), how);
   } catch (const UnsuitableFlight& error) {
     throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
   }
-}
-
-std::vector<Warning> assumptions_of(const FlightOptions& flight,
-                                    const DragIdentificationOptions& taken) {
-  std::vector<Warning> out;
-  if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
-    out.push_back(
-        {WarningKind::air_density_assumed,
-         fmt::format("no air density given, {} kg/m³ taken (--air-density, or --pressure-hPa with "
-                     "--temperature-C)",
-                     taken.conditions.air_density)});
-  }
-  if (!flight.pitch_offset_deg && flight.trim_log.empty()) {
-    out.push_back({WarningKind::pitch_offset_assumed,
-                   "no pitch offset given, 0° taken; what it misses ends up in the wind "
-                   "(--trim-log or --pitch-offset-deg)"});
-  }
-  return out;
+  learned.assumed = assumptions_of(flight, how.conditions);
+  learned.notes.insert(learned.notes.end(), learned.assumed.begin(), learned.assumed.end());
+  return learned;
 }
 
 AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design,

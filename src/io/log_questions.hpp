@@ -73,14 +73,23 @@ struct FlightOptions {
                                                       const LogReaders& read,
                                                       const NoteTaker& note);
 
-/// The drag of these logs, `name` their heading. Throws InputError where they show none.
-[[nodiscard]] DragStudy studied_drag(const std::string& name, const std::vector<std::string>& logs,
-                                     const FlightOptions& flight, const LogReaders& read,
-                                     const NoteTaker& note);
+/// What stands above the answer about these logs: the file name of the only one, or how many
+/// flights they are.
+[[nodiscard]] std::string heading_of(const std::vector<std::string>& logs);
 
-/// What was not said and moves the answer of `drag`.
-[[nodiscard]] std::vector<Warning> assumptions_of(const FlightOptions& flight,
-                                                  const DragIdentificationOptions& taken);
+/// The drag of logs, and what is to be said of it.
+struct LearnedDrag {
+  DragStudy study;
+  std::vector<Warning> notes;    ///< on how the logs were read, then `assumed`
+  std::vector<Warning> assumed;  ///< what was not said and moves the answer
+};
+
+/// The drag of these logs, under their `heading_of`. `note` hears of each log as it is read, so
+/// that its notes are told even where nothing can be learned. Throws InputError where they show no
+/// drag.
+[[nodiscard]] LearnedDrag learned_drag(const std::vector<std::string>& logs,
+                                       const FlightOptions& flight, const LogReaders& read,
+                                       const NoteTaker& note = {});
 
 /// The logs that a design is held against, and how.
 struct LogsAsked {

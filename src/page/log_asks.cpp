@@ -79,23 +79,17 @@ ordered_json drag(const Request& request) {
     design = request.design();
     flight = flown_as(std::move(flight), design->design);
   }
-  std::vector<Warning> notes;
-  const LogReaders read = logs_of(request);
-  const DragStudy study =
-      studied_drag(names.size() == 1 ? names.front() : std::to_string(names.size()) + " flights",
-                   names, flight, read, [&notes](const Warning& note) { notes.push_back(note); });
-  for (Warning& assumed : assumptions_of(flight, study.identified.options)) {
-    notes.push_back(std::move(assumed));
-  }
+  const LearnedDrag learned = learned_drag(names, flight, logs_of(request));
+  const DragStudy& study = learned.study;
   ordered_json figures = ordered_json::array();
   add_figure(figures, "drag", drag_figure(study));
   add_figure(figures, "drag surface", drag_surface_figure(study));
   add_figure(figures, "log", log_figure(names.front(), study.identified.flights.front()));
   ordered_json out{{"text", drag_text(study.identified, {})},
-                   {"result", drag_json(study.identified, notes)},
+                   {"result", drag_json(study.identified, learned.notes)},
                    {"figures", std::move(figures)},
                    {"command", drag_command(names, flight)}};
-  add_notes(out, notes);
+  add_notes(out, learned.notes);
   if (design) out["spec"] = json_text(spec_with_drag(*design, study.identified.fit));
   return out;
 }
@@ -124,9 +118,8 @@ ordered_json diagnose(const Request& request) {
     if (!diagnosis || diagnosis->compared.empty()) return;
     add_figure(figures, kind, diagnosis_figure(log, *diagnosis));
   };
-  draw("flight", options.flight_logs.size() == 1 ? options.flight_logs.front() : "flights",
-       told.flight);
-  draw("power", options.power_logs.empty() ? "" : options.power_logs.front(), told.power);
+  draw("flight", heading_of(options.flight_logs), told.flight);
+  draw("power", heading_of(options.power_logs), told.power);
   return {{"text", told_text(told, {})},
           {"result", told_json(told)},
           {"figures", std::move(figures)},

@@ -206,6 +206,15 @@ TEST_CASE("what was not said and moves the answer is told on standard error") {
   CHECK_THAT(run.err, Contains("no air density given, 1.293 kg/m³ taken") &&
                           Contains("no pitch offset given, 0° taken"));
   CHECK(json::parse(run.out).at("air_density_kg_m3") == 1.293);
+
+  const Ran drawn = run_tethercalc({"plot", "drag", example, "--mass-g", "1550"});
+  CHECK(drawn.exit_code == 0);
+  CHECK_THAT(drawn.err, Contains("plot drag: no air density given, 1.293 kg/m³ taken") &&
+                            Contains("plot drag: no pitch offset given, 0° taken"));
+  const Ran page = run_tethercalc({"report", published, "--flight", example});
+  CHECK(page.exit_code == 0);
+  CHECK_THAT(page.err, Contains("report: no pitch offset given, 0° taken") &&
+                           !Contains("air density"));  // that is the spec's
 }
 
 TEST_CASE("learned drag goes into a spec, to a file or down a pipe to optimize") {
