@@ -92,22 +92,17 @@ void tell(const AnsweredDiagnosis& told, const std::string& mission, const Outpu
 
 /// "LAT,LON" in degrees.
 Home given_home(const std::string& text) {
-  const char* at = text.c_str();
-  double numbers[2] = {};
-  bool fits = true;
-  for (int k = 0; k < 2 && fits; ++k) {
-    char* end = nullptr;
-    numbers[k] = std::strtod(at, &end);
-    fits = end != at && *end == (k == 0 ? ',' : '\0') && std::isfinite(numbers[k]);
-    at = end + 1;
-  }
-  if (!fits || std::abs(numbers[0]) > 85 || std::abs(numbers[1]) > 180) {
+  const std::string_view typed = text;
+  const std::size_t comma = std::min(typed.find(','), typed.size());
+  const auto latitude = parsed_number(typed.substr(0, comma));
+  const auto longitude = parsed_number(typed.substr(std::min(comma + 1, typed.size())));
+  if (!latitude || !longitude || std::abs(*latitude) > 85 || std::abs(*longitude) > 180) {
     throw InputError("--home",
                      fmt::format("\"{}\" is no place; allowed are a latitude from -85 to 85 and a "
                                  "longitude from -180 to 180, in degrees: 47.3977,8.5456",
                                  text));
   }
-  return {numbers[0], numbers[1], 0};
+  return {*latitude, *longitude, 0};
 }
 
 /// Where the first flight that knows took off.

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "files/input_files.hpp"
 #include "io/checked_values.hpp"
+#include "io/motor_points.hpp"
 #include "tethercalc/files/read_files.hpp"
 #include "tethercalc/identify/thrust_expo.hpp"
 #include "tethercalc/io/motor_bench.hpp"
@@ -257,21 +258,6 @@ nlohmann::ordered_json document_of(const ShownMotor& shown) {
   return document;
 }
 
-/// No propeller does better than momentum theory.
-void check_merit(const MotorEntry& motor) {
-  const std::vector<double> merits = figures_of_merit(motor);
-  const auto best = std::ranges::max_element(merits);
-  if (best == merits.end() || *best <= 1) return;
-  const auto index = static_cast<std::size_t>(best - merits.begin());
-  const MotorPoint& point = motor.curve.vertices()[index + 1];
-  throw InputError(
-      motor.id,
-      fmt::format("has a figure of merit of {:.2f} at {:.1f} g and {:.2f} W with a "
-                  "propeller of {:g} inch, and above 1 is impossible: check the unit of "
-                  "thrust and power, and the propeller",
-                  *best, point.thrust / unit::gram_force, point.power, *motor.propeller_in));
-}
-
 MotorBench read_bench(const MotorOptions& options) {
   std::vector<LoadedText> tables;
   for (const std::string& file : options.files) tables.push_back(read_text_file(file));
@@ -344,7 +330,9 @@ int run_motor(const MotorOptions& options, Output output) {
   }
   ShownMotor shown = shown_motor(options);
   apply(options, shown.motor);
-  check_merit(shown.motor);
+  if (const auto impossible = impossible_merit(shown.motor)) {
+    throw InputError(shown.motor.id, *impossible);
+  }
   if (output.format == Format::table && output.file.ends_with(".json")) {
     output.format = Format::json;
   }

@@ -66,18 +66,6 @@ std::string lacking(const Effect& effect, const Design& design, const PowerLog& 
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// What a stage is compared by, where the bus's power was not measured itself.
-std::string channels_needed(Stage stage, bool free_flight) {
-  PowerLog empty;
-  empty.free_flight = free_flight;
-  const auto needed = compared_channels(stage, empty);
-  std::vector<std::string_view> names;
-  for (const PowerChannel& channel : power_channels) {
-    if (contains(needed, channel.values)) names.push_back(channel.name);
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 /// Throws where the log can show no part of the chain.
 void check_stages(const PowerLog& log) {
   const bool has_stage = is_measured(Stage::tether, log) || is_measured(Stage::converter, log) ||
@@ -88,7 +76,9 @@ void check_stages(const PowerLog& log) {
         "supply_current_A; was it flown on the tether?");
   }
   if (has_stage) return;
-  const auto of = [&](Stage stage) { return channels_needed(stage, log.free_flight); };
+  const auto of = [&](Stage stage) {
+    return fmt::format("{}", fmt::join(channels_needed({stage}, log.free_flight), ", "));
+  };
   throw std::invalid_argument(
       (log.free_flight
            ? fmt::format("nothing of the motors was measured: a free flight needs {}",

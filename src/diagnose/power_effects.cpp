@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/power_screening.hpp"
+#include "identify/statistics.hpp"
+
 namespace tethercalc {
 namespace {
 
@@ -35,23 +38,6 @@ std::vector<Stage> shown_by(Stage stage) {
   if (stage == Stage::supply) return {Stage::tether, Stage::converter};
   if (stage == Stage::airframe) return {Stage::motors, Stage::airframe};
   return {stage};
-}
-
-/// What the comparisons in which an effect shows are made of.
-std::vector<std::string> channels_needed(const std::vector<Stage>& shows_in) {
-  const auto any = [&shows_in](std::initializer_list<Stage> stages) {
-    return std::find_first_of(shows_in.begin(), shows_in.end(), stages.begin(), stages.end()) !=
-           shows_in.end();
-  };
-  std::vector<std::string> channels;
-  if (any({Stage::tether})) channels.emplace_back("supply_voltage_V");
-  if (any({Stage::tether, Stage::converter})) {
-    channels.insert(channels.end(), {"supply_current_A", "drone_voltage_V"});
-  }
-  if (any({Stage::converter, Stage::motors})) {
-    channels.insert(channels.end(), {"bus_voltage_V", "bus_current_A"});
-  }
-  return channels;
 }
 
 }  // namespace
@@ -437,8 +423,10 @@ std::vector<Effect> power_effects() {
   for (Effect& effect : effects) {
     effect.log = LogKind::power;
     if (effect.shows_in.empty()) effect.shows_in = shown_by(effect.stage);
-    const std::vector<std::string> channels = channels_needed(effect.shows_in);
-    effect.needs.insert(effect.needs.end(), channels.begin(), channels.end());
+    constexpr bool free_flight = true;  // on a tether the motors need the height as well
+    for (std::string& channel : channels_needed(effect.shows_in, free_flight)) {
+      if (!contains(effect.needs, channel)) effect.needs.push_back(std::move(channel));
+    }
     effect.parameters.front().start = effect.parameters.front().scale;
   }
   return effects;

@@ -251,6 +251,21 @@ std::vector<std::vector<double> PowerLog::*> compared_channels(Stage stage, cons
   return channels;
 }
 
+std::vector<std::string> channels_needed(const std::vector<Stage>& stages, bool free_flight) {
+  PowerLog empty;
+  empty.free_flight = free_flight;
+  std::vector<std::vector<double> PowerLog::*> needed;
+  for (const Stage stage : stages) {
+    const auto channels = compared_channels(stage, empty);
+    needed.insert(needed.end(), channels.begin(), channels.end());
+  }
+  std::vector<std::string> names;
+  for (const PowerChannel& channel : power_channels) {
+    if (contains(needed, channel.values)) names.emplace_back(channel.name);
+  }
+  return names;
+}
+
 bool is_measured(Stage stage, const PowerLog& log) {
   const auto channels = compared_channels(stage, log);
   return std::none_of(channels.begin(), channels.end(),

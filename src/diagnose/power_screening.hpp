@@ -20,6 +20,11 @@ namespace tethercalc {
 [[nodiscard]] std::vector<std::vector<double> PowerLog::*> compared_channels(Stage stage,
                                                                              const PowerLog& log);
 
+/// The names of the channels that comparisons at these stages are made of, in the order of
+/// `power_channels`, where the bus's power was not measured itself.
+[[nodiscard]] std::vector<std::string> channels_needed(const std::vector<Stage>& stages,
+                                                       bool free_flight);
+
 /// Whether the log has them all.
 [[nodiscard]] bool is_measured(Stage stage, const PowerLog& log);
 

@@ -120,6 +120,9 @@ std::optional<MotorEntry> motor_from_object(const JsonPlace& object, Problems& p
   if (!points || entry_object.faulty()) return std::nullopt;
   if (!set_curve(entry, *points, points_place.where(), problems)) return std::nullopt;
   entry.curve.set_measured_in(density);
+  if (const auto impossible = impossible_merit(entry)) {
+    return problems.refuse(object.where(), *impossible);
+  }
   if (uncertainty) {
     entry.curve.set_uncertainty(*uncertainty / 100);
     entry.warnings.push_back(

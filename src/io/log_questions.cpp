@@ -203,17 +203,16 @@ std::vector<Warning> assumptions_of(const FlightOptions& flight, const DragFitCo
 
 std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const std::string suffix = end;
-  if (end == text.c_str() || !std::isfinite(value) ||
-      !(suffix.empty() || suffix == "s" || suffix == "%")) {
+  const bool is_percent = text.ends_with('%');
+  const bool has_unit = is_percent || text.ends_with('s');
+  const auto value = parsed_number(std::string_view(text).substr(0, text.size() - has_unit));
+  if (!value) {
     throw InputError(option,
                      "\"" + text +
                          "\" is not a place in a log; allowed are seconds (120 or 120s) and "
                          "percent of the samples (25%)");
   }
-  return LogPosition{value, suffix == "%"};
+  return LogPosition{*value, is_percent};
 }
 
 double pitch_offset(const FlightOptions& options, const LogReaders& read) {

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tethercalc/model/units.hpp"
+#include "tethercalc/study/motor.hpp"
 
 namespace tethercalc {
 
@@ -12,7 +14,6 @@ std::string in_practical_units(const MotorPoint& point) {
   return fmt::format("{:.1f} g at {:.2f} W", point.thrust / unit::gram_force, point.power);
 }
 
-/// Fills `entry.curve`, pooling points that do not rise, and says so in `entry.warnings`.
 bool set_curve(MotorEntry& entry, std::span<const BenchPoint> measured, const std::string& where,
                Problems& problems) {
   std::vector<MotorPoint> points;
@@ -38,6 +39,17 @@ bool set_curve(MotorEntry& entry, std::span<const BenchPoint> measured, const st
   }
   entry.curve = MotorCurve(isotonic.points);
   return true;
+}
+
+std::optional<std::string> impossible_merit(const MotorEntry& motor) {
+  const std::vector<double> merits = figures_of_merit(motor);
+  const auto best = std::max_element(merits.begin(), merits.end());
+  if (best == merits.end() || *best <= 1) return std::nullopt;
+  const MotorPoint& point = motor.curve.vertices()[std::size_t(best - merits.begin()) + 1];
+  return fmt::format(
+      "has a figure of merit of {:.2f} at {} with a propeller of {:g} inch, and above 1 is "
+      "impossible: check the unit of thrust and power, and the propeller",
+      *best, in_practical_units(point), *motor.propeller_in);
 }
 
 }  // namespace tethercalc

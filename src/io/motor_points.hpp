@@ -1,6 +1,7 @@
 // Measured points of a motor on their way to its curve.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,5 +23,9 @@ std::string in_practical_units(const MotorPoint& point);
 /// with the reason among the problems, where too few points rise.
 bool set_curve(MotorEntry& entry, std::span<const BenchPoint> measured, const std::string& where,
                Problems& problems);
+
+/// "has a figure of merit of 1.31 at …" of a motor with a point that does better than momentum
+/// theory lets its propeller do; nothing where there is none, or no known propeller.
+[[nodiscard]] std::optional<std::string> impossible_merit(const MotorEntry& motor);
 
 }  // namespace tethercalc

@@ -104,19 +104,17 @@ std::string value_text(const ordered_json& value) {
 }
 
 /// "thrust headroom in hover"; a limit of the user's as it was typed.
-std::string missed_name(std::string name) {
-  for (std::size_t i = 0; i < demand_count; ++i) {
-    if (!name.starts_with(std::string(demand_name(static_cast<Demand>(i))) + " ")) continue;
-    std::ranges::replace(name, '_', ' ');
-    return name;
-  }
-  return '"' + name + '"';
+std::string missed_name(const DemandState& missed) {
+  if (missed.is_typed) return '"' + missed.name + '"';
+  std::string name = missed.name;
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 std::string missed_words(const DesignAnswer& answer) {
   std::string words;
   for (const DemandState& demand : answer.missed) {
-    words += fmt::format("{}{} by {} %", words.empty() ? "" : ", ", missed_name(demand.name),
+    words += fmt::format("{}{} by {} %", words.empty() ? "" : ", ", missed_name(demand),
                          significant(100 * demand.violation, 3));
   }
   return words;

@@ -75,6 +75,8 @@ constexpr LimitWords all_limits[] = {
      "The drum's width of {drum_mm} mm", "no turn of the tether fits between the drum's flanges",
      "drum too narrow"}};
 
+static_assert(std::size(all_limits) + 1 == limit_count);
+
 const LimitWords& limit_words(Limit limit) { return all_limits[static_cast<int>(limit) - 1]; }
 
 /// How much cable there is, where a drum holds the rest, and what a winch pulls.

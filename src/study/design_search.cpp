@@ -231,7 +231,7 @@ std::vector<DemandState> demand_states(const Candidate& candidate,
     }
   }
   for (const UserLimit& limit : limits) {
-    states.push_back({limit.name, violations[states.size()]});
+    states.push_back({limit.name, violations[states.size()], true});
   }
   return states;
 }

@@ -70,6 +70,27 @@ TEST_CASE("motor shows each point's figure of merit, and refuses an impossible o
   CHECK_THAT(impossible.err, Contains("above 1 is impossible"));
 }
 
+TEST_CASE("a motor file with an impossible figure of merit is refused wherever it is read") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "impossible.json").string();
+  // 1 kg on 5 inch needs 174.3 W of an ideal rotor: 9.80665^1.5/√(2·1.225·0.012668).
+  write_file(file,
+             R"({"id": "impossible", "name": "Impossible", "source": "none", "propeller_in": 5,
+                       "points": [{"thrust_g": 500, "power_W": 60}, {"thrust_g": 1000, "power_W": 110}]})");
+  const std::vector<std::vector<std::string>> readers = {
+      {"motor", file},
+      {"evaluate", published, "--area-mm2", "0.5", "--set", "drone.motor=" + file},
+      {"optimize", published, "--set", "drone.motor=" + file},
+      {"compare", published, "--motors", file}};
+  for (const std::vector<std::string>& reader : readers) {
+    const Ran run = run_tethercalc(reader);
+    CAPTURE(reader.front(), run.err);
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err,
+               Contains("figure of merit of 1.5") && Contains("with a propeller of 5 inch"));
+  }
+}
+
 TEST_CASE("one's own motor stands in the ranking under its file's name") {
   const TemporaryFolder folder;
   const std::string table = (folder.path() / "roof.csv").string();

@@ -114,10 +114,10 @@ bool reader_accepts(const Json& spec) {
       const auto says = [&](const char* words) {
         return problem.message.find(words) != std::string::npos;
       };
-      const bool beyond_schema = says("the converter cuts off below") || says("of rising thrust") ||
-                                 says("in the library (`tethercalc list") ||
-                                 says("does not have a higher output power") ||
-                                 says("would draw less input power");
+      const bool beyond_schema =
+          says("the converter cuts off below") || says("of rising thrust") ||
+          says("in the library (`tethercalc list") || says("has a figure of merit of") ||
+          says("does not have a higher output power") || says("would draw less input power");
       if (!beyond_schema) return false;
     }
     return true;

@@ -62,8 +62,9 @@ inline constexpr std::string_view cross_section_path = "tether.cross_section_mm2
 
 /// A demand on a candidate and how far it is kept.
 struct DemandState {
-  std::string name;      ///< "thrust_headroom in hover", or that of the user's limit
-  double violation = 0;  ///< ≤ 0 where kept, relative to what is demanded
+  std::string name;       ///< "thrust_headroom in hover", or that of the user's limit
+  double violation = 0;   ///< ≤ 0 where kept, relative to what is demanded
+  bool is_typed = false;  ///< a limit of the user's
 };
 
 /// The answer.
