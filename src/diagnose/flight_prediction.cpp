@@ -132,7 +132,8 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   }
   add_places(record, detours);
   record.yaw_rate = yaw_rate(observations);
-  record.both_axes = shows_both_axes(observations, gravity);
+  record.both_axes =
+      shows_both_axes(observations, gravity) || heading_is_off(observations, gravity);
   record.mass = mass;
   record.air_density = air_density;
   record.gravity = gravity;

@@ -45,8 +45,9 @@ struct FlightRecord {
   double gravity = 0;                   ///< m/s²
   double middle_time = 0;               ///< s, halfway through the whole flight
   double duration = 0;                  ///< s, of the whole flight
-  /// Whether the acceleration to the right is predicted too (`shows_both_axes`). Then a wind from
-  /// the side shows there; else none is told.
+  /// Whether the acceleration to the right is predicted too (`shows_both_axes`, or where the
+  /// heading is off, since one axis takes that for another speed). Then a wind from the side shows
+  /// there; else none is told.
   bool both_axes = false;
 
   /// Number of samples.

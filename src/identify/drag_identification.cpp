@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "identify/flight_units.hpp"
+#include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
 
@@ -13,6 +16,14 @@ Observations observe_part(const FlightLog& log, const DragIdentificationOptions&
   const double gravity = options.conditions.gravity;
   Observations flight = observe(log, range, options.pitch_offset, gravity, options.kinematics);
   check_flight_units(flight, gravity);
+  if (heading_is_off(flight, gravity)) {
+    const double off = heading_from_leaning(flight, gravity) / unit::degree;
+    throw UnsuitableFlight(
+        fmt::format("the drone speeds up {:.0f}° to the {} of where its nose leans: its heading is "
+                    "off, and with it the speed ahead that drag goes with; diagnose tells by how "
+                    "much (yaw_misalign)",
+                    std::abs(off), off < 0 ? "right" : "left"));
+  }
   return flight;
 }
 

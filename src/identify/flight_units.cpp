@@ -296,6 +296,12 @@ bool shows_both_axes(const Observations& flight, double gravity) {
          (turns(flight) || spread(flight.right_speed) > flown_to_the_side);
 }
 
+bool heading_is_off(const Observations& flight, double gravity) {
+  constexpr double clearly = 10 * unit::degree;  // the cosine of less is within 2 % of 1
+  return !shows_both_axes(flight, gravity) &&
+         std::abs(heading_from_leaning(flight, gravity)) > clearly;
+}
+
 void check_flight_units(const Observations& flight, double gravity) {
   const auto stuck = [&flight](double tilt) { return tilt == flight.tilt.front(); };
   if (std::all_of(flight.tilt.begin(), flight.tilt.end(), stuck)) {

@@ -47,6 +47,10 @@ inline constexpr double leans_to_speed_up = 0.5;
 /// or is flown to the side, so that it holds more than the roll's own errors.
 [[nodiscard]] bool shows_both_axes(const Observations& flight, double gravity);
 
+/// Whether the heading is clearly off in a flight that shows one axis only, where the logged
+/// forward speed is then the true one times a cosine. Real flights are within 3° of none.
+[[nodiscard]] bool heading_is_off(const Observations& flight, double gravity);
+
 /// A drone that leans forward by θ gains about g·tan θ of forward acceleration, less what drag
 /// takes of it within a second: of the changes over one second (`leaning_over_a_second`) the slope
 /// is 0.6 to 0.9 in real and in simulated flights.

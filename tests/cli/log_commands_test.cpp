@@ -1,8 +1,13 @@
 // `drag` and `log` through the real program.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -475,44 +480,65 @@ TEST_CASE("a parameter that the flight lacks the means for is held at its bound,
   CHECK_THAT(into.err, Contains("drag: linear_m_s wants to leave its upper bound"));
 }
 
+/// The example flight with its rows changed: time, roll, pitch, yaw, north, east and down velocity.
+void write_changed_example(const std::string& file,
+                           const std::function<void(std::array<double, 7>&)>& change) {
+  std::istringstream original(file_text(example));
+  std::ostringstream changed;
+  std::string line;
+  std::getline(original, line);
+  changed << line << "\n";
+  while (std::getline(original, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream cells(line);
+    std::array<double, 7> row{};
+    for (double& cell : row) cells >> cell;
+    change(row);
+    changed << fmt::format("{}\n", fmt::join(row, ","));
+  }
+  write_file(file, changed.str());
+}
+
 TEST_CASE("drag refuses a flight in other units as diagnose does") {
   const TemporaryFolder folder;
   constexpr double degree = 0.017453292519943295;
-  // Each column is time, roll, pitch, yaw, north, east and down velocity.
   struct Mistake {
     std::vector<std::size_t> columns;
     double factor;
     const char* told;
   };
-  for (const auto& [columns, factor, told] :
+  for (const Mistake& mistake :
        {Mistake{{1, 2, 3}, degree, "radians"}, Mistake{{4, 5, 6}, 3.6, "km/h"},
         Mistake{{0}, 1000, "milliseconds"}, Mistake{{2}, -1, "pitch were positive nose-down"}}) {
-    std::istringstream original(file_text(example));
-    std::ostringstream changed;
-    std::string line;
-    std::getline(original, line);
-    changed << line << "\n";
-    while (std::getline(original, line)) {
-      std::replace(line.begin(), line.end(), ',', ' ');
-      std::istringstream cells(line);
-      double value = 0;
-      for (std::size_t c = 0; cells >> value; ++c) {
-        const bool wrong = std::find(columns.begin(), columns.end(), c) != columns.end();
-        changed << (c > 0 ? "," : "") << (wrong ? value * factor : value);
-      }
-      changed << "\n";
-    }
     const std::string file = (folder.path() / "changed.csv").string();
-    write_file(file, changed.str());
+    write_changed_example(file, [&](auto& row) {
+      for (const std::size_t column : mistake.columns) row[column] *= mistake.factor;
+    });
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"drag", file}, {"diagnose", published, "--flight", file}}) {
       const Ran run = run_tethercalc(and_also(command, {"--mass-g", "1550"}));
       INFO(run.err);
       CHECK(run.exit_code == 2);
       CHECK(run.out.empty());
-      CHECK_THAT(run.err, Contains(told));
+      CHECK_THAT(run.err, Contains(mistake.told));
     }
   }
+}
+
+TEST_CASE("a heading that is off teaches no drag, and diagnose sizes it") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "turned.csv").string();
+  write_changed_example(file, [](auto& row) { row[3] += 20; });
+  const Ran drag = run_tethercalc({"drag", file, "--mass-g", "1550"});
+  CHECK(drag.exit_code == 2);
+  CHECK(drag.out.empty());
+  CHECK_THAT(drag.err, Contains("20° to the left of where its nose leans"));
+  const json answer = json::parse(
+      run_tethercalc({"diagnose", published, "--flight", file, "--format", "json"}).out);
+  CHECK(answer.at("findings")[0].at("effect") == "yaw_misalign");
+  const json& off = answer.at("findings")[0].at("parameters")[0];
+  CHECK(off.at("ci95")[0] <= 20);
+  CHECK(off.at("ci95")[1] >= 20);
 }
 
 TEST_CASE("one sample of an impossible velocity is left out and told, and moves nothing") {
