@@ -44,7 +44,7 @@ const std::array all_spec_fields{
     SpecField{"/description", text, "", any_number, "\"\"", "Free text."},
     SpecField{"/notes", text, "", any_number, "\"\"",
               "Free text, for remarks: JSON has no comments."},
-    SpecField{"/drone/mass_g", number, "g", between(10, 1e6), "",
+    SpecField{"/drone/mass_g", number, "g", between(least_drone_mass / unit::gram, 1e6), "",
               "Mass of the drone ready to fly, without the tether.", unit::gram,
               at<&Design::drone, &Drone::mass>},
     SpecField{"/drone/motor_count", integer, "", between(1, 64), "", "Number of motors, all alike.",
@@ -98,7 +98,7 @@ const std::array all_spec_fields{
     SpecField{"/drone/reserve_battery/descent_speed_m_s", number, "m/s", above(0, 50), "1.5",
               "Speed of the landing.", 1,
               at<&Design::drone, &Drone::reserve_battery, &ReserveBattery::descent_speed>},
-    SpecField{"/tether/length_m", number, "m", between(0.1, 1e4), "",
+    SpecField{"/tether/length_m", number, "m", between(least_tether_length, 1e4), "",
               "Length of the tether in the air, which is the flight height.", 1,
               at<&Design::tether, &Tether::length>},
     SpecField{
@@ -512,6 +512,7 @@ void set_field(Design& design, const SpecField& field, double value) {
   const double si = value * field.si_factor;
   if (const auto* number = std::get_if<Access<double>>(&field.access)) {
     (*number)(design) = si;
+    if (&(*number)(design) == &design.drone.mass) set_mass(design.drone, si);
   } else if (const auto* optional = std::get_if<Access<std::optional<double>>>(&field.access)) {
     (*optional)(design) = si;
   } else if (const auto* integer = std::get_if<Access<int>>(&field.access)) {

@@ -122,12 +122,15 @@ Json entry_json(const DesignFile& file, const Entry& old, const Design& design,
 Json spec_with(const DesignFile& file, const Design& design,
                const std::map<std::string, std::string>& references) {
   Json document = file.document;
-  // An estimated drag is in no spec; what takes its place is written whole.
-  const bool estimate_replaced =
-      file.design.drone.drag.is_estimate &&
-      std::ranges::any_of(spec_fields(), [&](const SpecField& field) {
-        return may_be_left_out(field) &&
-               plain_json(design, field) != plain_json(file.design, field);
+  // An estimated drag is in no spec, which is read with that of its mass; what takes its place is
+  // written whole.
+  const bool was_estimate = file.design.drone.drag.is_estimate;
+  Design as_read = design;
+  as_read.drone.drag.is_estimate = true;
+  set_mass(as_read.drone, design.drone.mass);
+  const bool stays_estimate =
+      was_estimate && std::ranges::none_of(spec_fields(), [&](const SpecField& field) {
+        return may_be_left_out(field) && plain_json(design, field) != plain_json(as_read, field);
       });
   for (const SpecField& field : spec_fields()) {
     const auto write = [&](Json value) {
@@ -150,8 +153,9 @@ Json spec_with(const DesignFile& file, const Design& design,
                   : entry_json(file, file.insulation, design, field, reference));
         break;
       default:
-        if (Json value = plain_json(design, field); (estimate_replaced && may_be_left_out(field)) ||
-                                                    value != plain_json(file.design, field)) {
+        if (may_be_left_out(field) && stays_estimate) break;
+        if (Json value = plain_json(design, field);
+            (may_be_left_out(field) && was_estimate) || value != plain_json(file.design, field)) {
           write(std::move(value));
         }
     }

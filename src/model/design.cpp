@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace tethercalc {
+
+void set_mass(Drone& drone, double mass) {
+  drone.mass = mass;
+  if (drone.drag.is_estimate) drone.drag = drag_of_mass(mass);
+}
+
 namespace {
 
 /// What the spec says of the weather: without an ambient temperature the cable, at no current, is

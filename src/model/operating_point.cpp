@@ -27,8 +27,9 @@ void warm_up(const SteadyFlight& flight, double radius, OperatingPoint& point) {
   if (std::isnan(point.drone_power)) return;
   const TetherHeatState state = heat.carrying(point.drone_power);
   if (!state.steady) {
+    // What rounding alone keeps the cold cable from carrying counts as carried by the headroom too.
     point.thermal_runaway = supplied_power(flight.design().supply.voltage, point.tether_resistance,
-                                           point.drone_power) > 0;
+                                           point.drone_power * (1 - 10 * rounding)) > 0;
     return;
   }
   point.tether_resistance = state.resistance;

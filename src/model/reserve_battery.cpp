@@ -15,10 +15,15 @@ double landing_time(const ReserveBattery& battery, double height) {
   return height / battery.descent_speed;
 }
 
+bool is_sized_by_energy(const ReserveBattery& battery, double height) {
+  return landing_time(battery, height) / battery.usable_share >= 1 / battery.discharge_rate;
+}
+
 double battery_mass_per_watt(const ReserveBattery& battery, double height) {
   if (battery.specific_energy == 0) return 0;
-  const double seconds =
-      std::max(landing_time(battery, height) / battery.usable_share, 1 / battery.discharge_rate);
+  const double seconds = is_sized_by_energy(battery, height)
+                             ? landing_time(battery, height) / battery.usable_share
+                             : 1 / battery.discharge_rate;
   return seconds / battery.specific_energy;
 }
 

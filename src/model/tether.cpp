@@ -44,6 +44,10 @@ double insulation_wall(const Insulation& insulation, double voltage) {
                   insulation.dielectric_safety_factor * voltage / insulation.breakdown_strength);
 }
 
+double breakdown_voltage(const Insulation& insulation, double voltage) {
+  return insulation.breakdown_strength * insulation_wall(insulation, voltage);
+}
+
 std::optional<double> drum_derating(const Drum& drum) {
   constexpr std::array by_layers{0.85, 0.65, 0.45, 0.35};
   if (drum.derating) return drum.derating;

@@ -153,11 +153,6 @@ ordered_json temperatures_json(const OperatingPoint& point) {
           {"runaway", point.thermal_runaway}};
 }
 
-double breakdown_voltage(const Design& design) {
-  const Insulation& insulation = design.tether.insulation;
-  return insulation.breakdown_strength * insulation_wall(insulation, design.supply.voltage);
-}
-
 std::string temperature_words(const char* condition, const OperatingPoint& point) {
   if (point.thermal_runaway) return fmt::format("rising without end in {}", condition);
   if (std::isnan(point.conductor_temperature)) {
@@ -176,14 +171,12 @@ double output_voltage(const Design& design, const OperatingPoint& point) {
 
 std::string battery_sentence(const Design& design, const OperatingPoint& point) {
   const ReserveBattery& battery = design.drone.reserve_battery;
-  const double seconds = landing_time(battery, design.tether.length);
   if (!std::isfinite(point.battery_mass)) {
     return fmt::format(
         "No reserve battery could land the drone from {} m: it could not carry itself.",
         significant(design.tether.length, 3));
   }
   const double power = landing_power(battery, point.battery_mass, design.tether.length);
-  const bool by_energy = seconds / battery.usable_share >= 1 / battery.discharge_rate;
   constexpr double joules_per_Wh = 3600;
   // Sized for the cable's weight and its drag hanging straight.
   const double hover = design.drone.auxiliary_power + power_behind_converter(design, point);
@@ -198,8 +191,10 @@ std::string battery_sentence(const Design& design, const OperatingPoint& point) 
       "large.{}",
       significant(point.battery_mass / unit::gram, 3),
       significant(point.battery_mass * battery.specific_energy / joules_per_Wh, 3),
-      significant(design.tether.length, 3), significant(seconds, 3), significant(power, 3),
-      by_energy ? "its energy" : "its discharge rate", falls_short);
+      significant(design.tether.length, 3),
+      significant(landing_time(battery, design.tether.length), 3), significant(power, 3),
+      is_sized_by_energy(battery, design.tether.length) ? "its energy" : "its discharge rate",
+      falls_short);
 }
 
 std::string converter_sentence(const Design& design, const AreaPoints& points) {
@@ -465,7 +460,7 @@ ordered_json verdict_json(const Design& design, const AreaPoints& points) {
 
 ordered_json cable_json(const Design& design, const AreaPoints& points) {
   const double load = breaking_load(design.tether, points.area);
-  const double breakdown = breakdown_voltage(design);
+  const double breakdown = breakdown_voltage(design.tether.insulation, design.supply.voltage);
   ordered_json out{{"tension_N", number_or_null(std::max(points.hover.tether_tension,
                                                          points.forward.tether_tension))},
                    {"breaking_load_N", number_or_null(load > 0 ? load : nan)},
@@ -527,12 +522,12 @@ std::vector<std::string> cable_sentences(const Design& design, const AreaPoints&
     sentences.push_back(strength_sentence(tension, breaking_load(tether, points.area)));
   }
   if (tether.insulation.dielectric_safety_factor > 0) {
+    const double breakdown = breakdown_voltage(tether.insulation, design.supply.voltage);
     sentences.push_back(fmt::format(
         "The wall of {} mm breaks down at {} V in a short test, {} times the supply.",
         significant(insulation_wall(tether.insulation, design.supply.voltage) / unit::millimetre,
                     3),
-        significant(breakdown_voltage(design), 3),
-        significant(breakdown_voltage(design) / design.supply.voltage, 3)));
+        significant(breakdown, 3), significant(breakdown / design.supply.voltage, 3)));
   }
   if (const double mass = converter_mass(design.supply.converter); mass > 0) {
     sentences.push_back(fmt::format("The converter for {} W weighs {} g, beside the drone's mass.",

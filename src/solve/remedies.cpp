@@ -1,5 +1,6 @@
 #include "tethercalc/solve/remedies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +13,11 @@ double& quantity_of(Design& design, Quantity quantity) {
   double* const all[] = {&design.supply.voltage, &design.drone.mass, &design.tether.length,
                          &design.flight.airspeed};  // in the order of Quantity
   return *all[static_cast<std::size_t>(quantity)];
+}
+
+double least_of(Quantity quantity) {
+  if (quantity == Quantity::drone_mass) return least_drone_mass;
+  return quantity == Quantity::tether_length ? least_tether_length : 0;
 }
 
 bool feasible_at(const Design& design, Quantity quantity, double value) {
@@ -69,7 +75,11 @@ std::optional<double> threshold(const Design& design, Quantity quantity, double 
 }  // namespace
 
 Design remedied(Design design, const Remedy& remedy) {
-  quantity_of(design, remedy.quantity) = remedy.value;
+  if (remedy.quantity == Quantity::drone_mass) {
+    set_mass(design.drone, remedy.value);
+  } else {
+    quantity_of(design, remedy.quantity) = remedy.value;
+  }
   return design;
 }
 
@@ -81,7 +91,8 @@ std::vector<Remedy> remedies(const Design& design) {
     Design copy = design;
     const double present = quantity_of(copy, quantity);
     const bool raised = quantity == Quantity::supply_voltage;
-    const double bound = raised ? highest_remedy_voltage : present * smallest_remedy_fraction;
+    const double bound = raised ? highest_remedy_voltage
+                                : std::max(present * smallest_remedy_fraction, least_of(quantity));
     const bool room = raised ? bound > present : bound < present;
     if (!room) continue;
     if (const auto value = threshold(design, quantity, present, bound)) {

@@ -172,8 +172,10 @@ class Prices {
     DesignProblem changed = problem_;
     // Last, so that no material or motor chosen undoes it.
     changed.free.push_back(
-        {price.name, std::vector<double>{price.step},
-         [&movable](Design& d, double step) { *movable.field(d) += step * movable.si_factor; }});
+        {price.name, std::vector<double>{price.step}, [&movable](Design& d, double step) {
+           *movable.field(d) += step * movable.si_factor;
+           set_mass(d.drone, d.drone.mass);
+         }});
     add(std::move(price), changed);
   }
 

@@ -46,6 +46,30 @@ TEST_CASE("a design study keeps its demands, and its spec flies as told") {
         Approx(answer["value"].get<double>()).epsilon(1e-9));
 }
 
+TEST_CASE("an estimated drag is that of the mass, whoever changes the mass") {
+  const TemporaryFolder folder;
+  const std::string spec = (folder.path() / "undragged.json").string();
+  json document = json::parse(file_text(published));
+  document.at("drone").erase("drag");
+  document.erase("$schema");
+  write_file(spec, document.dump());
+  const json set = json::parse(
+      run_tethercalc({"optimize", spec, "--set", "drone.mass_g=1100", "--format", "json"}).out);
+  const double least = set.at("optimum").at("forward").at("total_power_W").get<double>();
+  const json swept = json::parse(
+      run_tethercalc({"sweep", spec, "--vary", "drone.mass_g=1100", "--format", "jsonl"}).out);
+  CHECK(swept.at("forward.total_power_W").get<double>() == Approx(least).epsilon(1e-9));
+  const json freed = json::parse(
+      run_tethercalc({"design", spec, "--free", "drone.mass_g=1100..1300", "--format", "json"})
+          .out);
+  CHECK(freed.at("value").get<double>() == Approx(least).epsilon(1e-7));
+  const std::string ready = (folder.path() / "ready.json").string();
+  write_file(ready, freed.at("spec").dump());
+  const json flown = json::parse(run_tethercalc({"evaluate", ready, "--format", "json"}).out);
+  CHECK(flown["table"][0]["forward"]["total_power_W"].get<double>() ==
+        Approx(freed.at("value").get<double>()).epsilon(1e-9));
+}
+
 TEST_CASE("where leaning less saves power, no wind is ruled out unseen") {
   const TemporaryFolder folder;
   const std::string spec = (folder.path() / "leaning.json").string();

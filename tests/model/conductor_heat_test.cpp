@@ -10,6 +10,7 @@
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
 #include "support/straight_tether.hpp"
+#include "tethercalc/model/demands.hpp"
 #include "tethercalc/model/operating_point.hpp"
 
 using namespace tethercalc;
@@ -280,6 +281,33 @@ TEST_CASE("a tether that heats itself beyond what the line can deliver has run a
     }
   }
   CHECK(seen);
+}
+
+TEST_CASE(
+    "at the edge of what a cold cable delivers, a warm one that meets the headroom has power") {
+  Design design = test::published_design();
+  design.tether = published_tether();
+  const auto headroom = [&design](double area) {
+    Design cold = design;
+    cold.tether.ambient_temperature_C.reset();
+    cold.tether.conductor_temperature_C = 30;
+    return evaluate(cold, area, Condition::hover).headroom;
+  };
+  design.tether.ambient_temperature_C = 30;
+  double starved = 0.1e-6;
+  double level = 2e-6;
+  REQUIRE(headroom(starved) < 1);
+  REQUIRE(headroom(level) > 1);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (starved + level);
+    (headroom(middle) < 1 ? starved : level) = middle;
+  }
+  for (int step = -30; step <= 30; ++step) {
+    const OperatingPoint p = evaluate(design, level * (1 + 1e-10 * step), Condition::hover);
+    CAPTURE(step, p.headroom);
+    const bool meets = p.headroom >= 1 - margin_rounding && !p.thermal_runaway;
+    CHECK((!meets || p.total_power > 0));
+  }
 }
 
 TEST_CASE("a tether wound on more layers is hotter, and without ambient nothing moves") {

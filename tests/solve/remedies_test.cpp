@@ -49,6 +49,37 @@ TEST_CASE("every remedy makes its design feasible, and one percent less of it do
   CHECK(found > 10);
 }
 
+TEST_CASE("no remedy is shorter than a tether can be") {
+  Design design = test::published_design();
+  design.drone.drag = {};
+  design.flight.air_density = 100;
+  design.flight.airspeed = 0;
+  const auto flies = [&design](double length) {
+    Design other = design;
+    other.tether.length = length;
+    return is_feasible(other);
+  };
+  const auto would_be_too_short = [&] {
+    return flies(least_tether_length / 2) && !flies(least_tether_length);
+  };
+  for (double wind = 5; wind < 200 && !would_be_too_short(); wind *= 1.01) {
+    design.flight.headwind = wind;
+  }
+  REQUIRE(would_be_too_short());
+  for (const Remedy& remedy : remedies(design)) {
+    CHECK(remedy.quantity != Quantity::tether_length);
+  }
+}
+
+TEST_CASE("a lighter drone has the estimated drag of a lighter drone, a measured one stays") {
+  const Remedy lighter{Quantity::drone_mass, 1.2};
+  Design design = test::published_design();
+  const double measured = design.drone.drag.front_area;
+  CHECK(remedied(design, lighter).drone.drag.front_area == measured);
+  design.drone.drag = drag_of_mass(design.drone.mass);
+  CHECK(remedied(design, lighter).drone.drag.front_area == drag_of_mass(1.2).front_area);
+}
+
 TEST_CASE("a design on a winch is feasible where it has an optimum") {
   int feasible = 0;
   constexpr int designs = 60;

@@ -34,6 +34,13 @@ struct Drone {
   ReserveBattery reserve_battery{};      ///< its mass comes to `mass`, and to the tether's
 };
 
+/// Changes the mass (kg, > 0) of a drone; a drag that is an estimate is estimated anew.
+void set_mass(Drone& drone, double mass);
+
+/// kg and m: what is lighter is no drone, and what is shorter no tether.
+inline constexpr double least_drone_mass = 0.01;
+inline constexpr double least_tether_length = 0.1;
+
 /// What feeds the drone: the ground supply, and the converter at the tether's upper end.
 struct Supply {
   double voltage = 0;   ///< V at the ground end of the tether

@@ -19,6 +19,10 @@ struct ReserveBattery {
 /// Time in s that the landing from `height` m takes.
 [[nodiscard]] double landing_time(const ReserveBattery& battery, double height);
 
+/// Whether that lasts so long that the pack's energy decides how large it is, not the power that it
+/// gives.
+[[nodiscard]] bool is_sized_by_energy(const ReserveBattery& battery, double height);
+
 /// Pack mass in kg for each W that the landing from `height` m takes: what its energy asks for, or
 /// what its discharge rate does where that is more, as in landings of less than some minutes. 0
 /// without a battery.

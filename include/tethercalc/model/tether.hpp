@@ -39,6 +39,10 @@ struct Insulation {
 /// the breakdown strength is 0.
 [[nodiscard]] double insulation_wall(const Insulation& insulation, double voltage);
 
+/// V at which the wall for a supply of `voltage` V (≥ 0) breaks down in a short test, in an even
+/// field: breakdown strength times `insulation_wall`. 0 where the strength is not known.
+[[nodiscard]] double breakdown_voltage(const Insulation& insulation, double voltage);
+
 /// How the part of the tether on the drum is cooled: by a factor that its user knows, else by the
 /// package that it is wound to (drum_package.hpp), else by its number of layers. None of them:
 /// nothing is known.

@@ -23,7 +23,8 @@ struct Remedy {
 
 /// How far `remedies` looks: voltage up to this many volts, ...
 inline constexpr double highest_remedy_voltage = 1000;
-/// ... mass, length and airspeed down to this fraction of what they are.
+/// ... mass, length and airspeed down to this fraction of what they are, the first two no further
+/// than `least_drone_mass` and `least_tether_length`.
 inline constexpr double smallest_remedy_fraction = 0.01;
 
 /// For each quantity the smallest change that, alone, makes the design feasible (`is_feasible`), in
