@@ -216,7 +216,7 @@ class SubsetSearch {
     return true;
   }
 
-  /// Its length is infinite where it misfits.
+  /// Its length is infinite where it misfits, or a name ends where its range does.
   [[nodiscard]] Model model(const Groups& named, const Groups& shapes, const BlockFit* near,
                             FitUse use = FitUse::search) const {
     Freed freed;
@@ -225,6 +225,10 @@ class SubsetSearch {
     std::sort(freed.groups.begin(), freed.groups.end());
     freed.unnamed = shapes;
     Model result{named, shapes, fit_blocks(record_, freed, near, use), 0};
+    const auto ends_with_its_range = [&](std::size_t g) {
+      return is_at_bound(record_, result.fit, g);
+    };
+    if (std::any_of(named.begin(), named.end(), ends_with_its_range)) result.length = infinity;
     if (shapes.empty() && misfits(named, result.fit.values)) result.length = infinity;
     result.length += result.fit.squared_error() + shape_price_ * static_cast<double>(shapes.size());
     for (const std::size_t g : named) {
