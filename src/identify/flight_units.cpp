@@ -296,6 +296,40 @@ bool shows_both_axes(const Observations& flight, double gravity) {
          (turns(flight) || spread(flight.right_speed) > flown_to_the_side);
 }
 
+namespace {
+
+/// Whether the acceleration falls where the thrust that leans grows, by about as much as it should
+/// rise: the regression of its changes over a second on those of g·tan θ and −a_D·tan θ.
+bool falls_with_thrust(const Observations& flight, double gravity) {
+  const std::size_t lag = samples_a_second(flight);
+  const std::vector<double> seen = seen_accelerations(flight).forward;
+  const std::vector<double> leaning = leaning_accelerations(flight, gravity).forward;
+  std::vector<double> lifted = leaning;
+  for (std::size_t i = 0; i < lifted.size(); ++i)
+    lifted[i] *= -flight.down_acceleration[i] / gravity;
+  SecondsCompared lean_and_seen;
+  lean_and_seen.add(leaning, seen, lag);
+  SecondsCompared lean_and_lift;
+  lean_and_lift.add(leaning, lifted, lag);
+  SecondsCompared lift_and_seen;
+  lift_and_seen.add(lifted, seen, lag);
+  const double along_lean = lean_and_lift.both / lean_and_lift.leaning;
+  const double lift = lean_and_lift.measured - along_lean * lean_and_lift.both;
+  const double left =
+      lift_and_seen.measured - lean_and_seen.both * lean_and_seen.both / lean_and_seen.leaning;
+  const double both = lift_and_seen.both - along_lean * lean_and_seen.both;
+  if (!(lift > 0 && left > 0)) return false;
+  const double of_lift = both / lift;
+  const double of_lean = lean_and_seen.both / lean_and_seen.leaning - along_lean * of_lift;
+  // Real flights have correlations up to 0.6, simulated ones of others from -0.2 on.
+  constexpr double clearly = -0.3;
+  constexpr double least = -2.5;  // -1 by physics; what is far more follows something else
+  const double gain = of_lift / of_lean;
+  return both < clearly * std::sqrt(lift * left) && gain > least && gain < 0;
+}
+
+}  // namespace
+
 bool heading_is_off(const Observations& flight, double gravity) {
   constexpr double clearly = 10 * unit::degree;  // the cosine of less is within 2 % of 1
   return !shows_both_axes(flight, gravity) &&
@@ -323,9 +357,14 @@ void check_flight_units(const Observations& flight, double gravity) {
     throw UnsuitableFlight(
         "the drone speeds up when its pitch rises: pitch must be positive nose-up");
   }
-  if (correlation > clear && (slope > 1.6 || slope < 0.1)) {
+  if (correlation > clear && falls_with_thrust(flight, gravity)) {
+    throw UnsuitableFlight(
+        "the drone speeds up less where its thrust is larger: the down velocity must be positive "
+        "downwards");
+  }
+  if (correlation > clear && (slope > 1.4 || slope < 0.1)) {
     const char* hint = slope < 0.1  ? "is the time in milliseconds?"
-                       : slope < 10 ? "are the velocities in km/h, or knots?"
+                       : slope < 10 ? "are the velocities in km/h, ft/s or knots?"
                                     : "are the angles in radians?";
     throw UnsuitableFlight(fmt::format(
         "the forward acceleration is {:.2g} times what the pitch makes expect; {}", slope, hint));

@@ -509,7 +509,8 @@ TEST_CASE("drag refuses a flight in other units as diagnose does") {
   };
   for (const Mistake& mistake :
        {Mistake{{1, 2, 3}, degree, "radians"}, Mistake{{4, 5, 6}, 3.6, "km/h"},
-        Mistake{{0}, 1000, "milliseconds"}, Mistake{{2}, -1, "pitch were positive nose-down"}}) {
+        Mistake{{4, 5, 6}, 1.943844, "knots"}, Mistake{{0}, 1000, "milliseconds"},
+        Mistake{{2}, -1, "pitch were positive nose-down"}}) {
     const std::string file = (folder.path() / "changed.csv").string();
     write_changed_example(file, [&](auto& row) {
       for (const std::size_t column : mistake.columns) row[column] *= mistake.factor;

@@ -23,6 +23,7 @@ struct Flown {
   double carried_by_wings = 0;  ///< rad of lean that needs no thrust forward
   double wind_north = 0;        ///< m/s
   double drag = 0.3;            ///< 1/s, over airspeed
+  double heave = 0;             ///< m/s up and down
 };
 
 FlightLog flown(test::Random& random, const Flown& how) {
@@ -43,10 +44,11 @@ FlightLog flown(test::Random& random, const Flown& how) {
       log.yaw.push_back(yaw);
       log.north_velocity.push_back(north);
       log.east_velocity.push_back(east);
-      log.down_velocity.push_back(0.1 * std::sin(0.2 * t));
+      log.down_velocity.push_back(0.1 * std::sin(0.2 * t) + how.heave * std::sin(1.3 * t));
     }
-    const double forward = gravity * std::tan(ahead + how.carried_by_wings);
-    const double right = gravity * std::tan(aside) / std::cos(ahead);
+    const double lift = gravity - how.heave * 1.3 * std::cos(1.3 * t);
+    const double forward = lift * std::tan(ahead + how.carried_by_wings);
+    const double right = lift * std::tan(aside) / std::cos(ahead);
     north += step * (forward * std::cos(yaw) - right * std::sin(yaw) -
                      how.drag * (north - how.wind_north));
     east += step * (forward * std::sin(yaw) + right * std::cos(yaw) - how.drag * east);
@@ -92,6 +94,14 @@ TEST_CASE("a flight whose north and east or yaw mean something else is refused b
                Catch::Contains("the yaw were in radians"));
     CHECK(with_yaw([](double yaw) { return yaw + 0.3; }).empty());
   }
+}
+
+TEST_CASE("a down velocity that is positive upwards is refused where the drone goes up and down") {
+  test::Random random(test::run_seed());
+  FlightLog log = flown(random, {.heave = 1});
+  CHECK(refusal(log).empty());
+  for (double& down : log.down_velocity) down = -down;
+  CHECK_THAT(refusal(log), Catch::Contains("down velocity must be positive downwards"));
 }
 
 TEST_CASE("a flight whose roll, angles or axes mean something else is refused by that name") {
