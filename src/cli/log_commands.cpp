@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -93,9 +92,10 @@ void tell(const AnsweredDiagnosis& told, const std::string& mission, const Outpu
 /// "LAT,LON" in degrees.
 Home given_home(const std::string& text) {
   const std::string_view typed = text;
-  const std::size_t comma = std::min(typed.find(','), typed.size());
+  const std::size_t comma = typed.find(',');
   const auto latitude = parsed_number(typed.substr(0, comma));
-  const auto longitude = parsed_number(typed.substr(std::min(comma + 1, typed.size())));
+  const auto longitude =
+      comma == typed.npos ? std::nullopt : parsed_number(typed.substr(comma + 1));
   if (!latitude || !longitude || std::abs(*latitude) > 85 || std::abs(*longitude) > 180) {
     throw InputError("--home",
                      fmt::format("\"{}\" is no place; allowed are a latitude from -85 to 85 and a "

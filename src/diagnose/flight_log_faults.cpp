@@ -91,7 +91,14 @@ LogFaults repair_flight_log(FlightLog& log, const SampleRange& range) {
                                      std::pair{"north velocity", &log.north_velocity},
                                      std::pair{"east velocity", &log.east_velocity},
                                      std::pair{"down velocity", &log.down_velocity}}) {
-    if (constant(*series, range)) continue;
+    if (constant(*series, range)) {
+      // That of a flight along a meridian, or of an estimator that is stuck.
+      if (series == &log.north_velocity || series == &log.east_velocity) {
+        faults.notes.push_back({WarningKind::log_unchanging,
+                                fmt::format("the {} never changes; it is taken as logged", name)});
+      }
+      continue;
+    }
     if (const std::size_t spikes = repair_spikes(*series, range, faults.sample)) {
       faults.notes.push_back(
           {WarningKind::log_spikes,

@@ -70,18 +70,6 @@ void tell_steps(const FlightRecord& record, double step, std::vector<Warning>& n
   }
 }
 
-/// A velocity that never changes may be that of a straight flight, or of an estimator that is
-/// stuck.
-void tell_unchanging(const FlightLog& log, std::vector<Warning>& notes) {
-  for (const auto& [name, velocity] :
-       {std::pair{"north", &log.north_velocity}, std::pair{"east", &log.east_velocity}}) {
-    const auto [least, most] = std::minmax_element(velocity->begin(), velocity->end());
-    if (velocity->empty() || *least < *most) continue;
-    notes.push_back({WarningKind::log_unchanging,
-                     fmt::format("the {} velocity never changes; it is taken as logged", name)});
-  }
-}
-
 FlightData read_flight(const Design& design, const MeasuredFlight& flight, double pitch_offset) {
   FlightLog log = flight.log;
   if (log.roll.empty()) log.roll.assign(log.time.size(), 0.0);
@@ -96,7 +84,6 @@ FlightData read_flight(const Design& design, const MeasuredFlight& flight, doubl
   average_fast_samples(samples, data.faults.sample);
   if (auto note = even_out_stamps(samples.log)) samples.notes.push_back(std::move(*note));
   data.faults.notes.insert(data.faults.notes.begin(), samples.notes.begin(), samples.notes.end());
-  tell_unchanging(samples.log, data.faults.notes);
   data.observations = observe(samples.log, samples.range, pitch_offset, gravity);
   data.record = flight_record(data.observations, design.drone.mass, design.flight.air_density,
                               gravity, samples.taken_out);

@@ -133,7 +133,7 @@ FlightRecord flight_record(const Observations& observations, double mass, double
   add_places(record, detours);
   record.yaw_rate = yaw_rate(observations);
   record.both_axes =
-      shows_both_axes(observations, gravity) || heading_is_off(observations, gravity);
+      shows_both_axes(observations, gravity) || heading_error(observations, gravity).has_value();
   record.mass = mass;
   record.air_density = air_density;
   record.gravity = gravity;

@@ -436,8 +436,7 @@ void check_voltages(const PowerLog& log, const std::function<void(const std::str
   if (!(received > 0) || received > 1.02 * voltage) {
     report(
         fmt::format("drone_voltage_V is {:.3g} V in the median and supply_voltage_V {:.3g} V: the "
-                    "tether cannot "
-                    "raise it",
+                    "tether cannot raise it",
                     received, voltage));
     return;
   }
@@ -458,8 +457,7 @@ void check_voltages(const PowerLog& log, const std::function<void(const std::str
   if (high > shown * low && median(at_low) > 0 && more > in_proportion * (high / low - 1)) {
     report(
         "drone_voltage_V is above supply_voltage_V, by the more the higher the current; are the "
-        "two "
-        "exchanged?");
+        "two exchanged?");
   }
 }
 

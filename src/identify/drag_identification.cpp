@@ -16,13 +16,13 @@ Observations observe_part(const FlightLog& log, const DragIdentificationOptions&
   const double gravity = options.conditions.gravity;
   Observations flight = observe(log, range, options.pitch_offset, gravity, options.kinematics);
   check_flight_units(flight, gravity);
-  if (heading_is_off(flight, gravity)) {
-    const double off = heading_from_leaning(flight, gravity) / unit::degree;
+  const auto off = shows_both_axes(flight, gravity) ? std::nullopt : heading_error(flight, gravity);
+  if (off) {
     throw UnsuitableFlight(
         fmt::format("the drone speeds up {:.0f}° to the {} of where its nose leans: its heading is "
                     "off, and with it the speed ahead that drag goes with; diagnose tells by how "
                     "much (yaw_misalign)",
-                    std::abs(off), off < 0 ? "right" : "left"));
+                    std::abs(*off) / unit::degree, *off < 0 ? "right" : "left"));
   }
   return flight;
 }

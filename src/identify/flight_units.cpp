@@ -330,10 +330,10 @@ bool falls_with_thrust(const Observations& flight, double gravity) {
 
 }  // namespace
 
-bool heading_is_off(const Observations& flight, double gravity) {
+std::optional<double> heading_error(const Observations& flight, double gravity) {
   constexpr double clearly = 10 * unit::degree;  // the cosine of less is within 2 % of 1
-  return !shows_both_axes(flight, gravity) &&
-         std::abs(heading_from_leaning(flight, gravity)) > clearly;
+  const double off = heading_from_leaning(flight, gravity);
+  return std::abs(off) > clearly ? std::optional(off) : std::nullopt;
 }
 
 void check_flight_units(const Observations& flight, double gravity) {

@@ -47,9 +47,10 @@ inline constexpr double leans_to_speed_up = 0.5;
 /// or is flown to the side, so that it holds more than the roll's own errors.
 [[nodiscard]] bool shows_both_axes(const Observations& flight, double gravity);
 
-/// Whether the heading is clearly off in a flight that shows one axis only, where the logged
-/// forward speed is then the true one times a cosine. Real flights are within 3° of none.
-[[nodiscard]] bool heading_is_off(const Observations& flight, double gravity);
+/// `heading_from_leaning` where that is clearly not 0. To be asked of flights that do not show both
+/// axes (`shows_both_axes`): the logged forward speed is then the true one times its cosine; turns
+/// in wind look like it. Real flights along one axis are within 3°.
+[[nodiscard]] std::optional<double> heading_error(const Observations& flight, double gravity);
 
 /// A drone that leans forward by θ gains about g·tan θ of forward acceleration, less what drag
 /// takes of it within a second: of the changes over one second (`leaning_over_a_second`) the slope

@@ -512,7 +512,7 @@ void set_field(Design& design, const SpecField& field, double value) {
   const double si = value * field.si_factor;
   if (const auto* number = std::get_if<Access<double>>(&field.access)) {
     (*number)(design) = si;
-    if (&(*number)(design) == &design.drone.mass) set_mass(design.drone, si);
+    if (&(*number)(design) == &design.drone.mass) renew_drag_estimate(design.drone);
   } else if (const auto* optional = std::get_if<Access<std::optional<double>>>(&field.access)) {
     (*optional)(design) = si;
   } else if (const auto* integer = std::get_if<Access<int>>(&field.access)) {

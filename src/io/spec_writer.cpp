@@ -127,7 +127,7 @@ Json spec_with(const DesignFile& file, const Design& design,
   const bool was_estimate = file.design.drone.drag.is_estimate;
   Design as_read = design;
   as_read.drone.drag.is_estimate = true;
-  set_mass(as_read.drone, design.drone.mass);
+  renew_drag_estimate(as_read.drone);
   const bool stays_estimate =
       was_estimate && std::ranges::none_of(spec_fields(), [&](const SpecField& field) {
         return may_be_left_out(field) && plain_json(design, field) != plain_json(as_read, field);

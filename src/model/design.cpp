@@ -5,9 +5,8 @@
 
 namespace tethercalc {
 
-void set_mass(Drone& drone, double mass) {
-  drone.mass = mass;
-  if (drone.drag.is_estimate) drone.drag = drag_of_mass(mass);
+void renew_drag_estimate(Drone& drone) {
+  if (drone.drag.is_estimate) drone.drag = drag_of_mass(drone.mass);
 }
 
 namespace {

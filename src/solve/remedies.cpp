@@ -75,11 +75,8 @@ std::optional<double> threshold(const Design& design, Quantity quantity, double 
 }  // namespace
 
 Design remedied(Design design, const Remedy& remedy) {
-  if (remedy.quantity == Quantity::drone_mass) {
-    set_mass(design.drone, remedy.value);
-  } else {
-    quantity_of(design, remedy.quantity) = remedy.value;
-  }
+  quantity_of(design, remedy.quantity) = remedy.value;
+  if (remedy.quantity == Quantity::drone_mass) renew_drag_estimate(design.drone);
   return design;
 }
 

@@ -174,7 +174,7 @@ class Prices {
     changed.free.push_back(
         {price.name, std::vector<double>{price.step}, [&movable](Design& d, double step) {
            *movable.field(d) += step * movable.si_factor;
-           set_mass(d.drone, d.drone.mass);
+           if (movable.field(d) == &d.drone.mass) renew_drag_estimate(d.drone);
          }});
     add(std::move(price), changed);
   }

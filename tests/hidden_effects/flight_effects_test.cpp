@@ -440,7 +440,7 @@ TEST_CASE("what no catalogue knows gets no name where drag and wind have to be f
   if (test::leave_rates_out()) return;
   int detected = 0;
   int wrong = 0;
-  const int flights = 4;
+  const int flights = 8;
   for (int i = 0; i < flights; ++i) {
     HiddenFlight hidden = drawn_flight(1350 + static_cast<std::uint64_t>(i));
     hidden.step_force = i % 2 == 0 ? -0.6 : 0.8;
@@ -450,7 +450,7 @@ TEST_CASE("what no catalogue knows gets no name where drag and wind have to be f
     wrong += std::any_of(d.findings.begin(), d.findings.end(), is_neighbour) ? 1 : 0;
   }
   // Where names are not sought beside drag and wind, five of twelve such flights have a wrong one.
-  CHECK(detected >= flights - 1);
+  CHECK(detected >= flights - 2);
   CHECK(wrong <= 1);
 }
 

@@ -34,8 +34,9 @@ struct Drone {
   ReserveBattery reserve_battery{};      ///< its mass comes to `mass`, and to the tether's
 };
 
-/// Changes the mass (kg, > 0) of a drone; a drag that is an estimate is estimated anew.
-void set_mass(Drone& drone, double mass);
+/// To be called where the mass of a drone was changed: a drag that is an estimate becomes that of
+/// the mass (`drag_of_mass`), a measured one stays.
+void renew_drag_estimate(Drone& drone);
 
 /// kg and m: what is lighter is no drone, and what is shorter no tether.
 inline constexpr double least_drone_mass = 0.01;
