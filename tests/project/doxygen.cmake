@@ -8,6 +8,7 @@ if(NOT doxygen)
   message("SKIPPED: doxygen is not installed")
   return()
 endif()
+file(MAKE_DIRECTORY "${ROOT}/build")
 execute_process(COMMAND "${doxygen}" docs/Doxyfile WORKING_DIRECTORY "${ROOT}"
   RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE warnings)
 if(NOT code EQUAL 0 OR NOT warnings STREQUAL "")

@@ -38,9 +38,8 @@ struct Drone {
 /// the mass (`drag_of_mass`), a measured one stays.
 void renew_drag_estimate(Drone& drone);
 
-/// kg and m: what is lighter is no drone, and what is shorter no tether.
-inline constexpr double least_drone_mass = 0.01;
-inline constexpr double least_tether_length = 0.1;
+inline constexpr double least_drone_mass = 0.01;    ///< kg: what is lighter is no drone
+inline constexpr double least_tether_length = 0.1;  ///< m: what is shorter is no tether
 
 /// What feeds the drone: the ground supply, and the converter at the tether's upper end.
 struct Supply {
