@@ -10,36 +10,14 @@
 
 namespace tethercalc::test {
 
-/// Drag coefficient of a smooth cylinder: points of measurements (Wieselsberger 1921, and Tritton
-/// 1959 below 100, as read from the usual log-log plot), joined by straight lines in it.
-inline double measured_cylinder_drag(double reynolds) {
-  constexpr std::array<std::array<double, 2>, 10> points{{{1, 10.5},
-                                                          {3, 5.0},
-                                                          {10, 2.8},
-                                                          {30, 1.9},
-                                                          {100, 1.4},
-                                                          {300, 1.2},
-                                                          {1000, 1.0},
-                                                          {3000, 0.95},
-                                                          {10000, 1.1},
-                                                          {100000, 1.2}}};
-  if (reynolds <= points.front()[0]) return points.front()[1];
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto& [re_0, c_0] = points[i - 1];
-    const auto& [re_1, c_1] = points[i];
-    if (reynolds > re_1) continue;
-    return c_0 * std::pow(c_1 / c_0, std::log(reynolds / re_0) / std::log(re_1 / re_0));
-  }
-  return points.back()[1];
-}
-
 /// A cable of point masses between (0, 0, 0) and `end`.
 struct LumpedCable {
   double length = 1;       ///< m
   double weight = 1;       ///< N/m
   double stiffness = 1e3;  ///< N
   double drag_width = 0;   ///< ½·ρ·C·d, kg/m²
-  double reynolds = 0;     ///< s/m by speed, where C is times that of a cylinder
+  /// That C is times, by the speed across in m/s.
+  std::function<double(double speed)> coefficient = [](double) { return 1.0; };
   std::array<double, 3> end{};
   std::function<std::array<double, 3>(double height)> wind;  ///< m/s
   int pieces = 40;
@@ -79,9 +57,8 @@ inline std::array<double, 3> settled_force_on_end(const LumpedCable& cable) {
       Vector across;
       for (std::size_t k = 0; k < 3; ++k) across[k] = wind[k] - along * way[k] / distance;
       const double speed_across = std::hypot(across[0], across[1], across[2]);
-      const double coefficient =
-          cable.reynolds > 0 ? measured_cylinder_drag(cable.reynolds * speed_across) : 1;
-      const double pressed = cable.drag_width * coefficient * piece * speed_across;
+      const double pressed =
+          cable.drag_width * cable.coefficient(speed_across) * piece * speed_across;
       for (std::size_t k = 0; k < 3; ++k) {
         const double pull = tension * way[k] / distance;
         const double drag = 0.5 * pressed * across[k];
