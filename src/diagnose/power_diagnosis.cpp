@@ -19,6 +19,7 @@
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 #include "tethercalc/diagnose/hypothesis.hpp"
+#include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/units.hpp"
 
 namespace tethercalc {
@@ -89,24 +90,29 @@ void check_stages(const PowerLog& log) {
       "; bus_power_W will do for bus_voltage_V and bus_current_A");
 }
 
-/// Blocks are equal stretches of time.
-int block_at(const PowerLog& log, std::size_t sample) {
-  const double duration = log.time.back() - log.time.front();
+/// Of each sample. Blocks are equal stretches of measured time.
+std::vector<std::size_t> blocks_of_samples(const PowerLog& log) {
+  const std::vector<double> since = time_without_gaps(log);
+  const double duration = since.back();
   const std::size_t blocks = std::clamp(static_cast<std::size_t>(duration / shortest_power_block),
                                         fewest_blocks, most_power_blocks);
-  const double share = (log.time[sample] - log.time.front()) / duration;
-  return static_cast<int>(
-      std::min(blocks - 1, static_cast<std::size_t>(share * static_cast<double>(blocks))));
+  std::vector<std::size_t> out;
+  for (const double time : since) {
+    const double share = time / duration * static_cast<double>(blocks);
+    out.push_back(std::min(blocks - 1, static_cast<std::size_t>(share)));
+  }
+  return out;
 }
 
 /// Takes away the stages that too few healthy stretches are left of, with what each would need.
 std::map<Stage, std::string> drop_unusable_stages(ScreenedPowerLog& screened) {
   std::map<Stage, std::string> dropped;
+  const std::vector<std::size_t> block = blocks_of_samples(screened.log);
   std::erase_if(screened.usable, [&](const auto& found) {
     const auto& [stage, usable] = found;
-    std::set<int> blocks;
+    std::set<std::size_t> blocks;
     for (std::size_t i = 0; i < usable.size(); ++i) {
-      if (usable[i]) blocks.insert(block_at(screened.log, i));
+      if (usable[i]) blocks.insert(block[i]);
     }
     const auto healthy = std::count(usable.begin(), usable.end(), char{1});
     if (blocks.size() >= fewest_blocks && healthy >= fewest_power_samples) return false;
@@ -303,12 +309,13 @@ class PowerLogModel : public LogModel {
 
 /// Block of every row; −1 for rows that are not used.
 std::vector<int> blocks_of(const PowerResiduals& residuals) {
+  const std::vector<std::size_t> of_sample = blocks_of_samples(residuals.log());
   std::vector<int> block;
   block.reserve(residuals.rows());
   for (const PowerStage& stage : residuals.stages()) {
     for (std::size_t row = 0; row < stage.rows; ++row) {
       const bool used = stage.usable_rows[row] && row >= stage.memory.size();
-      block.push_back(used ? block_at(residuals.log(), row * stage.samples_per_row) : -1);
+      block.push_back(used ? static_cast<int>(of_sample[row * stage.samples_per_row]) : -1);
     }
   }
   return block;
@@ -424,14 +431,14 @@ std::vector<double> held_out(const PowerResiduals& residuals, std::size_t k, con
   const PowerStage& stage = residuals.stages()[k];
   std::vector<double> all(n, nan);
   std::vector<double> r(n);
+  const std::vector<std::size_t> of_sample = blocks_of_samples(residuals.log());
   std::set<int> blocks(view.problem.block.begin(), view.problem.block.end());
   blocks.erase(-1);
   for (auto without = fit.without_block.begin(); const int block : blocks) {
     residuals.standardised(k, view.model(*without++), r);
     for (std::size_t i = 0; i < n; ++i) {
-      if (stage.usable[i] && block_at(residuals.log(), i) == block && std::isfinite(r[i])) {
-        all[i] = r[i];
-      }
+      const bool in_block = static_cast<int>(of_sample[i]) == block;
+      if (stage.usable[i] && in_block && std::isfinite(r[i])) all[i] = r[i];
     }
   }
   return all;
@@ -489,7 +496,7 @@ std::vector<Effect> of_solved_tether(const Tether& tether, const PowerResiduals&
 /// True where nothing can be judged from a log this short, which is then told.
 bool too_short(const PowerLog& log, const std::vector<const Effect*>& candidates,
                Diagnosis& diagnosis) {
-  const double duration = log.time.size() > 1 ? log.time.back() - log.time.front() : 0;
+  const double duration = log.time.empty() ? 0 : time_without_gaps(log).back();
   if (duration >= shortest_power_log && log.time.size() >= fewest_power_samples) return false;
   const std::string needs =
       fmt::format("a log of at least {:.0f} s with 100 samples, this one has {:.0f} s and {}",
@@ -639,14 +646,14 @@ void tell_power_of_drone(const PowerResiduals& residuals, const PowerModel& foun
   constexpr double least = 0.02;  // flights are seldom as steady, nor masses weighed as exactly
   constexpr double least_t = 3;
   const std::vector<double> share = residuals.predicted_share_of_input(found);
+  const std::vector<std::size_t> blocks = blocks_of_samples(residuals.log());
   std::vector<double> of_block(most_power_blocks, 0);
   std::vector<double> samples(most_power_blocks, 0);
   for (std::size_t i = 0; i < share.size(); ++i) {
     // On the ground a drone draws next to nothing, or idles.
     if (!stages.front().usable[i] || !(share[i] > 0.3 && share[i] < 3)) continue;
-    const auto block = static_cast<std::size_t>(block_at(residuals.log(), i));
-    of_block[block] -= std::log(share[i]);
-    samples[block] += 1;
+    of_block[blocks[i]] -= std::log(share[i]);
+    samples[blocks[i]] += 1;
   }
   std::vector<double> means;
   for (std::size_t block = 0; block < of_block.size(); ++block) {
@@ -679,6 +686,17 @@ std::string compared_quantities(const PowerLog& log) {
 }
 
 }  // namespace
+
+std::vector<double> time_without_gaps(const PowerLog& log) {
+  std::vector<double> since(log.time.size(), 0);
+  if (since.size() < 2) return since;
+  const double gap = std::max(shortest_power_block, 3 * median_step(log.time));
+  for (std::size_t i = 1; i < since.size(); ++i) {
+    const double step = log.time[i] - log.time[i - 1];
+    since[i] = since[i - 1] + (step < gap ? step : 0);
+  }
+  return since;
+}
 
 PowerDiagnosis diagnose_power(const Design& design, const PowerLog& log,
                               std::span<const std::string> base_effects,

@@ -314,7 +314,7 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
   try {
     const PowerLogReading power =
         logged_power(log, *flight, summary.flying, {.free_flight = flight->height.empty()});
-    const double flown = power.log.time.back() - power.log.time.front();
+    const double flown = time_without_gaps(power.log).back();
     use.possible = flown >= shortest_power_log;
     const char* const how = flight->height.empty() ? ", which tells no height (--free-flight)" : "";
     const std::vector<double>& current = power.log.bus_current;

@@ -522,6 +522,29 @@ TEST_CASE("a power log that is too short is not judged") {
   REQUIRE_FALSE(d.notes.empty());
 }
 
+TEST_CASE(
+    "two flights with hours between them in one power log are judged as one of their length") {
+  const auto with_pause = [](const Scenario& scenario) {
+    Log log = simulate(scenario);
+    for (std::size_t i = log.time.size() / 2; i < log.time.size(); ++i) log.time[i] += 7200;
+    return as_power_log(log);
+  };
+  Scenario scenario;
+  scenario.seed = seed(400'045);
+  const Diagnosis nothing = diagnosis_of(with_pause(scenario));
+  INFO(summary(nothing));
+  CHECK(nothing.findings.empty());
+
+  scenario.hidden.extra_mass = 0.2;
+  const Diagnosis heavy = diagnosis_of(with_pause(scenario));
+  INFO(summary(heavy));
+  REQUIRE_FALSE(heavy.findings.empty());
+  CHECK(names(heavy.findings.front(), "extra_mass"));
+
+  scenario.duration = 90;
+  CHECK(lists(diagnosis_of(with_pause(scenario)).not_testable, "extra_mass"));
+}
+
 TEST_CASE("clocks that disagree are set right and not taken for physics") {
   const double bus = GENERATE(0.0, 3.0, -2.0);
   const double flight = GENERATE(0.0, 4.0);
