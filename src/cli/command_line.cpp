@@ -142,7 +142,24 @@ class Command {
 
   Command& comma_list(const std::string& name, std::vector<std::string>& values,
                       const std::string& help) {
-    app_.add_option(noted(name, help), values)->delimiter(',')->allow_extra_args(false);
+    const std::string names = noted(name, help);
+    app_.add_option_function<std::vector<std::string>>(
+            names,
+            [&problems = problems_, &values,
+             given = names.substr(names.rfind(',') + 1)](const std::vector<std::string>& texts) {
+              values.clear();
+              for (const std::string& text : texts) {
+                for (std::string& part : parts_of(text, ',')) {
+                  if (part.empty()) {
+                    problems.add(given,
+                                 "\"" + text + "\" has nothing between two commas, or at an end");
+                    break;
+                  }
+                  values.push_back(std::move(part));
+                }
+              }
+            })
+        ->allow_extra_args(false);
     return *this;
   }
 
@@ -459,7 +476,8 @@ class CommandLine {
                     "A demand beside the spec's: 'KEY<=VALUE' or 'KEY>=VALUE'; repeatable")
         .option("--standard awg|iec", request_.standard,
                 "awg or iec: the cross-section is one of these sizes")
-        .comma_list("--pareto KEY,KEY", request_.pareto, "KEY,KEY: the front of two quantities")
+        .comma_list("--pareto KEY,KEY", request_.pareto,
+                    "KEY,KEY: the front of two quantities, in ten even steps of the second")
         .whole("--seed N", request_.seed, 0, any_seed,
                "Of the points from which the search starts (default: 1)")
         .output(output_)

@@ -123,7 +123,7 @@ struct SweepOptions {
   unsigned jobs = 0;                    ///< threads; 0: one a core
   std::optional<std::uint64_t> sample;  ///< draw this many instead of every combination
   std::string method;                   ///< "sobol", which an empty one stands for, or "lhs"
-  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> seed;
   std::string summary_file;  ///< JSON summary of a sample; empty: none
 };
 

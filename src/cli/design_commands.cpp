@@ -237,6 +237,11 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
   std::vector<InputProblem> problems;
   std::string text;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const auto add_row = [&](const DesignFile& file, const nlohmann::ordered_json& code,
+                           const nlohmann::ordered_json& warning) {
+    rows.push_back({{"file", file.file}, {"valid", true}, {"code", code}, {"warning", warning}});
+  };
   for (const std::string& name : files) {
     try {
       const DesignFile file = read_design(name, overrides);
@@ -244,7 +249,9 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
       const std::vector<Warning> warnings = spec_warnings(file);
       for (const Warning& warning : warnings) {
         text += "  Note: " + printable(warning.sentence) + "\n";
+        add_row(file, warning_code(warning.kind), warning.sentence);
       }
+      if (warnings.empty()) add_row(file, nullptr, nullptr);
       json.push_back({{"file", file.file}, {"valid", true}});
       add_warnings(json.back(), warnings);
     } catch (const InputError& error) {
@@ -252,7 +259,8 @@ int run_validate(const std::vector<std::string>& files, const std::vector<std::s
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
-  emit(output, output.format == Format::json ? json_text(json) : text);
+  emit(
+      output, [&] { return text; }, [&] { return json; }, [&] { return library_csv(rows); });
   return done;
 }
 

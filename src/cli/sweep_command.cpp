@@ -154,6 +154,9 @@ void check_options(const SweepOptions& options, Problems& problems) {
   if (!options.method.empty() && !options.sample) {
     problems.add("--method", "needs --sample N: only a sample is drawn");
   }
+  if (options.seed && !options.sample) {
+    problems.add("--seed", "needs --sample N: only a sample is drawn");
+  }
   if (!options.summary_file.empty() && !options.sample) {
     problems.add("--summary", "needs --sample N: only a sample has a summary");
   }
@@ -272,7 +275,7 @@ int run_sweep(const SweepOptions& options) {
   problems.succeeds([&] { base = read_spec(options.spec); });
   problems.throw_if_any();
   std::optional<SampleRequest> sample;
-  if (options.sample) sample = {*options.sample, options.method, options.seed};
+  if (options.sample) sample = {*options.sample, options.method, options.seed.value_or(0)};
   const SweepSpace space = read_sweep_space(options.varied, base, sample);
   remark_warnings("sweep", sweep_warnings(base, space, ground_contact(space, base.design)));
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());

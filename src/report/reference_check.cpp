@@ -29,13 +29,13 @@ std::string drift_words(const RecordedResult& result) {
 
 /// What is wrong with a design that did not pass: its problems or, where there are none, what
 /// drifted.
-std::vector<std::string> complaints(const ReferenceCheck& check) {
+std::vector<std::string> complaints(const ReferenceCheck& check, bool updated) {
   std::vector<std::string> lines;
   for (const InputProblem& problem : check.problems) {
     lines.push_back(problem.where + ": " + problem.message);
   }
   if (!lines.empty()) return lines;
-  if (!check.recorded) return {"no record; --update makes one"};
+  if (!check.recorded) return {updated ? "had no record" : "no record; --update makes one"};
   for (const RecordedResult& result : check.results) {
     if (!result.drifted) continue;
     const std::string words = drift_words(result);
@@ -80,7 +80,7 @@ std::string check_text(std::span<const ReferenceCheck> checks, bool updated,
     out += fmt::format("{}{}  {}  {}\n", shown_status, std::string(10 - status.size(), ' '),
                        printable(check.spec), style.subdued(printable(check.name)));
     if (check.passed()) continue;
-    for (const std::string& complaint : complaints(check)) {
+    for (const std::string& complaint : complaints(check, updated)) {
       out += "    " + printable(complaint) + "\n";
     }
   }
@@ -144,9 +144,10 @@ std::string check_junit(std::span<const ReferenceCheck> checks) {
       out += opening + "/>\n";
       continue;
     }
-    out += fmt::format("{}>\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n", opening,
-                       check.problems.empty() ? "failure" : "error", status_of(check),
-                       attribute_text(fmt::format("{}", fmt::join(complaints(check), "\n"))));
+    out +=
+        fmt::format("{}>\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n", opening,
+                    check.problems.empty() ? "failure" : "error", status_of(check),
+                    attribute_text(fmt::format("{}", fmt::join(complaints(check, false), "\n"))));
   }
   return out + "  </testsuite>\n</testsuites>\n";
 }

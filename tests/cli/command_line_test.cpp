@@ -164,6 +164,9 @@ TEST_CASE("all that is wrong with what was typed is told at once, and with the s
   CHECK(sweep.exit_code == 2);
   CHECK_THAT(sweep.err, Contains("--sample: \"-1\" is not a whole number from 1") &&
                             Contains("--seed: \"-1\"") && Contains("--jobs: \"1.5\""));
+  const Ran areas = run_tethercalc({"evaluate", published, "--area-mm2", "1,,2"});
+  CHECK(areas.exit_code == 2);
+  CHECK_THAT(areas.err, Contains("--area-mm2: \"1,,2\" has nothing between two commas"));
 }
 
 TEST_CASE("where nothing can be written is told before anything is computed") {

@@ -240,6 +240,8 @@ TEST_CASE("validate names the problems of every file at once") {
   CHECK(run.exit_code == 2);
   CHECK(run.out.empty());
   CHECK_THAT(run.err, Contains("a.json") && Contains("b.json"));
+  CHECK(run_tethercalc({"validate", published, "--format", "csv"}).out ==
+        "file,valid,code,warning\n" + std::string(published) + ",true,,\n");
 }
 
 TEST_CASE("an --output that is a link makes or replaces what it points to, and stays a link") {

@@ -238,6 +238,7 @@ TEST_CASE("options that do not go together are refused") {
     refused({"--sample", count}, "from 1 to 1000000000000");
   }
   refused({"--method", "lhs"}, "needs --sample");
+  refused({"--seed", "3"}, "needs --sample");
   refused({"--jobs", "100000"}, "from 1 to 1024");
   refused({"--sample", "9", "--method", "grid"}, "sobol and lhs");
   refused({"--summary", "s.json"}, "needs --sample");
