@@ -177,7 +177,9 @@ double first_ratio(const HangingSituation& normal) {
   if (const double slack = slack_above_station(normal); slack > 0) return folded_below * slack;
   const double offset = normal.offset;
   const bool opposed = normal.air.profile == WindProfile::uniform && normal.air.wind.x < 0;
-  return offset > 0 && opposed ? offset * std::hypot(1, offset) : 1;
+  // A hair beside the balance itself, where a cable takes a thousand times as long.
+  constexpr double beside = 1 + 1e-5;
+  return offset > 0 && opposed ? beside * offset * std::hypot(1, offset) : 1;
 }
 
 SimilarCables::SimilarCables(const HangingSituation& normal)
