@@ -620,7 +620,8 @@ std::vector<Effect> flight_effects() {
       {.id = "velocity_scale",
        .title = "Velocity logged too large or too small",
        .mechanism = "Every logged velocity is the true one times a factor, so that accelerations "
-                    "and drag do not fit the thrust together.",
+                    "and drag do not fit the thrust together. Angles that are logged too small "
+                    "by that factor show the same.",
        .parameters = {{.name = "velocity_scale",
                        .unit = "1",
                        .neutral = 1,

@@ -182,19 +182,27 @@ std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const
   if (!(std::abs(octaves) < most_octaves) || !(std::abs(place) < most_octaves)) return std::nullopt;
   const auto& [square, bounds] = square_about(octaves, place);
   if (square->kind != Square::Kind::smooth) return std::nullopt;
-  const double x = 2 * (octaves - bounds.ratio) / bounds.ratio_width - 1;
-  const double y = 2 * (place - bounds.number) / bounds.number_width - 1;
-  const auto shares = [](const std::array<double, parts>& values) {
-    LoadShares out{};
-    std::copy_n(values.begin(), parts - 1, out.begin());
-    out.back() = values.back();
-    return out;
-  };
-  const auto value = unpacked<parts>(value_at(*square->series, y));
-  const auto by_number =
-      unpacked<parts>(value_at(slope_of(*square->series, bounds.number_width), y));
-  return At{shares(value_at(value, x)), shares(value_at(slope_of(value, bounds.ratio_width), x)),
-            shares(value_at(by_number, x))};
+  const AtPlace by_number = polynomials_at(bounds.number, bounds.number_width, place);
+  std::array<double, terms> of_ratio{};
+  std::array<double, terms> slope_of_ratio{};
+  for (std::size_t k = 0; k <= load_degree; ++k) {
+    const std::array<double, terms>& term = (*square->series)[k];
+    for (std::size_t i = 0; i < terms; ++i) {
+      of_ratio[i] += by_number.value[k] * term[i];
+      slope_of_ratio[i] += by_number.slope[k] * term[i];
+    }
+  }
+  const AtPlace by_ratio = polynomials_at(bounds.ratio, bounds.ratio_width, octaves);
+  At at;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const std::size_t part = i + 1 < parts ? i : at.value.size() - 1;
+    for (std::size_t k = 0; k <= load_degree; ++k) {
+      at.value[part] += by_ratio.value[k] * of_ratio[k * parts + i];
+      at.by_ratio[part] += by_ratio.slope[k] * of_ratio[k * parts + i];
+      at.by_number[part] += by_ratio.value[k] * slope_of_ratio[k * parts + i];
+    }
+  }
+  return at;
 }
 
 const CableFamily* CableFamilies::family_of(const HangingSituation& normal) const {

@@ -83,6 +83,32 @@ LoadSeries<Parts> slope_of(const LoadSeries<Parts>& series, double width) {
   return slope;
 }
 
+/// Of every term of a series.
+struct AtPlace {
+  std::array<double, load_degree + 1> value{};
+  std::array<double, load_degree + 1> slope{};  ///< by the natural logarithm of what spans `width`
+};
+
+/// Chebyshev's polynomials at `place` of a range from `from`, both in octaves, with T′_k = k·U_k−1.
+inline AtPlace polynomials_at(double from, double width, double place) {
+  const double x = 2 * (place - from) / width - 1;
+  const double per_x = 2 / (width * std::numbers::ln2);
+  AtPlace at;
+  at.value[0] = 1;
+  at.value[1] = x;
+  at.slope[1] = per_x;
+  double before = 1;  // U_k−2
+  double last = 2 * x;
+  for (std::size_t k = 2; k <= load_degree; ++k) {
+    at.value[k] = 2 * x * at.value[k - 1] - at.value[k - 2];
+    at.slope[k] = static_cast<double>(k) * last * per_x;
+    const double next = 2 * x * last - before;
+    before = last;
+    last = next;
+  }
+  return at;
+}
+
 /// Its value at x, by Clenshaw's recurrence.
 template <std::size_t Parts>
 std::array<double, Parts> value_at(const LoadSeries<Parts>& series, double x) {
