@@ -1012,9 +1012,10 @@ std::optional<Start> by_length(const Problem& problem, const Vector3& load, Cabl
 }
 
 /// The cable where that is known but for integrals, or that there is none; nothing where it lies in
-/// no plane with weight, wind and drone.
+/// no plane with weight, wind and drone. From the `ends` of the last such cable to its own.
 template <class Start, class Problem>
-std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p, bool in_still_air) {
+std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p, bool in_still_air,
+                                                 std::optional<PlanarEnds>& ends) {
   const Vector3& wind = p.air.wind;
   const double speed = std::hypot(wind.x, wind.y);
   const double aside = std::hypot(p.drone.x, p.drone.y);
@@ -1031,10 +1032,12 @@ std::optional<std::pair<bool, Start>> in_a_plane(const Problem& p, bool in_still
                           .compliance = p.compliance,
                           .aside = aside,
                           .height = p.drone.z};
-  const auto shape = p.winch ? held_by_winch(cable, *p.winch) : of_length(cable, p.length);
+  const auto shape =
+      p.winch ? held_by_winch(cable, *p.winch, ends) : of_length(cable, p.length, ends);
   // Whoever asks for a shape follows it in steps of a third of σ's unit or less.
   constexpr double most_sigma = 0.1 * most_steps_along;
   if (!shape || shape->sigma > most_sigma) return std::nullopt;
+  if (shape->hangs) ends = shape->ends;
   const auto direction = [&ahead](const PlanarShape::Place& place) {
     return place.along_x * ahead + Vector3{0, 0, place.along_z};
   };
@@ -1163,6 +1166,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
   paid_out_ = paid_out;
   drone_ = drone;
   still_.reset();
+  if (!alike) planar_ends_.reset();
   if (!alike || !can_go_on_) last_.reset();
   can_go_on_ = true;
   Problem p = problem();
@@ -1181,7 +1185,7 @@ CableOutcome CableSolver::solve(const Cable& cable, const MovingAir& moving,
                       cable.axial_stiffness);
     return still_ ? CableOutcome::hangs : CableOutcome::not_found;
   }
-  if (const auto known = in_a_plane<Last>(p, in_still_air)) {
+  if (const auto known = in_a_plane<Last>(p, in_still_air, planar_ends_)) {
     const auto& [hangs, in_plane] = *known;
     last_ = hangs ? std::optional(in_plane) : std::nullopt;
     can_go_on_ = false;

@@ -171,14 +171,14 @@ PlanarShape shape_of(const Plane& plane, const EndsInPlane& v, const Plane::Ways
                               least * plane.growth(at)};
   };
   const double slackest = std::clamp(0.0, v.station, v.drone);
-  return {
-      .hangs = true,
-      .at_station = place(v.station),
-      .at_drone = place(v.drone),
-      .slackest = place(slackest),
-      .length = least * all.length,
-      .sigma = all.sigma,
-      .before = slackest > v.station ? plane.between(v.station, slackest).sigma / all.sigma : 0};
+  return {.hangs = true,
+          .at_station = place(v.station),
+          .at_drone = place(v.drone),
+          .slackest = place(slackest),
+          .length = least * all.length,
+          .sigma = all.sigma,
+          .before = slackest > v.station ? plane.between(v.station, slackest).sigma / all.sigma : 0,
+          .ends = {v.station, v.drone}};
 }
 
 /// Seen from the side from which it turns up.
@@ -247,7 +247,7 @@ struct AtWinch {
 /// The tauter cable: where ln of the way aside falls through `wanted`. That falls wherever the
 /// cable goes up at the winch; where it goes down it is concave, with its greatest value (both seen
 /// of thousands of drawn cables).
-std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted) {
+std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted, double start) {
   constexpr double little = 1e-10;
   constexpr int most_steps = 60;
   constexpr double longest_step = 1.5;
@@ -255,7 +255,7 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted) {
   std::optional<OnWinch::Aside> rising;
   std::optional<OnWinch::Aside> falling;
   bool reached = false;
-  double v = 0;
+  double v = start;
   for (int i = 0; i < most_steps && std::abs(v) < straight_beyond; ++i) {
     const OnWinch::Aside here = cable.aside(v);
     const double excess = here.value - wanted;
@@ -341,7 +341,8 @@ Lead change_of_lead(const Plane& plane, const Plane::Ways& all, const Plane::Way
 }
 
 /// Newton's method by the middle of both v and the logarithm of their difference.
-std::optional<EndsInPlane> ends_of_length(const Plane& plane, double beside, double length) {
+std::optional<EndsInPlane> ends_of_length(const Plane& plane, double beside, double length,
+                                          const std::optional<EndsInPlane>& near) {
   constexpr int most_steps = 40;
   constexpr double little = 1e-10;
   constexpr double of_rounding = 1e-15;
@@ -350,7 +351,8 @@ std::optional<EndsInPlane> ends_of_length(const Plane& plane, double beside, dou
   constexpr double farthest = 20;
   const Plane::Ways wanted_ways{.aside = beside, .height = plane.cable().height, .length = length};
   const double slack = slack_of(plane, wanted_ways);
-  const auto start = slack > least_slack ? under_even_load(plane, length) : std::nullopt;
+  if (!(slack > least_slack)) return std::nullopt;
+  const auto start = near ? near : under_even_load(plane, length);
   if (!start) return std::nullopt;
   const Lead wanted = lead_of(plane, wanted_ways);
   EndsInPlane v = *start;
@@ -389,7 +391,8 @@ constexpr double least_weight_to_drag = 1e-4;
 
 }  // namespace
 
-std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tension) {
+std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tension,
+                                         const std::optional<PlanarEnds>& near) {
   constexpr double least_height = 1e-9;  // of the way aside
   // Of the load: below, rounding leaves 1e-9 of the directions.
   constexpr double most_tension = 1e5;
@@ -405,8 +408,14 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
   const OnWinch winched(seen.plane, tension);
   if (!(winched.rise < most_rise)) return std::nullopt;
   const bool in_line = seen.beside < least_aside * cable.height;
-  const auto at_winch =
-      in_line ? AtWinch{true, straight_beyond} : taut_at_winch(winched, std::log(seen.beside));
+  std::optional<AtWinch> at_winch;
+  if (in_line) {
+    at_winch = {true, straight_beyond};
+  } else {
+    const double wanted = std::log(seen.beside);
+    if (near) at_winch = taut_at_winch(winched, wanted, near->front());
+    if (!at_winch || !at_winch->hangs) at_winch = taut_at_winch(winched, wanted, 0);
+  }
   if (!at_winch) return std::nullopt;
   if (!at_winch->hangs) return PlanarShape{};
   const EndsInPlane v{at_winch->v, winched.v_at_drone(at_winch->v)};
@@ -414,10 +423,14 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
                   winched.least_tension(v.station), seen.mirrored);
 }
 
-std::optional<PlanarShape> of_length(const PlanarCable& cable, double length) {
+std::optional<PlanarShape> of_length(const PlanarCable& cable, double length,
+                                     const std::optional<PlanarEnds>& near) {
   if (!(cable.weight > least_weight_to_drag * std::abs(cable.drag))) return std::nullopt;
   const Seen seen(cable);
-  const auto v = ends_of_length(seen.plane, seen.beside, length);
+  std::optional<EndsInPlane> v;
+  if (near)
+    v = ends_of_length(seen.plane, seen.beside, length, EndsInPlane{(*near)[0], (*near)[1]});
+  if (!v) v = ends_of_length(seen.plane, seen.beside, length, std::nullopt);
   if (!v) return std::nullopt;
   const Plane::Ways all = seen.plane.between(v->station, v->drone);
   return shape_of(seen.plane, *v, all, length / all.length, seen.mirrored);

@@ -1,6 +1,7 @@
 // A cable in one plane with its drone and an even wind.
 #pragma once
 
+#include <array>
 #include <optional>
 
 namespace tethercalc {
@@ -14,6 +15,9 @@ struct PlanarCable {
   double aside = 0;
   double height = 0;
 };
+
+/// Where on the curve that all such cables are parts of one begins and ends.
+using PlanarEnds = std::array<double, 2>;
 
 /// How it hangs.
 struct PlanarShape {
@@ -29,6 +33,7 @@ struct PlanarShape {
   double length = 0;  ///< without tension
   double sigma = 0;   ///< ∫ ds/T from the station to the drone
   double before = 0;  ///< share of it from the station to the slackest place
+  PlanarEnds ends{};
 };
 
 // With φ the angle of the cable over x, w its weight, D its drag and s its length without tension,
@@ -36,15 +41,18 @@ struct PlanarShape {
 // of φ (Berteaux, Buoy Engineering, 1976, chapter 4, has those of a towed cable). Heights follow
 // from the tensions by w·dz = (1 + T/EA)·dT, and integrals are left for the way aside and the
 // length. To about 1e-9. Nothing where the drag is far more than the weight, load and chord are in
-// line, or a search does not end.
+// line, or a search does not end. From `near`, the ends of a cable much like it, one is found in
+// half of the time.
 
 /// The tauter of the two cables that a winch holds with this tension at the station. By the angle
 /// there: with it the way aside rises to a greatest one and falls again, and a drone beyond that is
 /// held by no cable. Nothing also where the drone is not above the winch, the tension far more than
 /// the load or next to none.
-[[nodiscard]] std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tension);
+[[nodiscard]] std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tension,
+                                                       const std::optional<PlanarEnds>& near = {});
 
 /// The one that is that long; its compliance is 0. Nothing also where it hardly reaches.
-[[nodiscard]] std::optional<PlanarShape> of_length(const PlanarCable& cable, double length);
+[[nodiscard]] std::optional<PlanarShape> of_length(const PlanarCable& cable, double length,
+                                                   const std::optional<PlanarEnds>& near = {});
 
 }  // namespace tethercalc

@@ -205,7 +205,9 @@ class CableSolver {
     std::array<double, 49> inverse{};  ///< of how the ends follow the unknowns
   };
   std::optional<Last> last_;
-  bool can_go_on_ = true;          ///< `last_` has what Newton's method goes on from
+  bool can_go_on_ = true;  ///< `last_` has what Newton's method goes on from
+  /// Of the last cable that lay in a plane, from which the next such is found.
+  std::optional<std::array<double, 2>> planar_ends_;
   std::optional<Catenary> still_;  ///< instead, in still air with a known length
 
   [[nodiscard]] Problem problem() const;
