@@ -670,7 +670,8 @@ TEST_CASE("the moment at which a payload is dropped is told") {
     CHECK(std::abs(moment.value - truth) < 20);
     told += moment.ci95_lower <= truth && truth <= moment.ci95_upper ? 1 : 0;
   }
-  if (!test::leave_rates_out()) CHECK(told >= logs - 1);
+  // Of five intervals at 95 % two miss in 2 % of runs, three in 0.1 %.
+  if (!test::leave_rates_out()) CHECK(told >= logs - 2);
 }
 
 TEST_CASE("the error budget of a power log sums to the whole") {
