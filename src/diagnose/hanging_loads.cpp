@@ -40,6 +40,16 @@ double wind_of(HangingSituation situation, double radius, double ratio) {
   return std::sqrt(ratio / drag_over_weight(situation, radius).value);
 }
 
+/// 0 where a cable hangs alike at all heights.
+double heights_per_octave(const HangingSituation& situation) {
+  if (situation.offset != 0 || situation.axial_stiffness) return places_per_octave;
+  const bool like_itself =
+      situation.air.profile == WindProfile::uniform ||
+      (situation.air.profile == WindProfile::power_law && situation.air.station_height == 0);
+  // The shape of a wind over the height changes as ln(height/roughness): a tenth an octave.
+  return like_itself ? 0 : 2;
+}
+
 constexpr HangingLoad::Parts no_load{infinity, infinity, infinity, infinity, 0, infinity};
 
 HangingLoad::Parts solved_itself(const HangingSituation& situation, double radius) {
@@ -86,8 +96,7 @@ HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation,
   Family& family = families_.emplace_back();
   family = {.alike = alike, .member = situation, .radius = radius};
   family.member.cable_there_is = infinity;
-  family.of_height = situation.offset != 0 || situation.by_reynolds_number ||
-                     situation.axial_stiffness || situation.air.profile != WindProfile::uniform;
+  family.heights_per_octave = heights_per_octave(situation);
   return family;
 }
 
@@ -98,15 +107,14 @@ const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& famil
   known.is_solved = true;
   const auto octaves = [](int index) { return std::exp2(index / places_per_octave); };
   HangingSituation there = family.member;
-  if (family.of_height) {
-    there.height = octaves(place[2]);
+  if (family.heights_per_octave > 0) {
+    there.height = std::exp2(place[2] / family.heights_per_octave);
     there.air.reference_height += there.height - family.member.height;
   }
   there.air.wind.x = -wind_of(there, family.radius, little_wind * (octaves(place[0]) - 1));
   hold(there, weight_at(there, family.radius), octaves(place[1]));
-  CableSolver solver(most_steps_for_load);
   LoadShares shares{};
-  if (solve_shares(there, solver, family.radius, shares) == CableOutcome::hangs) {
+  if (solve_shares(there, family.solver, family.radius, shares) == CableOutcome::hangs) {
     known.values = shares;
     known.values->back() /= distance_to(there);
   }
@@ -118,7 +126,7 @@ const std::vector<HangingLoads::Values>& HangingLoads::corners_of(Family& family
   Known& known = family.known[first];
   if (known.has_corners) return known.corners;
   known.has_corners = true;
-  const int heights = family.of_height ? 4 : 1;
+  const int heights = family.heights_per_octave > 0 ? 4 : 1;
   const auto towards_middle = [](int index, int count) {
     return count == 1 ? index : std::clamp(index, 1, 2);
   };
@@ -178,10 +186,9 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   Family& family = family_of(situation, radius);
   const double weight = weight_at(situation, radius);
   const double ratio = drag_over_weight(situation, radius).value;
-  const std::array<double, 3> at{
-      places_per_octave * std::log2(1 + ratio / little_wind),
-      places_per_octave * std::log2(held(situation, weight)),
-      family.of_height ? places_per_octave * std::log2(situation.height) : 0};
+  const std::array<double, 3> at{places_per_octave * std::log2(1 + ratio / little_wind),
+                                 places_per_octave * std::log2(held(situation, weight)),
+                                 family.heights_per_octave * std::log2(situation.height)};
   // A cable without slack or weight, or in a storm, has no place.
   constexpr double furthest = 1000;
   const auto has_place = [](double x) { return std::abs(x) < furthest; };
@@ -190,7 +197,7 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   std::array<std::array<double, 4>, 3> weights{};
   weights[2] = {1};  // where the height does not decide
   for (std::size_t axis = 0; axis < at.size(); ++axis) {
-    if (axis == 2 && !family.of_height) break;
+    if (axis == 2 && family.heights_per_octave == 0) break;
     first[axis] = static_cast<int>(std::floor(at[axis])) - 1;
     if (axis == 0) first[axis] = std::max(0, first[axis]);
     weights[axis] = cubic(at[axis] - first[axis]);
@@ -201,7 +208,7 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   }
   Values values{};
   auto corner = corners.begin();
-  const std::size_t heights = family.of_height ? 4 : 1;
+  const std::size_t heights = family.heights_per_octave > 0 ? 4 : 1;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       for (std::size_t k = 0; k < heights; ++k, ++corner) {

@@ -6,13 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "model/similar_cables.hpp"
 #include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc {
 
 /// The loads of hanging cables, between those at places of a grid that are solved once each, by
 /// cubics. Drag over weight and what is paid out over the height decide how a cable hangs; with a
-/// drone aside, a profile of the wind, stretch or a drag by the Reynolds number the height as well.
+/// drone aside, stretch, or a profile of the wind that has a height of its own, the height as well.
 /// A search moves these a little from one prediction of a log to the next, so most places are known
 /// already. The places do not move: a load is a continuous function of all that is asked.
 ///
@@ -43,8 +44,9 @@ class HangingLoads {
     HangingSituation alike;   ///< what they share
     HangingSituation member;  ///< whichever was asked for first
     double radius = 0;
-    bool of_height = false;  ///< whether the height decides, too
+    double heights_per_octave = 0;  ///< of places; 0 where the height does not decide
     std::map<Place, Known> known{};
+    CableSolver solver{most_steps_for_load};  ///< each cable from the last: they are neighbours
   };
   [[nodiscard]] Family& family_of(const HangingSituation& situation, double radius);
   [[nodiscard]] static const std::optional<Values>& solved_at(Family& family, const Place& place);

@@ -252,8 +252,12 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted, double
   constexpr int most_steps = 60;
   constexpr double longest_step = 1.5;
   constexpr double back_to_falling = 0.5;
-  std::optional<OnWinch::Aside> rising;
-  std::optional<OnWinch::Aside> falling;
+  struct Side {
+    bool known = false;
+    OnWinch::Aside at;
+  };
+  Side rising;
+  Side falling;
   bool reached = false;
   double v = start;
   for (int i = 0; i < most_steps && std::abs(v) < straight_beyond; ++i) {
@@ -267,19 +271,21 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted, double
     if (excess > 0) {
       reached = true;
       v += here.slope < 0 ? std::min(to_wanted, longest_step) : back_to_falling;
-      rising.reset();
+      rising = {};
       continue;
     }
-    (here.slope < 0 ? falling : rising) = here;
-    if (!rising) {
+    (here.slope < 0 ? falling : rising) = {true, here};
+    if (!rising.known) {
       v += std::max(to_wanted, -longest_step);
-    } else if (falling) {
+    } else if (falling.known) {
       // Where it is concave both tangents lie above.
-      const double apart = falling->v - rising->v;
-      const double bend = rising->slope - falling->slope;
-      const double to_crossing = (falling->value - rising->value - falling->slope * apart) / bend;
-      if (!reached && rising->value + rising->slope * to_crossing < wanted) return AtWinch{};
-      v = rising->v + rising->slope / bend * apart;
+      const OnWinch::Aside& lo = rising.at;
+      const OnWinch::Aside& hi = falling.at;
+      const double apart = hi.v - lo.v;
+      const double bend = lo.slope - hi.slope;
+      const double to_crossing = (hi.value - lo.value - hi.slope * apart) / bend;
+      if (!reached && lo.value + lo.slope * to_crossing < wanted) return AtWinch{};
+      v = lo.v + lo.slope / bend * apart;
     } else {
       return std::nullopt;
     }

@@ -37,6 +37,30 @@ TEST_CASE("loads of a log's hanging tether are those of the solver to 1e-4 of th
     } else {
       s.paid_out.length = s.height * (1 + random.magnitude(0.01, 0.1));
     }
+    switch (random.integer(0, 4)) {
+      case 1:
+        s.air.profile = WindProfile::power_law;
+        break;
+      case 2:
+        s.air.profile = WindProfile::power_law;
+        s.air.station_height = 6;
+        s.air.reference_height += 6;
+        break;
+      case 3:
+        s.air.profile = WindProfile::logarithmic;
+        s.air.roughness_length = 0.3;
+        break;
+      case 4:
+        s.by_reynolds_number = true;
+        s.wall = 7e-4;
+        break;
+      default:
+        break;
+    }
+    INFO(static_cast<int>(s.air.profile)
+         << ", " << s.air.station_height << ", Reynolds " << s.by_reynolds_number << ", "
+         << s.height << " m, " << s.air.wind.x << " m/s, " << s.paid_out.length.value_or(0)
+         << " m");
     const HangingLoad::Parts exact = solved(s, radius);
     const HangingLoad::Parts found = loads.at(s, radius);
     const double margin = 1e-4 * exact.tension_at_drone;
