@@ -40,14 +40,23 @@ double wind_of(HangingSituation situation, double radius, double ratio) {
   return std::sqrt(ratio / drag_over_weight(situation, radius).value);
 }
 
-/// 0 where a cable hangs alike at all heights.
-double heights_per_octave(const HangingSituation& situation) {
-  if (situation.offset != 0 || situation.axial_stiffness) return places_per_octave;
+/// What decides beside drag over weight and what is paid out, and with how many places an octave.
+HangingLoads::Third third_of(const HangingSituation& situation) {
+  using Third = HangingLoads::Third;
+  if (situation.offset != 0 || situation.axial_stiffness) return {Third::height, places_per_octave};
   const bool like_itself =
       situation.air.profile == WindProfile::uniform ||
       (situation.air.profile == WindProfile::power_law && situation.air.station_height == 0);
-  // The shape of a wind over the height changes as ln(height/roughness): a tenth an octave.
-  return like_itself ? 0 : 2;
+  // A wind over the height changes its shape as ln(height/roughness), a tenth an octave, and the
+  // drag of a cylinder as little with the Reynolds number.
+  if (!like_itself) return {Third::height, 2};
+  return situation.by_reynolds_number ? HangingLoads::Third{Third::reynolds_number, 2}
+                                      : HangingLoads::Third{};
+}
+
+/// With drag over weight, it decides the Reynolds number's square.
+double density_over_coefficient(const HangingSituation& situation) {
+  return situation.air.density / situation.drag_coefficient;
 }
 
 constexpr HangingLoad::Parts no_load{infinity, infinity, infinity, infinity, 0, infinity};
@@ -89,14 +98,17 @@ HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation,
   alike.air.wind.x = -1;
   alike.air.reference_height = 0;
   // Drag over weight has them, but where the Reynolds number follows the speed.
-  if (!situation.by_reynolds_number) alike.air.density = alike.drag_coefficient = 1;
+  const Third third = third_of(situation);
+  if (!situation.by_reynolds_number || third.is == Third::reynolds_number) {
+    alike.air.density = alike.drag_coefficient = 1;
+  }
   for (Family& one : families_) {
     if (one.radius == radius && one.alike == alike) return one;
   }
   Family& family = families_.emplace_back();
   family = {.alike = alike, .member = situation, .radius = radius};
   family.member.cable_there_is = infinity;
-  family.heights_per_octave = heights_per_octave(situation);
+  family.third = third;
   return family;
 }
 
@@ -107,9 +119,12 @@ const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& famil
   known.is_solved = true;
   const auto octaves = [](int index) { return std::exp2(index / places_per_octave); };
   HangingSituation there = family.member;
-  if (family.heights_per_octave > 0) {
-    there.height = std::exp2(place[2] / family.heights_per_octave);
+  const double third = std::exp2(place[2] / family.third.places_per_octave);
+  if (family.third.is == Third::height) {
+    there.height = third;
     there.air.reference_height += there.height - family.member.height;
+  } else if (family.third.is == Third::reynolds_number) {
+    there.drag_coefficient = there.air.density / third;
   }
   there.air.wind.x = -wind_of(there, family.radius, little_wind * (octaves(place[0]) - 1));
   hold(there, weight_at(there, family.radius), octaves(place[1]));
@@ -126,19 +141,19 @@ const std::vector<HangingLoads::Values>& HangingLoads::corners_of(Family& family
   Known& known = family.known[first];
   if (known.has_corners) return known.corners;
   known.has_corners = true;
-  const int heights = family.heights_per_octave > 0 ? 4 : 1;
+  const int thirds = family.third.is == Third::none ? 1 : 4;
   const auto towards_middle = [](int index, int count) {
     return count == 1 ? index : std::clamp(index, 1, 2);
   };
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      for (int k = 0; k < heights; ++k) {
+      for (int k = 0; k < thirds; ++k) {
         const auto* values = &solved_at(family, {first[0] + i, first[1] + j, first[2] + k});
         // Beside where it ceases to hang the outer corners are as those inside.
         if (!*values) {
           values =
               &solved_at(family, {first[0] + towards_middle(i, 4), first[1] + towards_middle(j, 4),
-                                  first[2] + towards_middle(k, heights)});
+                                  first[2] + towards_middle(k, thirds)});
         }
         if (!*values) {
           known.corners.clear();
@@ -186,18 +201,20 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   Family& family = family_of(situation, radius);
   const double weight = weight_at(situation, radius);
   const double ratio = drag_over_weight(situation, radius).value;
+  const double third =
+      family.third.is == Third::height ? situation.height : density_over_coefficient(situation);
   const std::array<double, 3> at{places_per_octave * std::log2(1 + ratio / little_wind),
                                  places_per_octave * std::log2(held(situation, weight)),
-                                 family.heights_per_octave * std::log2(situation.height)};
+                                 family.third.places_per_octave * std::log2(third)};
   // A cable without slack or weight, or in a storm, has no place.
   constexpr double furthest = 1000;
   const auto has_place = [](double x) { return std::abs(x) < furthest; };
   if (!std::all_of(at.begin(), at.end(), has_place)) return solved_itself(situation, radius);
   Place first{};
   std::array<std::array<double, 4>, 3> weights{};
-  weights[2] = {1};  // where the height does not decide
+  weights[2] = {1};  // where nothing more decides
   for (std::size_t axis = 0; axis < at.size(); ++axis) {
-    if (axis == 2 && family.heights_per_octave == 0) break;
+    if (axis == 2 && family.third.is == Third::none) break;
     first[axis] = static_cast<int>(std::floor(at[axis])) - 1;
     if (axis == 0) first[axis] = std::max(0, first[axis]);
     weights[axis] = cubic(at[axis] - first[axis]);
@@ -208,10 +225,10 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   }
   Values values{};
   auto corner = corners.begin();
-  const std::size_t heights = family.heights_per_octave > 0 ? 4 : 1;
+  const std::size_t thirds = family.third.is == Third::none ? 1 : 4;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
-      for (std::size_t k = 0; k < heights; ++k, ++corner) {
+      for (std::size_t k = 0; k < thirds; ++k, ++corner) {
         const double share = weights[0][i] * weights[1][j] * weights[2][k];
         for (std::size_t part = 0; part < part_count; ++part) {
           values[part] += share * (*corner)[part];

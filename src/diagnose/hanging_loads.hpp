@@ -13,7 +13,8 @@ namespace tethercalc {
 
 /// The loads of hanging cables, between those at places of a grid that are solved once each, by
 /// cubics. Drag over weight and what is paid out over the height decide how a cable hangs; with a
-/// drone aside, stretch, or a profile of the wind that has a height of its own, the height as well.
+/// drone aside, stretch, or a profile of the wind that has a height of its own, the height as well;
+/// with a drag by the Reynolds number that.
 /// A search moves these a little from one prediction of a log to the next, so most places are known
 /// already. The places do not move: a load is a continuous function of all that is asked.
 ///
@@ -23,6 +24,12 @@ class HangingLoads {
  public:
   /// The load with conductors of `radius` > 0 m; +infinity where the cable cannot hang.
   [[nodiscard]] HangingLoad::Parts at(const HangingSituation& situation, double radius);
+
+  /// What more decides how a cable hangs.
+  struct Third {
+    enum What { none, height, reynolds_number } is = none;
+    double places_per_octave = 1;
+  };
 
  private:
   /// Of a cable on a winch, by the length it has: the tension follows with that smoothly where the
@@ -44,7 +51,7 @@ class HangingLoads {
     HangingSituation alike;   ///< what they share
     HangingSituation member;  ///< whichever was asked for first
     double radius = 0;
-    double heights_per_octave = 0;  ///< of places; 0 where the height does not decide
+    Third third{};
     std::map<Place, Known> known{};
     CableSolver solver{most_steps_for_load};  ///< each cable from the last: they are neighbours
   };

@@ -37,6 +37,7 @@ TEST_CASE("loads of a log's hanging tether are those of the solver to 1e-4 of th
     } else {
       s.paid_out.length = s.height * (1 + random.magnitude(0.01, 0.1));
     }
+    s.drag_coefficient = random.uniform(0.7, 2);
     switch (random.integer(0, 4)) {
       case 1:
         s.air.profile = WindProfile::power_law;
