@@ -216,10 +216,7 @@ int run_plot(const PlotOptions& options, const Output& output) {
                      fmt::format("is drawn from one file: plot {} {}", options.kind, kind.input));
   }
   check_options(options);
-  if (!(options.width_mm >= 85 && options.width_mm <= 400)) {
-    throw InputError("--width-mm", std::to_string(options.width_mm) +
-                                       " is out of range; allowed is 85 to 400 mm");
-  }
+  check_figure_width(options.width_mm, "--width-mm");
   const FigureSize size{options.width_mm, std::clamp(terminal_columns(), 40, 400),
                         style_for(output).colour};
   const Drawn drawn = kind.draw(options);

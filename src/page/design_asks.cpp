@@ -263,10 +263,7 @@ ordered_json svg(const Request& request) {
   const Figure figure = drawn(request, request.text_or("kind", "optimum"), of);
   FigureSize size;
   size.width_mm = request.number("width_mm").value_or(170);
-  if (!(size.width_mm >= 85 && size.width_mm <= 400)) {
-    throw InputError("width_mm",
-                     fmt::format("{} is out of range; allowed is 85 to 400 mm", size.width_mm));
-  }
+  check_figure_width(size.width_mm, "width_mm");
   return {{"svg", render(figure, FigureFormat::svg, {}, size)}};
 }
 

@@ -13,6 +13,11 @@
 
 namespace tethercalc {
 
+void check_figure_width(double width_mm, const std::string& where) {
+  if (width_mm >= 85 && width_mm <= 400) return;
+  throw InputError(where, fmt::format("{} is out of range; allowed is 85 to 400 mm", width_mm));
+}
+
 FigureFormat figure_format(std::string_view file, const std::string& where) {
   const std::size_t dot = file.find_last_of("./");
   const bool has_suffix = dot != std::string_view::npos && file[dot] == '.';

@@ -223,6 +223,14 @@ TEST_CASE("bad sweeps are told all at once, before anything is written") {
   }
 }
 
+TEST_CASE("a field that is set and varied is told to be varied") {
+  const Ran run = run_tethercalc(
+      {"sweep", published, "--set", "supply.voltage_V=60", "--vary", "supply.voltage_V=75,80"});
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("--set supply.voltage_V=60 is not used: --vary gives"));
+  CHECK(run.out == run_tethercalc({"sweep", published, "--vary", "supply.voltage_V=75,80"}).out);
+}
+
 TEST_CASE("options that do not go together are refused") {
   const auto refused = [](std::vector<std::string> more, const char* reason) {
     const Ran run = run_tethercalc(mixed_sweep(std::move(more)));

@@ -189,6 +189,9 @@ struct FigureSize {
   bool colour = false;   ///< of `FigureFormat::text`: with the colour codes of a terminal
 };
 
+/// Throws InputError about the option or place called `where` for a width that no figure has.
+void check_figure_width(double width_mm, const std::string& where);
+
 /// Runs gnuplot on a script and returns what it draws.
 using GnuplotRunner = std::function<std::string(const std::string& script)>;
 
