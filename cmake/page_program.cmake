@@ -91,6 +91,6 @@ target_link_options(page_program PRIVATE -Oz -flto -fwasm-exceptions --no-entry
   "SHELL:--extern-post-js ${source}/page/call.js"
   -sMODULARIZE=1 -sEXPORT_NAME=createProgram -sENVIRONMENT=web,worker -sFILESYSTEM=0
   -sALLOW_MEMORY_GROWTH=1 -sMAXIMUM_MEMORY=2GB -sINITIAL_MEMORY=16MB -sTOTAL_STACK=1MB
-  -sALLOW_TABLE_GROWTH=0 -sDYNAMIC_EXECUTION=0 -sSUPPORT_ERRNO=0
+  -sALLOW_TABLE_GROWTH=0 -sDYNAMIC_EXECUTION=0 -sSUPPORT_ERRNO=0 -sMALLOC=emmalloc
   -sEXPORTED_FUNCTIONS=_malloc,_free,_name_file,_call_page,_answer_text,_answer_size,_forget
   -sEXPORTED_RUNTIME_METHODS=HEAPU8)
