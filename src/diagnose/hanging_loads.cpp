@@ -41,17 +41,18 @@ double wind_of(HangingSituation situation, double radius, double ratio) {
 }
 
 /// What decides beside drag over weight and what is paid out, and with how many places an octave.
-HangingLoads::Third third_of(const HangingSituation& situation) {
-  using Third = HangingLoads::Third;
-  if (situation.offset != 0 || situation.axial_stiffness) return {Third::height, places_per_octave};
+HangingLoads::ThirdAxis third_axis_of(const HangingSituation& situation) {
+  using ThirdAxis = HangingLoads::ThirdAxis;
+  if (situation.offset != 0 || situation.axial_stiffness)
+    return {ThirdAxis::height, places_per_octave};
   const bool like_itself =
       situation.air.profile == WindProfile::uniform ||
       (situation.air.profile == WindProfile::power_law && situation.air.station_height == 0);
   // A wind over the height changes its shape as ln(height/roughness), a tenth an octave, and the
   // drag of a cylinder as little with the Reynolds number.
-  if (!like_itself) return {Third::height, 2};
-  return situation.by_reynolds_number ? HangingLoads::Third{Third::reynolds_number, 2}
-                                      : HangingLoads::Third{};
+  if (!like_itself) return {ThirdAxis::height, 2};
+  return situation.by_reynolds_number ? HangingLoads::ThirdAxis{ThirdAxis::reynolds_number, 2}
+                                      : HangingLoads::ThirdAxis{};
 }
 
 /// With drag over weight, it decides the Reynolds number's square.
@@ -98,8 +99,8 @@ HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation,
   alike.air.wind.x = -1;
   alike.air.reference_height = 0;
   // Drag over weight has them, but where the Reynolds number follows the speed.
-  const Third third = third_of(situation);
-  if (!situation.by_reynolds_number || third.is == Third::reynolds_number) {
+  const ThirdAxis third = third_axis_of(situation);
+  if (!situation.by_reynolds_number || third.of == ThirdAxis::reynolds_number) {
     alike.air.density = alike.drag_coefficient = 1;
   }
   for (Family& one : families_) {
@@ -120,10 +121,10 @@ const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& famil
   const auto octaves = [](int index) { return std::exp2(index / places_per_octave); };
   HangingSituation there = family.member;
   const double third = std::exp2(place[2] / family.third.places_per_octave);
-  if (family.third.is == Third::height) {
+  if (family.third.of == ThirdAxis::height) {
     there.height = third;
     there.air.reference_height += there.height - family.member.height;
-  } else if (family.third.is == Third::reynolds_number) {
+  } else if (family.third.of == ThirdAxis::reynolds_number) {
     there.drag_coefficient = there.air.density / third;
   }
   there.air.wind.x = -wind_of(there, family.radius, little_wind * (octaves(place[0]) - 1));
@@ -141,7 +142,7 @@ const std::vector<HangingLoads::Values>& HangingLoads::corners_of(Family& family
   Known& known = family.known[first];
   if (known.has_corners) return known.corners;
   known.has_corners = true;
-  const int thirds = family.third.is == Third::none ? 1 : 4;
+  const int thirds = family.third.of == ThirdAxis::none ? 1 : 4;
   const auto towards_middle = [](int index, int count) {
     return count == 1 ? index : std::clamp(index, 1, 2);
   };
@@ -201,11 +202,20 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   Family& family = family_of(situation, radius);
   const double weight = weight_at(situation, radius);
   const double ratio = drag_over_weight(situation, radius).value;
-  const double third =
-      family.third.is == Third::height ? situation.height : density_over_coefficient(situation);
+  const auto third = [&]() -> double {
+    switch (family.third.of) {
+      case ThirdAxis::height:
+        return situation.height;
+      case ThirdAxis::reynolds_number:
+        return density_over_coefficient(situation);
+      case ThirdAxis::none:
+        break;
+    }
+    return 1;
+  };
   const std::array<double, 3> at{places_per_octave * std::log2(1 + ratio / little_wind),
                                  places_per_octave * std::log2(held(situation, weight)),
-                                 family.third.places_per_octave * std::log2(third)};
+                                 family.third.places_per_octave * std::log2(third())};
   // A cable without slack or weight, or in a storm, has no place.
   constexpr double furthest = 1000;
   const auto has_place = [](double x) { return std::abs(x) < furthest; };
@@ -214,7 +224,7 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   std::array<std::array<double, 4>, 3> weights{};
   weights[2] = {1};  // where nothing more decides
   for (std::size_t axis = 0; axis < at.size(); ++axis) {
-    if (axis == 2 && family.third.is == Third::none) break;
+    if (axis == 2 && family.third.of == ThirdAxis::none) break;
     first[axis] = static_cast<int>(std::floor(at[axis])) - 1;
     if (axis == 0) first[axis] = std::max(0, first[axis]);
     weights[axis] = cubic(at[axis] - first[axis]);
@@ -225,7 +235,7 @@ HangingLoad::Parts HangingLoads::at(const HangingSituation& situation, double ra
   }
   Values values{};
   auto corner = corners.begin();
-  const std::size_t thirds = family.third.is == Third::none ? 1 : 4;
+  const std::size_t thirds = family.third.of == ThirdAxis::none ? 1 : 4;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       for (std::size_t k = 0; k < thirds; ++k, ++corner) {

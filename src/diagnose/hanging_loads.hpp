@@ -26,8 +26,8 @@ class HangingLoads {
   [[nodiscard]] HangingLoad::Parts at(const HangingSituation& situation, double radius);
 
   /// What more decides how a cable hangs.
-  struct Third {
-    enum What { none, height, reynolds_number } is = none;
+  struct ThirdAxis {
+    enum Number { none, height, reynolds_number } of = none;
     double places_per_octave = 1;
   };
 
@@ -51,7 +51,7 @@ class HangingLoads {
     HangingSituation alike;   ///< what they share
     HangingSituation member;  ///< whichever was asked for first
     double radius = 0;
-    Third third{};
+    ThirdAxis third{};
     std::map<Place, Known> known{};
     CableSolver solver{most_steps_for_load};  ///< each cable from the last: they are neighbours
   };
