@@ -58,6 +58,15 @@ void hangs_from_winch(Design& design) {
   design.tether.winch_pull = 4;
 }
 
+/// With a drone that carries the cable in every wind of the sweep.
+void hangs_from_firm_winch(Design& design) {
+  design.tether.model = TetherModel::solved;
+  design.tether.winch_pull = 8;
+  design.drone.mass = 1.2;
+  design.supply.voltage = 110;
+  design.requirements.thrust_headroom = 1.5;
+}
+
 void hangs_straight(Design&) {}
 
 void sweep(benchmark::State& state, const Prepared& prepared, RowFormat format, bool written,
@@ -120,6 +129,10 @@ void winched_tether_over(benchmark::State& state, const char* axis, std::uint64_
   sweep(state, varied_with(axis, hangs_from_winch), RowFormat::csv, false, rows);
 }
 
+void firmly_winched_tether_over(benchmark::State& state, const char* axis, std::uint64_t rows) {
+  sweep(state, varied_with(axis, hangs_from_firm_winch), RowFormat::csv, false, rows);
+}
+
 /// Rates by processor time, which other work on the machine does not change.
 void processor_time(benchmark::internal::Benchmark* timed) {
   timed->MeasureProcessCPUTime()->Unit(benchmark::kMillisecond);
@@ -142,6 +155,9 @@ BENCHMARK_CAPTURE(slack_tether_over, length, lengths, 20000)->Arg(1)->Apply(proc
 BENCHMARK_CAPTURE(slack_tether_over, headwind, headwinds, 20000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(winched_tether_over, mass, masses, 5000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(winched_tether_over, headwind, light_winds, 20000)->Arg(1)->Apply(processor_time);
+BENCHMARK_CAPTURE(firmly_winched_tether_over, headwind, headwinds, 20000)
+    ->Arg(1)
+    ->Apply(processor_time);
 BENCHMARK_CAPTURE(slack_tether_over, slack, slacks, 20000)->Arg(1)->Apply(processor_time);
 BENCHMARK_CAPTURE(slack_tether_over, aside, places, 20000)->Arg(1)->Apply(processor_time);
 
