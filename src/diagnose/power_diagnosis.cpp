@@ -690,7 +690,7 @@ std::string compared_quantities(const PowerLog& log) {
 std::vector<double> time_without_gaps(const PowerLog& log) {
   std::vector<double> since(log.time.size(), 0);
   if (since.size() < 2) return since;
-  const double gap = std::max(shortest_power_block, 3 * median_step(log.time));
+  const double gap = std::max(shortest_power_block, shortest_gap(log.time));
   for (std::size_t i = 1; i < since.size(); ++i) {
     const double step = log.time[i] - log.time[i - 1];
     since[i] = since[i - 1] + (step < gap ? step : 0);

@@ -94,6 +94,8 @@ double median_step(const std::vector<double>& time) {
   return ordered(std::move(steps), time.size() / 2 - 1);
 }
 
+double shortest_gap(const std::vector<double>& time) { return gap_factor * median_step(time); }
+
 void validate(const FlightLog& log) {
   if (!log.other_vehicle.empty()) {
     throw UnsuitableFlight(fmt::format(
@@ -259,7 +261,7 @@ Observations observe(const FlightLog& log, const SampleRange& range, double pitc
         to_heading(log.yaw[i], log.north_velocity[i], log.east_velocity[i]);
   }
 
-  const double longest_step = gap_factor * median_step(log.time);
+  const double longest_step = shortest_gap(log.time);
   const auto connected = [&log, longest_step](std::size_t i) {
     return log.time[i + 1] - log.time[i] <= longest_step;
   };

@@ -21,8 +21,8 @@ struct PowerDiagnosis {
 /// A power log shorter than this, s, is not judged: it holds too few independent stretches.
 inline constexpr double shortest_power_log = 180;
 
-/// s since the first sample, one a sample: a time without samples, longer than 30 s and three
-/// median steps, does not count. What two flights with hours between them have, in one log.
+/// s since the first sample, one a sample: a time without samples, longer than 30 s and
+/// `shortest_gap`, does not count. What two flights with hours between them have, in one log.
 [[nodiscard]] std::vector<double> time_without_gaps(const PowerLog& log);
 
 /// Diagnoses a power log against the design as it stands: nothing is fitted but the effects named

@@ -121,6 +121,8 @@ struct LogPosition {
 
 /// Median step in s of `time`, which has at least two entries and rises.
 [[nodiscard]] double median_step(const std::vector<double>& time);
+/// Of the same, in s: a longer step is a gap.
+[[nodiscard]] double shortest_gap(const std::vector<double>& time);
 
 /// Turns samples `range` of `log` into observations.
 ///
