@@ -129,8 +129,9 @@ const std::optional<HangingLoads::Values>& HangingLoads::solved_at(Family& famil
   }
   there.air.wind.x = -wind_of(there, family.radius, little_wind * (octaves(place[0]) - 1));
   hold(there, weight_at(there, family.radius), octaves(place[1]));
+  CableSolver solver(most_steps_for_load);
   LoadShares shares{};
-  if (solve_shares(there, family.solver, family.radius, shares) == CableOutcome::hangs) {
+  if (solve_shares(there, solver, family.radius, shares) == CableOutcome::hangs) {
     known.values = shares;
     known.values->back() /= distance_to(there);
   }

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "model/similar_cables.hpp"
 #include "tethercalc/model/tether_load.hpp"
 
 namespace tethercalc {
@@ -53,7 +52,6 @@ class HangingLoads {
     double radius = 0;
     ThirdAxis third{};
     std::map<Place, Known> known{};
-    CableSolver solver{most_steps_for_load};  ///< each cable from the last: they are neighbours
   };
   [[nodiscard]] Family& family_of(const HangingSituation& situation, double radius);
   [[nodiscard]] static const std::optional<Values>& solved_at(Family& family, const Place& place);
