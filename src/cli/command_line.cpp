@@ -142,24 +142,18 @@ class Command {
 
   Command& comma_list(const std::string& name, std::vector<std::string>& values,
                       const std::string& help) {
-    const std::string names = noted(name, help);
-    app_.add_option_function<std::vector<std::string>>(
-            names,
-            [&problems = problems_, &values,
-             given = names.substr(names.rfind(',') + 1)](const std::vector<std::string>& texts) {
-              values.clear();
-              for (const std::string& text : texts) {
-                for (std::string& part : parts_of(text, ',')) {
-                  if (part.empty()) {
-                    problems.add(given,
-                                 "\"" + text + "\" has nothing between two commas, or at an end");
-                    break;
-                  }
-                  values.push_back(std::move(part));
-                }
-              }
-            })
-        ->allow_extra_args(false);
+    const auto read = [&problems = problems_, &values](const std::string& given,
+                                                       const std::vector<std::string>& texts) {
+      values.clear();
+      for (const std::string& text : texts) {
+        const std::vector<std::string> parts = parts_of(text, ',');
+        if (std::ranges::count(parts, "") > 0) {
+          problems.add(given, "\"" + text + "\" has nothing between two commas, or at an end");
+        }
+        values.insert(values.end(), parts.begin(), parts.end());
+      }
+    };
+    read_option<std::vector<std::string>>(name, help, read)->allow_extra_args(false);
     return *this;
   }
 
@@ -290,11 +284,16 @@ class Command {
     return names;
   }
 
-  Command& read_by(const std::string& name, const std::string& help, Reader read) {
+  /// An option whose `Given` goes to `read`, behind what the option is called.
+  template <typename Given, typename Read>
+  CLI::Option* read_option(const std::string& name, const std::string& help, Read read) {
     const std::string names = noted(name, help);
-    app_.add_option_function<std::string>(
-        names, [read = std::move(read), given = names.substr(names.rfind(',') + 1)](
-                   const std::string& text) { read(given, text); });
+    return app_.add_option_function<Given>(
+        names, [read = std::move(read), option = names.substr(names.rfind(',') + 1)](
+                   const Given& given) { read(option, given); });
+  }
+  Command& read_by(const std::string& name, const std::string& help, Reader read) {
+    read_option<std::string>(name, help, std::move(read));
     return *this;
   }
 
