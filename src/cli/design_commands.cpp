@@ -234,33 +234,49 @@ int run_shape(const ShapeOptions& options, const Output& output) {
 
 int run_validate(const std::vector<std::string>& files, const std::vector<std::string>& overrides,
                  const Output& output) {
-  std::vector<InputProblem> problems;
-  std::string text;
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  const auto add_row = [&](const DesignFile& file, const nlohmann::ordered_json& code,
-                           const nlohmann::ordered_json& warning) {
-    rows.push_back({{"file", file.file}, {"valid", true}, {"code", code}, {"warning", warning}});
+  struct Valid {
+    std::string file;
+    std::vector<Warning> warnings;
   };
+  std::vector<Valid> valid;
+  Problems problems;
   for (const std::string& name : files) {
-    try {
+    problems.succeeds([&] {
       const DesignFile file = read_design(name, overrides);
-      text += printable(file.file) + ": valid\n";
-      const std::vector<Warning> warnings = spec_warnings(file);
-      for (const Warning& warning : warnings) {
-        text += "  Note: " + printable(warning.sentence) + "\n";
-        add_row(file, warning_code(warning.kind), warning.sentence);
-      }
-      if (warnings.empty()) add_row(file, nullptr, nullptr);
-      json.push_back({{"file", file.file}, {"valid", true}});
-      add_warnings(json.back(), warnings);
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
+      valid.push_back({file.file, spec_warnings(file)});
+    });
   }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  emit(
-      output, [&] { return text; }, [&] { return json; }, [&] { return library_csv(rows); });
+  problems.throw_if_any();
+  const auto text = [&] {
+    std::string out;
+    for (const auto& [file, warnings] : valid) {
+      out += printable(file) + ": valid\n";
+      for (const Warning& warning : warnings)
+        out += "  Note: " + printable(warning.sentence) + "\n";
+    }
+    return out;
+  };
+  const auto json = [&] {
+    nlohmann::ordered_json out = nlohmann::ordered_json::array();
+    for (const auto& [file, warnings] : valid) {
+      out.push_back({{"file", file}, {"valid", true}});
+      add_warnings(out.back(), warnings);
+    }
+    return out;
+  };
+  const auto csv = [&] {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    const auto add = [&rows](const std::string& file, const nlohmann::ordered_json& code,
+                             const nlohmann::ordered_json& sentence) {
+      rows.push_back({{"file", file}, {"valid", true}, {"code", code}, {"warning", sentence}});
+    };
+    for (const auto& [file, warnings] : valid) {
+      if (warnings.empty()) add(file, nullptr, nullptr);
+      for (const Warning& w : warnings) add(file, warning_code(w.kind), w.sentence);
+    }
+    return entries_csv(rows);
+  };
+  emit(output, text, json, csv);
   return done;
 }
 
@@ -268,7 +284,7 @@ int run_list(const std::string& what, const Output& output) {
   const nlohmann::ordered_json entries = library_json(what);
   emit(
       output, [&] { return library_text(entries, style_for(output)); }, [&] { return entries; },
-      [&] { return library_csv(entries); });
+      [&] { return entries_csv(entries); });
   return done;
 }
 

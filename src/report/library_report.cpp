@@ -115,7 +115,7 @@ std::string library_text(const ordered_json& entries, const TextStyle& style) {
   return out + "\n" + style.bold("Sources") + "\n" + sources_text(entries);
 }
 
-std::string library_csv(const ordered_json& entries) {
+std::string entries_csv(const ordered_json& entries) {
   ordered_json keys = ordered_json::array();
   for (const auto& [key, value] : entries.front().items()) keys.push_back(key);
   std::string out = csv_line(keys);

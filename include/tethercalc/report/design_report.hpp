@@ -224,7 +224,7 @@ struct Answer {
 /// The same as a table. Numbers with the digits that distinguish them; sources below it, each once.
 [[nodiscard]] std::string library_text(const nlohmann::ordered_json& entries,
                                        const TextStyle& style);
-/// A header and a row an entry.
-[[nodiscard]] std::string library_csv(const nlohmann::ordered_json& entries);
+/// A header and a row an entry, all of which have the same keys; at least one.
+[[nodiscard]] std::string entries_csv(const nlohmann::ordered_json& entries);
 
 }  // namespace tethercalc
