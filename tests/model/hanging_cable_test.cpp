@@ -1,5 +1,6 @@
 #include "tethercalc/model/hanging_cable.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,29 @@ void check_close(const Vector3& found, const Vector3& expected, double margin) {
   CHECK(found.x == Approx(expected.x).margin(margin));
   CHECK(found.y == Approx(expected.y).margin(margin));
   CHECK(found.z == Approx(expected.z).margin(margin));
+}
+
+/// Drag coefficient of a smooth cylinder: points of measurements (Wieselsberger 1921, and Tritton
+/// 1959 below 100, as read from the usual log-log plot), joined by straight lines in it.
+double measured_cylinder_drag(double reynolds) {
+  constexpr std::array<std::array<double, 2>, 10> points{{{1, 10.5},
+                                                          {3, 5.0},
+                                                          {10, 2.8},
+                                                          {30, 1.9},
+                                                          {100, 1.4},
+                                                          {300, 1.2},
+                                                          {1000, 1.0},
+                                                          {3000, 0.95},
+                                                          {10000, 1.1},
+                                                          {100000, 1.2}}};
+  if (reynolds <= points.front()[0]) return points.front()[1];
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto& [re_0, c_0] = points[i - 1];
+    const auto& [re_1, c_1] = points[i];
+    if (reynolds > re_1) continue;
+    return c_0 * std::pow(c_1 / c_0, std::log(reynolds / re_0) / std::log(re_1 / re_0));
+  }
+  return points.back()[1];
 }
 
 PaidOut of_length(double length) { return {.length = length, .winch_tension = {}}; }
@@ -215,29 +239,6 @@ TEST_CASE("masses on springs come to rest with the solver's forces") {
     const double greatest = std::max(found.tension_at_drone, found.tension_at_station);
     check_close(found.on_drone, {settled[0], settled[1], settled[2]}, 0.01 * greatest);
   });
-}
-
-/// Drag coefficient of a smooth cylinder: points of measurements (Wieselsberger 1921, and Tritton
-/// 1959 below 100, as read from the usual log-log plot), joined by straight lines in it.
-static double measured_cylinder_drag(double reynolds) {
-  constexpr std::array<std::array<double, 2>, 10> points{{{1, 10.5},
-                                                          {3, 5.0},
-                                                          {10, 2.8},
-                                                          {30, 1.9},
-                                                          {100, 1.4},
-                                                          {300, 1.2},
-                                                          {1000, 1.0},
-                                                          {3000, 0.95},
-                                                          {10000, 1.1},
-                                                          {100000, 1.2}}};
-  if (reynolds <= points.front()[0]) return points.front()[1];
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const auto& [re_0, c_0] = points[i - 1];
-    const auto& [re_1, c_1] = points[i];
-    if (reynolds > re_1) continue;
-    return c_0 * std::pow(c_1 / c_0, std::log(reynolds / re_0) / std::log(re_1 / re_0));
-  }
-  return points.back()[1];
 }
 
 TEST_CASE("a cylinder's drag is as measured, and its slope that of differences") {
