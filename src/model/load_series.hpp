@@ -83,7 +83,7 @@ LoadSeries<Parts> slope_of(const LoadSeries<Parts>& series, double width) {
   return slope;
 }
 
-/// Of every term of a series.
+/// What the terms of a series are times at one place.
 struct AtPlace {
   std::array<double, load_degree + 1> value{};
   std::array<double, load_degree + 1> slope{};  ///< by the natural logarithm of what spans `width`

@@ -252,6 +252,7 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted, double
   constexpr int most_steps = 60;
   constexpr double longest_step = 1.5;
   constexpr double back_to_falling = 0.5;
+  // GCC 12 takes what an optional holds here for uninitialised.
   struct Side {
     bool known = false;
     OnWinch::Aside at;
