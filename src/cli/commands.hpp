@@ -88,6 +88,10 @@ struct SpecOptions {
 /// The spec, read with its changes.
 [[nodiscard]] DesignFile read_spec(const SpecOptions& spec);
 
+/// Remarks which changes are of fields that `option` of the command gives values of its own.
+void remark_unused(const SpecOptions& spec, std::span<const SweepAxis> axes,
+                   std::string_view command, std::string_view option);
+
 int run_optimize(const SpecOptions& spec, const Output& output);
 
 /// `areas_mm2` as typed; without any, at the spec's own cross-section.

@@ -115,6 +115,16 @@ ReferenceCheck checked(const fs::path& spec) {
 
 DesignFile read_spec(const SpecOptions& spec) { return read_design(spec.file, spec.overrides); }
 
+void remark_unused(const SpecOptions& spec, std::span<const SweepAxis> axes,
+                   std::string_view command, std::string_view option) {
+  for (const std::string& set : spec.overrides) {
+    const std::string path = set.substr(0, set.find('='));
+    if (std::ranges::count(axes, path, &SweepAxis::name) == 0) continue;
+    remark(fmt::format("{}: --set {} is not used: {} gives {} its values\n", command, set, option,
+                       path));
+  }
+}
+
 int run_optimize(const SpecOptions& spec, const Output& output) {
   const DesignFile file = read_spec(spec);
   const OptimumStudy answer = study_optimum(file.design, wire_sizes());
@@ -156,7 +166,9 @@ int run_compare(const SpecOptions& spec, const std::vector<std::string>& motors,
 
 int run_design(const SpecOptions& spec, const DesignRequest& request, const Output& output) {
   const DesignFile file = read_spec(spec);
-  const DesignStudy answer = study_design(read_design_request(file, request));
+  const DesignQuestion question = read_design_request(file, request);
+  remark_unused(spec, question.problem.free, "design", "--free");
+  const DesignStudy answer = study_design(question);
   emit(
       output, [&] { return design_text(file, request, answer, style_for(output)); },
       [&] { return design_json(file, request, answer); },
@@ -291,7 +303,8 @@ int run_list(const std::string& what, const Output& output) {
 int run_check(const CheckOptions& options, const Output& output) {
   std::vector<ReferenceCheck> checks;
   for (const auto& spec : reference_specs(options.paths)) checks.push_back(checked(spec));
-  if (!options.junit_file.empty()) write_whole_file(options.junit_file, check_junit(checks));
+  if (!options.junit_file.empty())
+    write_whole_file(options.junit_file, check_junit(checks, options.update));
 
   std::vector<InputProblem> problems;
   for (const ReferenceCheck& check : checks) {

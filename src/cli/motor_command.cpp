@@ -273,31 +273,6 @@ ShownMotor shown_motor(const MotorOptions& options) {
   return out;
 }
 
-/// The throttles of a bench as outputs.
-std::vector<ThrottledThrust> outputs_of(const MotorBench& bench, const std::string& file,
-                                        const PulseRange& pulses) {
-  const bool has_throttle = std::ranges::any_of(
-      bench.throttled, [](const MotorBench::Row& row) { return std::isfinite(row.throttle); });
-  if (!has_throttle) {
-    throw InputError(file,
-                     "has no column of the throttle, from which --parameters is fitted; say "
-                     "which is: --columns throttle_percent=HEADER or throttle_us=HEADER");
-  }
-  if (bench.throttle_unit == ThrottleUnit::unknown) {
-    throw InputError(file,
-                     "does not say what its throttle is counted in; say it: --columns "
-                     "throttle_percent=HEADER or throttle_us=HEADER");
-  }
-  const bool is_pulse = bench.throttle_unit == ThrottleUnit::microseconds;
-  std::vector<ThrottledThrust> out;
-  for (const MotorBench::Row& row : bench.throttled) {
-    const double output = is_pulse ? (row.throttle - pulses.least) / (pulses.most - pulses.least)
-                                   : row.throttle / 100;
-    out.push_back({output, row.thrust});
-  }
-  return out;
-}
-
 /// Prints the thrust curve in the terms of an autopilot.
 void print_thrust_curve(const MotorOptions& options, const Output& output) {
   if (output.format != Format::table) {
@@ -311,7 +286,7 @@ void print_thrust_curve(const MotorOptions& options, const Output& output) {
                           options.pwm_max_us.value_or(PulseRange{}.most)};
   const std::string& file = options.files.front();
   try {
-    const ThrustExpo curve = fit_thrust_expo(outputs_of(bench, file, pulses), range);
+    const ThrustExpo curve = fit_thrust_expo(throttled_thrust(bench, file, pulses), range);
     const bool is_pulse = bench.throttle_unit == ThrottleUnit::microseconds;
     emit(output, thrust_expo_file(bench.motor, curve, range,
                                   is_pulse ? std::optional(pulses) : std::nullopt));

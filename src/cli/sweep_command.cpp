@@ -165,15 +165,6 @@ void check_options(const SweepOptions& options, Problems& problems) {
   }
 }
 
-/// Of the fields that vary, those that were set as well.
-void tell_unused(const SweepOptions& options, const SweepSpace& space) {
-  for (const std::string& set : options.spec.overrides) {
-    const std::string path = set.substr(0, set.find('='));
-    if (std::ranges::count(space.axes(), path, &SweepAxis::name) == 0) continue;
-    remark(fmt::format("sweep: --set {} is not used: --vary gives {} its values\n", set, path));
-  }
-}
-
 /// One run's rows: which they are, and how they read.
 struct Sweep {
   const SweepSpace& space;
@@ -286,7 +277,7 @@ int run_sweep(const SweepOptions& options) {
   std::optional<SampleRequest> sample;
   if (options.sample) sample = {*options.sample, options.method, options.seed.value_or(0)};
   const SweepSpace space = read_sweep_space(options.varied, base, sample);
-  tell_unused(options, space);
+  remark_unused(options.spec, space.axes(), "sweep", "--vary");
   remark_warnings("sweep", sweep_warnings(base, space, ground_contact(space, base.design)));
   const ChunkRunner runner = several_threads(options.jobs > 0 ? options.jobs : all_cores());
 

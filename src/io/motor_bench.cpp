@@ -637,6 +637,30 @@ MotorBench motor_from_bench(std::span<const LoadedText> tables, const MotorBench
   return out;
 }
 
+std::vector<ThrottledThrust> throttled_thrust(const MotorBench& bench, const std::string& file,
+                                              const PulseRange& pulses) {
+  const bool has_throttle = std::ranges::any_of(
+      bench.throttled, [](const MotorBench::Row& row) { return std::isfinite(row.throttle); });
+  if (!has_throttle) {
+    throw InputError(file,
+                     "has no column of the throttle, from which --parameters is fitted; say "
+                     "which is: --columns throttle_percent=HEADER or throttle_us=HEADER");
+  }
+  if (bench.throttle_unit == ThrottleUnit::unknown) {
+    throw InputError(file,
+                     "does not say what its throttle is counted in; say it: --columns "
+                     "throttle_percent=HEADER or throttle_us=HEADER");
+  }
+  const bool is_pulse = bench.throttle_unit == ThrottleUnit::microseconds;
+  std::vector<ThrottledThrust> out;
+  for (const MotorBench::Row& row : bench.throttled) {
+    const double output = is_pulse ? (row.throttle - pulses.least) / (pulses.most - pulses.least)
+                                   : row.throttle / 100;
+    out.push_back({output, row.thrust});
+  }
+  return out;
+}
+
 nlohmann::ordered_json motor_document(const MotorEntry& motor) {
   constexpr int digits = 6;  // of a measurement that has three
   nlohmann::ordered_json out;

@@ -126,7 +126,7 @@ std::string check_csv(std::span<const ReferenceCheck> checks) {
   return out;
 }
 
-std::string check_junit(std::span<const ReferenceCheck> checks) {
+std::string check_junit(std::span<const ReferenceCheck> checks, bool updated) {
   const std::size_t errors = count_status(checks, "error");
   const std::size_t failures = checks.size() - errors - count_status(checks, "ok");
   const std::string counts =
@@ -147,7 +147,7 @@ std::string check_junit(std::span<const ReferenceCheck> checks) {
     out +=
         fmt::format("{}>\n      <{} type=\"{}\" message=\"{}\"/>\n    </testcase>\n", opening,
                     check.problems.empty() ? "failure" : "error", status_of(check),
-                    attribute_text(fmt::format("{}", fmt::join(complaints(check, false), "\n"))));
+                    attribute_text(fmt::format("{}", fmt::join(complaints(check, updated), "\n"))));
   }
   return out + "  </testsuite>\n</testsuites>\n";
 }

@@ -106,8 +106,11 @@ TEST_CASE("a design without a record fails until it has one") {
   copy_design(folder.path());
   fs::remove(folder.path() / "power-line-hover.expected.json");
   const std::string spec = (folder.path() / "power-line-hover.json").string();
-  CHECK(run_tethercalc({"check", spec}).exit_code == 1);
-  CHECK(run_tethercalc({"check", spec, "--update"}).exit_code == 0);
+  const std::string junit = (folder.path() / "report.xml").string();
+  CHECK(run_tethercalc({"check", spec, "--junit", junit}).exit_code == 1);
+  CHECK_THAT(file_text(junit), Contains("message=\"no record; --update makes one\""));
+  CHECK(run_tethercalc({"check", spec, "--update", "--junit", junit}).exit_code == 0);
+  CHECK_THAT(file_text(junit), Contains("message=\"had no record\""));
   CHECK(run_tethercalc({"check", spec}).exit_code == 0);
 }
 

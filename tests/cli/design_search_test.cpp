@@ -98,6 +98,16 @@ TEST_CASE("where leaning less saves power, no wind is ruled out unseen") {
   CHECK(json::parse(found.out)["value"].get<double>() <= least * (1 + 1e-9));
 }
 
+TEST_CASE("a field that is set and free is told to be free") {
+  const std::vector<std::string> free{"--free", "tether.conductor=copper,aluminium"};
+  std::vector<std::string> also_set = free;
+  also_set.insert(also_set.end(), {"--set", "tether.conductor=aluminium"});
+  const Ran run = design(also_set);
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("--set tether.conductor=aluminium is not used: --free gives"));
+  CHECK(run.out == design(free).out);
+}
+
 TEST_CASE("the price of a metre is what a metre more costs") {
   const json at =
       json::parse(design({"--free", "supply.voltage_V=40..60", "--format", "json"}).out);

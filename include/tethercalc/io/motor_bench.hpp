@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tethercalc/identify/thrust_expo.hpp"
 #include "tethercalc/io/library.hpp"
 #include "tethercalc/study/flown_motor.hpp"
 
@@ -62,6 +63,14 @@ struct MotorBench {
 /// numbers that are none, more than one motor, propeller or nominal voltage among the rows.
 [[nodiscard]] MotorBench motor_from_bench(std::span<const LoadedText> tables,
                                           const MotorBenchOptions& options = {});
+
+/// The rows of a bench by the output that an autopilot gives, for `fit_thrust_expo`: a throttle in
+/// percent is the output's, one in microseconds runs over `pulses`.
+///
+/// Throws InputError, in the name of `file`, where no row has a throttle or its unit is unknown.
+[[nodiscard]] std::vector<ThrottledThrust> throttled_thrust(const MotorBench& bench,
+                                                            const std::string& file,
+                                                            const PulseRange& pulses);
 
 /// A motor as a motor file, which `find_motor` reads back: texts that are empty and numbers that
 /// are absent left out.

@@ -25,6 +25,6 @@ namespace tethercalc {
 
 /// A JUnit XML report, which CI systems read: a test case a design, a failure where it drifted or
 /// has no record, an error where it could not be checked.
-[[nodiscard]] std::string check_junit(std::span<const ReferenceCheck> checks);
+[[nodiscard]] std::string check_junit(std::span<const ReferenceCheck> checks, bool updated);
 
 }  // namespace tethercalc
