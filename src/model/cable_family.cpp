@@ -10,6 +10,10 @@ namespace {
 
 /// Of squares in which not all cables hang: narrower ones along that border would be many.
 constexpr double narrowest_square = 1.0 / 32;
+/// Where a winch decides how much is paid out: octaves of drag over weight, and what last terms may
+/// be of the tension. Between radii such a load is a cubic, which misses by 1e-5.
+constexpr double widest_on_winch = 1;
+constexpr double little_on_winch = 1e-7;
 /// Of the share of the wind that no profile shapes: over a quarter of it forces bend as over an
 /// octave.
 constexpr double share_scale = 4;
@@ -96,8 +100,7 @@ bool CableFamily::solve(const Bounds& bounds, LoadSeries<terms>& series, double&
       LoadShares shares{};
       const double ratio = first * std::exp2(load_place(bounds.ratio, bounds.ratio_width, j));
       if (solve_shares(cable, solver, ratio, shares) != CableOutcome::hangs) return false;
-      std::copy_n(shares.begin(), parts - 1, along[j].begin());
-      along[j].back() = shares.back();
+      along[j] = shares;
       tension = std::max(tension, shares[2]);
     }
     along = series_through(along);
@@ -115,11 +118,12 @@ void CableFamily::make(Square& square, const Bounds& bounds) const {
   LoadSeries<terms> series{};
   double tension = 0;
   const bool hangs = solve(bounds, series, tension);
+  const double little = number_ == CableNumber::winch_tension ? little_on_winch : little_of_tension;
   const auto converges_by_ratio = [&](const std::array<double, terms>& of_number) {
-    return is_converged(unpacked<parts>(of_number), tension);
+    return is_converged(unpacked<parts>(of_number), tension, little);
   };
   const bool by_ratio = hangs && std::all_of(series.begin(), series.end(), converges_by_ratio);
-  const bool by_number = hangs && is_converged(series, tension);
+  const bool by_number = hangs && is_converged(series, tension, little);
   if (by_ratio && by_number) {
     square.series = std::make_unique<LoadSeries<terms>>(series);
     square.kind = Kind::smooth;
@@ -140,22 +144,24 @@ void CableFamily::make(Square& square, const Bounds& bounds) const {
   square.halves = std::make_unique<std::array<Square, 2>>();
 }
 
-std::pair<const CableFamily::Square*, CableFamily::Bounds> CableFamily::square_about(
+std::pair<CableFamily::Square*, CableFamily::Bounds> CableFamily::square_about(
     double octaves, double place, double narrowest) const {
   using Kind = Square::Kind;
-  const auto number_of = [](double x) { return static_cast<int>(std::floor(x / widest_piece)); };
-  const std::pair which{number_of(octaves), number_of(place)};
+  const auto number_of = [](double x, double width) {
+    return static_cast<int>(std::floor(x / width));
+  };
+  const double by_ratio = number_ == CableNumber::winch_tension ? widest_on_winch : widest_piece;
+  const std::pair which{number_of(octaves, by_ratio), number_of(place, widest_piece)};
   Square* square = &squares_[which];
-  Bounds bounds{widest_piece * which.first, widest_piece, widest_piece * which.second,
-                widest_piece};
+  Bounds bounds{by_ratio * which.first, by_ratio, widest_piece * which.second, widest_piece};
   for (;;) {
     if (square->kind == Kind::unknown) make(*square, bounds);
-    const bool by_ratio = square->kind == Kind::halved_by_ratio;
-    if (!square->halves || (by_ratio && bounds.ratio_width <= narrowest)) return {square, bounds};
-    double& from = by_ratio ? bounds.ratio : bounds.number;
-    double& width = by_ratio ? bounds.ratio_width : bounds.number_width;
+    const bool halved = square->kind == Kind::halved_by_ratio;
+    if (!square->halves || (halved && bounds.ratio_width <= narrowest)) return {square, bounds};
+    double& from = halved ? bounds.ratio : bounds.number;
+    double& width = halved ? bounds.ratio_width : bounds.number_width;
     width /= 2;
-    const bool upper = (by_ratio ? octaves : place) >= from + width;
+    const bool upper = (halved ? octaves : place) >= from + width;
     if (upper) from += width;
     square = &(*square->halves)[upper ? 1 : 0];
   }
@@ -177,29 +183,39 @@ CableMemory::Piece CableFamily::along_ratio(double from, double width, double pl
   return CableMemory::Piece::smooth;
 }
 
+const CableFamily::Along& CableFamily::along_at(Square& square, const Bounds& bounds,
+                                                double place) {
+  constexpr std::size_t most_kept = 64;
+  if (square.along.size() >= most_kept && !square.along.contains(place)) square.along.clear();
+  const auto [known, is_new] = square.along.try_emplace(place);
+  Along& along = known->second;
+  if (!is_new) return along;
+  const AtPlace by_number = polynomials_at(bounds.number, bounds.number_width, place);
+  for (std::size_t j = 0; j <= load_degree; ++j) {
+    const LoadSeries<parts> term = unpacked<parts>((*square.series)[j]);
+    for (std::size_t k = 0; k <= load_degree; ++k) {
+      for (std::size_t i = 0; i < parts; ++i) {
+        along.value[k][i] += by_number.value[j] * term[k][i];
+        along.by_number[k][i] += by_number.slope[j] * term[k][i];
+      }
+    }
+  }
+  return along;
+}
+
 std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const {
   const double octaves = std::log2(ratio / first_ratio(one_));
   if (!(std::abs(octaves) < most_octaves) || !(std::abs(place) < most_octaves)) return std::nullopt;
   const auto& [square, bounds] = square_about(octaves, place);
   if (square->kind != Square::Kind::smooth) return std::nullopt;
-  const AtPlace by_number = polynomials_at(bounds.number, bounds.number_width, place);
-  std::array<double, terms> of_ratio{};
-  std::array<double, terms> slope_of_ratio{};
-  for (std::size_t k = 0; k <= load_degree; ++k) {
-    const std::array<double, terms>& term = (*square->series)[k];
-    for (std::size_t i = 0; i < terms; ++i) {
-      of_ratio[i] += by_number.value[k] * term[i];
-      slope_of_ratio[i] += by_number.slope[k] * term[i];
-    }
-  }
+  const Along& along = along_at(*square, bounds, place);
   const AtPlace by_ratio = polynomials_at(bounds.ratio, bounds.ratio_width, octaves);
   At at;
-  for (std::size_t i = 0; i < parts; ++i) {
-    const std::size_t part = i + 1 < parts ? i : at.value.size() - 1;
-    for (std::size_t k = 0; k <= load_degree; ++k) {
-      at.value[part] += by_ratio.value[k] * of_ratio[k * parts + i];
-      at.by_ratio[part] += by_ratio.slope[k] * of_ratio[k * parts + i];
-      at.by_number[part] += by_ratio.value[k] * slope_of_ratio[k * parts + i];
+  for (std::size_t k = 0; k <= load_degree; ++k) {
+    for (std::size_t i = 0; i < parts; ++i) {
+      at.value[i] += by_ratio.value[k] * along.value[k][i];
+      at.by_ratio[i] += by_ratio.slope[k] * along.value[k][i];
+      at.by_number[i] += by_ratio.value[k] * along.by_number[k][i];
     }
   }
   return at;

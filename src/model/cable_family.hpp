@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "model/cable_memory.hpp"
@@ -26,9 +28,9 @@ enum class CableNumber {
 ///
 /// Over the logarithm of drag over weight, as in `SimilarCables`, and the number's scale forces are
 /// polynomials of degree 8 in both through 81 solved cables, on squares of a quarter of an octave
-/// or on halves of halves of those until what they miss is about 1e-9 of the tension. A square is
-/// always the same, whatever was asked for before. Remembers what it solved; not for two threads at
-/// once.
+/// or on halves of halves of those until what they miss is about 1e-9 of the tension; on a winch an
+/// octave of drag over weight, and 1e-7. A square is always the same, whatever was asked for
+/// before. Remembers what it solved; not for two threads at once.
 class CableFamily {
  public:
   /// `one` is any cable of it.
@@ -49,14 +51,19 @@ class CableFamily {
   [[nodiscard]] std::optional<At> at(double drag_over_weight, double place) const;
 
  private:
-  /// Those four and the length.
-  static constexpr std::size_t parts = 5;
+  static constexpr std::size_t parts = std::tuple_size_v<LoadShares>;
   /// A series of the number for each term of a series of the ratio.
   static constexpr std::size_t terms = parts * (load_degree + 1);
+  /// The series of the ratio at one place of the number, and their slopes by its logarithm.
+  struct Along {
+    LoadSeries<parts> value{};
+    LoadSeries<parts> by_number{};
+  };
   struct Square {
     enum class Kind { unknown, smooth, halved_by_ratio, halved_by_number, given_up };
     Kind kind = Kind::unknown;
     std::unique_ptr<LoadSeries<terms>> series{};
+    std::unordered_map<double, Along> along{};  ///< by the place: rows of a sweep have the same
     std::unique_ptr<std::array<Square, 2>> halves{};
   };
   /// Where a square begins, and how wide it is.
@@ -71,8 +78,11 @@ class CableFamily {
   /// Whether the cables of the square hang, and their series.
   [[nodiscard]] bool solve(const Bounds& bounds, LoadSeries<terms>& series, double& tension) const;
   /// The square about a point that is not halved, or by number alone down to this width by ratio.
-  [[nodiscard]] std::pair<const Square*, Bounds> square_about(double octaves, double place,
-                                                              double narrowest = 0) const;
+  [[nodiscard]] std::pair<Square*, Bounds> square_about(double octaves, double place,
+                                                        double narrowest = 0) const;
+
+  /// Of a smooth square.
+  [[nodiscard]] static const Along& along_at(Square& square, const Bounds& bounds, double place);
 
   HangingSituation one_;
   CableNumber number_;

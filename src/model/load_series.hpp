@@ -56,12 +56,13 @@ LoadSeries<Parts> series_through(const LoadSeries<Parts>& values) {
   return series;
 }
 
-/// Whether no part of the last two terms is more than little of `tension`.
+/// Whether no part of the last two terms is more than `little` of `tension`.
 template <std::size_t Parts>
-bool is_converged(const LoadSeries<Parts>& series, double tension) {
+bool is_converged(const LoadSeries<Parts>& series, double tension,
+                  double little = little_of_tension) {
   for (std::size_t k = load_degree - 1; k <= load_degree; ++k) {
     for (const double part : series[k]) {
-      if (!(std::abs(part) < little_of_tension * tension)) return false;
+      if (!(std::abs(part) < little * tension)) return false;
     }
   }
   return true;
