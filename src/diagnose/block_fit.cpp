@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "identify/statistics.hpp"
+#include "model/constants.hpp"
 
 namespace tethercalc {
 namespace {
@@ -187,6 +189,33 @@ class FreedModel {
            (values_[index] >= p.upper && gradient >= 0);
   }
 
+  /// The part of `step` after which the parameter of column k is stopped by a bound; +infinity
+  /// where it is not.
+  [[nodiscard]] double part_to_bound(Index k, const VectorXd& step) const {
+    if (k >= static_cast<Index>(free_.size())) return infinity;
+    const std::size_t index = free_[static_cast<std::size_t>(k)];
+    const ModelParameter& p = record_->parameters()[index];
+    const double value = values_[index];
+    double base = 1;
+    double base_change = 0;
+    if (p.product_with && values_[*p.product_with] > 0) {
+      base = values_[*p.product_with];
+      const auto other = std::find(free_.begin(), free_.end(), *p.product_with);
+      if (other != free_.end()) {
+        base_change = record_->parameters()[*other].scale * step[other - free_.begin()];
+      }
+    }
+    // Their product moves straight, so the distance of a ratio counts by what it is a ratio to.
+    const auto to = [&](double bound, double outward) {
+      if (!std::isfinite(bound)) return infinity;
+      const double distance = outward * base * (bound - value);
+      const double speed = outward * (base * p.scale * step[k] + (value - bound) * base_change);
+      if (distance <= 0) return speed >= 0 ? 0 : infinity;
+      return speed > 0 ? distance / speed : infinity;
+    };
+    return std::min(to(p.lower, -1), to(p.upper, 1));
+  }
+
  private:
   const Record* record_;
   std::vector<double> values_;
@@ -229,25 +258,47 @@ struct WeightedMinimum {
 /// The normal equations of the parameters that no bound holds.
 class NormalEquations {
  public:
-  explicit NormalEquations(const WeightedMinimum& at) : step_(VectorXd::Zero(at.model.size())) {
-    const VectorXd gradient = at.gradient();
-    kept_ = columns_not_held(at.model, gradient);
-    normal_ = normal_matrix(at.jacobian(Eigen::all, kept_), at.weight);
-    gradient_ = gradient(kept_);
-  }
-  /// Of all parameters, those that are held staying where they are.
-  [[nodiscard]] VectorXd step(double damping) const {
-    VectorXd step = step_;
-    step(kept_) = solve_loaded(normal_, gradient_, damping);
-    return step;
+  explicit NormalEquations(const WeightedMinimum& at)
+      : normal_(normal_matrix(at.jacobian, at.weight)),
+        gradient_(at.gradient()),
+        kept_(columns_not_held(at.model, gradient_)) {}
+
+  /// Holds what a bound stops on the way to the minimum, the nearest first. Where a search ends,
+  /// slopes do not tell what its bounds hold: that of a ratio is nearly that of what it is a ratio
+  /// to, which there is zero but for rounding. Far from the minimum the way to it tells nothing.
+  void hold_what_is_stopped(const FreedModel& model) {
+    kept_.resize(static_cast<std::size_t>(model.size()));
+    std::iota(kept_.begin(), kept_.end(), Index{0});
+    for (;;) {
+      const VectorXd whole = step(loading);
+      const auto part = [&](Index k) { return model.part_to_bound(k, whole); };
+      const auto first = std::ranges::min_element(kept_, {}, part);
+      if (first == kept_.end() || part(*first) >= 1) return;
+      kept_.erase(first);
+    }
   }
 
+  /// Of all parameters, those that are held staying where they are.
+  [[nodiscard]] VectorXd step(double damping) const {
+    VectorXd step = VectorXd::Zero(gradient_.size());
+    step(kept_) = solve_loaded(normal_(kept_, kept_), gradient_(kept_), damping);
+    return step;
+  }
+  /// Columns of the jacobian.
+  [[nodiscard]] const std::vector<Index>& kept() const { return kept_; }
+
  private:
-  std::vector<Index> kept_;
   MatrixXd normal_;
   VectorXd gradient_;
-  VectorXd step_;  ///< none
+  std::vector<Index> kept_;
 };
+
+/// Where the search has ended.
+NormalEquations equations_at_end(const WeightedMinimum& at) {
+  NormalEquations equations(at);
+  equations.hold_what_is_stopped(at.model);
+  return equations;
+}
 
 /// Undamped steps from a converged fit for as long as each is shorter than the one before, which
 /// is down to rounding: where a search ends depends on how it came there. What is left of the
@@ -265,7 +316,7 @@ void polish(WeightedMinimum& minimum) {
   VectorXd move;
   for (int i = 0; i < most_steps; ++i) {
     look_around();
-    const VectorXd step = NormalEquations(minimum).step(loading);
+    const VectorXd step = equations_at_end(minimum).step(loading);
     const VectorXd change = minimum.jacobian * step;
     if (!(change.norm() < shortest)) break;
     shortest = change.norm();
@@ -455,7 +506,7 @@ BlockFit fit_blocks(const Record& record, const Freed& freed, const BlockFit* ne
   fit.freed = freed;
   fit.values = model.values();
   fit.coefficients = model.coefficients();
-  const std::vector<Index> kept = columns_not_held(model, minimum.gradient());
+  const std::vector<Index> kept = equations_at_end(minimum).kept();
   for (const Index k : kept) {
     if (k < static_cast<Index>(model.free().size())) {
       fit.active.push_back(model.free()[static_cast<std::size_t>(k)]);

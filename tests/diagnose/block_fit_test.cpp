@@ -39,7 +39,53 @@ SelectionProblem bent_model(std::uint64_t seed) {
   return problem;
 }
 
+/// y = a·(x·|x| + j·x) of a drag that is all linear: the ratio j runs to its upper end, along a
+/// valley in which a falls as j rises.
+SelectionProblem linear_drag(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  SelectionProblem problem;
+  std::vector<double> speed;
+  for (std::size_t i = 0; i < rows; ++i) {
+    speed.push_back(6 * std::sin(0.07 * static_cast<double>(i)));
+    problem.measured.push_back(0.3 * speed[i] - 0.004 * speed[i] * std::abs(speed[i]) +
+                               0.2 * normal(random));
+    problem.block.push_back(static_cast<int>(8 * i / rows));
+  }
+  problem.noise.assign(rows, 0.2);
+  problem.predict = [speed](std::span<const double> p, std::span<double> out) {
+    for (std::size_t i = 0; i < rows; ++i) {
+      out[i] = p[0] * (speed[i] * std::abs(speed[i]) + p[1] * speed[i]);
+    }
+  };
+  const ModelParameter area{.upper = 10, .scale = 5e-3, .start = 0.015};
+  const ModelParameter ratio{.upper = 1000, .scale = 5, .product_with = 0};
+  problem.groups = {{.id = "drag", .fitted = true, .parameters = {area, ratio}}};
+  return problem;
+}
+
 }  // namespace
+
+TEST_CASE("what a fit holds at a bound does not hang on the last digits of where it began") {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const SelectionProblem problem = linear_drag(seed);
+    const Record record(problem);
+    const Freed all{{0}, {}};
+    const BlockFit first = fit_blocks(record, all, nullptr);
+    REQUIRE(first.values[1] == Approx(1000).epsilon(1e-2));
+    CHECK(first.active == std::vector<std::size_t>{0});
+    std::mt19937_64 random(seed + 200);
+    std::uniform_real_distribution<double> off(-1e-3, 1e-3);
+    for (int k = 0; k < 20; ++k) {
+      BlockFit start = first;
+      start.values[0] *= 1 + off(random);
+      start.values[1] = std::min(1000.0, start.values[1] * (1 + off(random)));
+      const BlockFit second = fit_blocks(record, all, &start);
+      CHECK(second.active == first.active);
+      CHECK(second.squared_error() == Approx(first.squared_error()).epsilon(1e-5));
+    }
+  }
+}
 
 TEST_CASE("a fit that is reported is the same to twelve digits wherever it started") {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,15 +65,34 @@ std::string matrice(const test::TemporaryFolder& folder) {
   return spec;
 }
 
-nlohmann::json diagnosed(const std::string& spec, const std::vector<std::string>& further) {
-  std::vector<std::string> arguments{
-      "diagnose", spec,  "--free-flight", "--columns", fmt::format("{}", fmt::join(columns, ",")),
-      "--format", "json"};
+nlohmann::json answered(const std::string& spec, const std::vector<std::string>& further) {
+  std::vector<std::string> arguments{"diagnose",  spec,
+                                     "--columns", fmt::format("{}", fmt::join(columns, ",")),
+                                     "--format",  "json"};
   arguments.insert(arguments.end(), further.begin(), further.end());
   const test::Ran ran = test::run_tethercalc(arguments);
   INFO(ran.err);
   REQUIRE(ran.exit_code == 0);
   return nlohmann::json::parse(ran.out);
+}
+
+/// Of the power of a flight from its battery.
+nlohmann::json diagnosed(const std::string& spec, std::vector<std::string> further) {
+  further.emplace_back("--free-flight");
+  return answered(spec, further);
+}
+
+/// The published file, whose first column is the time.
+std::string with_clock_ahead(const std::string& file, double shift) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  std::string text = line + "\n";
+  while (std::getline(in, line)) {
+    const std::size_t comma = line.find(',');
+    text += fmt::format("{:.3f}{}\n", std::stod(line.substr(0, comma)) + shift, line.substr(comma));
+  }
+  return text;
 }
 
 /// The spec with what flight 273 tells of a guessed motor: its factor is no finding but what the
@@ -103,6 +124,33 @@ TEST_CASE("a payload shows in a battery flight after one without has told of the
     CHECK(mass < 0.65);
   } else {
     CHECK(std::ranges::count(rivals, "extra_mass") > 0);
+  }
+}
+
+TEST_CASE("what a flight is told of does not hang on when its clock began") {
+  for (const int number : {268, 269, 273}) {
+    const auto file = flight(number);
+    if (!file) return;
+    const test::TemporaryFolder folder;
+    const std::string spec = matrice(folder);
+    std::vector<std::set<std::string>> told;
+    for (const double shift : {0.0, 1.0, 7.3, -13.37, 1000.0, 86400.123}) {
+      const std::string shifted = (folder.path() / "shifted.csv").string();
+      test::write_file(shifted, with_clock_ahead(*file, shift));
+      std::set<std::string>& names = told.emplace_back();
+      const nlohmann::json answer = answered(spec, {"--flight", shifted});
+      for (const nlohmann::json& finding : answer.at("findings")) {
+        names.insert(finding.at("effect"));
+        for (const nlohmann::json& rival : finding.at("indistinguishable_from")) {
+          names.insert("or " + rival.get<std::string>());
+        }
+      }
+      for (const nlohmann::json& out : answer.at("ruled_out")) {
+        names.insert("not " + out.at("effect").get<std::string>());
+      }
+    }
+    INFO("flight " << number);
+    for (const std::set<std::string>& names : told) CHECK(names == told.front());
   }
 }
 
