@@ -628,6 +628,7 @@ std::vector<Effect> flight_effects() {
                        .lower = least_velocity_scale,
                        .upper = 5,
                        .scale = 0.02}},
+       .needs = {"vd_m_s"},
        .to_separate = "compare a measured distance with the log's",
        .change = "u → u/s, a → s·a",
        .channel = "forward_speed",

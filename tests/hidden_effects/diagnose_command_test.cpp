@@ -430,7 +430,7 @@ TEST_CASE("effects whose channel is missing are not testable, the others are jud
   CHECK(lists(d["not_testable"], "vertical_coupling"));
   const Ran story = diagnose(arguments);
   check_readable(story.out);
-  CHECK_THAT(story.out, Catch::Contains("vertical coupling: needs"));
+  CHECK_THAT(story.out, Catch::Contains("vertical coupling, velocity scale: needs"));
   CHECK_THAT(story.out, Catch::Contains("roll_deg is missing: taken for level flight."));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hidden_effects/diagnosed.hpp"
+#include "hidden_effects/drawn_flight.hpp"
 #include "support/random.hpp"
 #include "support/verdicts.hpp"
 #include "tethercalc/diagnose/catalogue.hpp"
@@ -97,6 +98,28 @@ TEST_CASE("without a down velocity vertical coupling is not testable, the rest i
   CHECK(lists(d.not_testable, "vertical_coupling"));
   REQUIRE_FALSE(d.findings.empty());
   CHECK(d.findings.front().effect == "propwash");
+}
+
+TEST_CASE("without a down velocity thrust that varies with the lean is no velocity scale") {
+  for (int draw = 0; draw < test::draws(6); ++draw) {
+    HiddenFlight hidden = truth::drawn_flight(700 + static_cast<std::uint64_t>(draw));
+    // It sinks as it leans, by up to 4.6 m/s, or its logged velocities are a sixth too large.
+    const bool scaled = draw % 3 == 2;
+    if (scaled) {
+      hidden.velocity_scale = 1.15;
+    } else {
+      hidden.rise_with_lean = -30;
+    }
+    FlightLog log = truth::fly(hidden);
+    INFO("draw " << draw);
+    if (scaled) CHECK(lists(diagnosed(hidden, log).findings, "velocity_scale"));
+    log.down_velocity.clear();
+    const Diagnosis d = diagnosed(hidden, log);
+    CHECK_FALSE(lists(d.findings, "velocity_scale"));
+    CHECK(lists(d.not_testable, "velocity_scale"));
+    // The pitch by itself: a factor of the thrust.
+    if (scaled) CHECK(d.unexplained.detected);
+  }
 }
 
 TEST_CASE("a log too short names nothing and says what it needs") {

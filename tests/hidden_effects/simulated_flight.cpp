@@ -311,7 +311,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
     const double old_down = down;
     const double climbing = -h.climb * std::numbers::pi / climb_period *
                             std::sin(2 * std::numbers::pi * time / climb_period);
-    down += (sinking.next(random) + climbing + autopilot.sinking() - down) * step /
+    const double rising = h.rise_with_lean * (1 / std::cos(tilt) - 1);
+    down += (sinking.next(random) + climbing - rising + autopilot.sinking() - down) * step /
             0.6;  // smooth: inertia
     const double down_acceleration = (down - old_down) / step;
     height -= down * step;

@@ -71,6 +71,8 @@ struct HiddenFlight {
   /// m/s, white noise of an anemometer on board; 0: there is none.
   double anemometer_noise = 0;
   double climb = 0;  ///< m, a climb to this height and back every two minutes
+  /// m/s, how fast it rises for each 1/cos θ − 1 of its lean, by a thrust that was not asked for.
+  double rise_with_lean = 0;
 
   double attitude_delay = 0;  ///< s, attitude is logged this late
   double pitch_trim = 0;      ///< deg, logged minus true pitch
