@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "identify/statistics.hpp"
+#include "model/constants.hpp"
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
@@ -428,6 +429,73 @@ void check_bus_against_supply(const Design& design, const PowerLog& log, double 
       bus, given, at_drone ? " to the drone" : ""));
 }
 
+/// By how much more the power at the bus grows from the slowest fifth of the samples to the fastest
+/// one than `design` has it grow, as a logarithm. Beyond any tilt its power is without end.
+double growth_beyond(Design design, const PowerLog& log) {
+  constexpr double fifth = 0.2;
+  // How a cable hangs takes long to solve, and it has its drag on a straight line as well.
+  design.tether.model = TetherModel::straight;
+  const double slow = quantile(log.airspeed, fifth);
+  const double fast = quantile(log.airspeed, 1 - fifth);
+  HangingLoads loads;
+  const std::vector<double> expected = motor_power({design}, log, loads);
+  const std::vector<double> measured = bus_power_of(log);
+  std::vector<double> at_slow;
+  std::vector<double> at_fast;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (!(measured[i] > 0)) continue;
+    const double beyond =
+        std::isfinite(expected[i]) ? std::log(measured[i] / expected[i]) : -infinity;
+    if (log.airspeed[i] <= slow) at_slow.push_back(beyond);
+    if (log.airspeed[i] >= fast) at_fast.push_back(beyond);
+  }
+  if (at_slow.empty() || at_fast.empty()) return 0;
+  return median(std::move(at_fast)) - median(std::move(at_slow));
+}
+
+/// About so many samples of the log, at equal distances.
+PowerLog thinned(const PowerLog& log, std::size_t samples) {
+  const std::size_t stride = std::max<std::size_t>(1, log.time.size() / samples);
+  PowerLog thin;
+  thin.free_flight = log.free_flight;
+  const auto thin_out = [stride](const std::vector<double>& from, std::vector<double>& to) {
+    for (std::size_t i = 0; i < from.size(); i += stride) to.push_back(from[i]);
+  };
+  thin_out(log.time, thin.time);
+  for (const PowerChannel& channel : power_channels) {
+    thin_out(log.*channel.values, thin.*channel.values);
+  }
+  return thin;
+}
+
+/// Airspeeds in km/h read as m/s: the drag of the spec would take twice the power and more, and a
+/// sixth of it still too much, while at as many km/h all of it takes what was measured. Air that
+/// spares the motors power at speed may hide a drag, but not that much of one.
+void check_airspeeds(const Design& design, const PowerLog& whole,
+                     const std::function<void(const std::string&)>& report) {
+  constexpr double km_h = 1 / 3.6;
+  constexpr std::size_t enough_samples = 1000;
+  constexpr double twice = 0.7;        // as a logarithm
+  constexpr double clearly = 0.03;     // what the median of a fifth of a log knows
+  constexpr double far_better = 0.25;  // of what a sixth of the drag leaves
+  constexpr double least_drag = 1.0 / 6;
+  PowerLog log = thinned(whole, enough_samples);
+  const double too_little = growth_beyond(design, log);
+  if (too_little > -twice) return;
+  Design slippery = design;
+  slippery.drone.drag.front_area *= least_drag;
+  slippery.drone.drag.top_area *= least_drag;
+  slippery.tether.drag_coefficient *= least_drag;
+  const double still_too_little = growth_beyond(slippery, log);
+  if (still_too_little > -clearly) return;
+  for (double& airspeed : log.airspeed) airspeed *= km_h;
+  if (std::abs(growth_beyond(design, log)) > -far_better * still_too_little) return;
+  report(
+      fmt::format("at the airspeeds of up to {:.3g} m/s the drag of the spec would take far more "
+                  "power than was measured, at as many km/h just that; is airspeed_m_s in km/h?",
+                  quantile(whole.airspeed, 0.99)));
+}
+
 /// The tether takes voltage, the more the higher the current.
 void check_voltages(const PowerLog& log, const std::function<void(const std::string&)>& report) {
   const double voltage = median(log.supply_voltage);
@@ -512,6 +580,7 @@ void check_power_units(const Design& design, const PowerLog& log) {
   }
   if (!bus_power.empty() && problems.empty()) check_bus_power(design, bus_power, report);
   check_own_readings(log, report);
+  if (problems.empty() && is_measured(Stage::motors, log)) check_airspeeds(design, log, report);
   if (!log.free_flight && !log.height.empty()) check_heights(design, log.height, report);
   if (!log.ambient_temperature_C.empty()) {
     const double ambient = median(log.ambient_temperature_C);

@@ -65,9 +65,9 @@ void average_fast_samples(ScreenedPowerLog& screened);
 /// a drone voltage above the supply voltage, powers at the two ends of the tether that differ more
 /// than any converter explains, the same readings at both, a power at the bus that is less than
 /// a quarter of what carries the drone alone or far beyond what the motors take at most, heights
-/// beyond the tether, temperatures of no weather. Bounds leave room for the ammeter gains and spec
-/// errors that are effects. Medians are compared, or what nine tenths of the samples stay below, so
-/// that spikes do not matter.
+/// beyond the tether, airspeeds at which the drag would take far more, temperatures of no weather.
+/// Bounds leave room for the ammeter gains and spec errors that are effects. Medians are compared,
+/// or what nine tenths of the samples stay below, so that spikes do not matter.
 void check_power_units(const Design& design, const PowerLog& log);
 
 }  // namespace tethercalc

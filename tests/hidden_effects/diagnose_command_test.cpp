@@ -378,6 +378,8 @@ TEST_CASE("logs that cannot be what they say are refused with the reason, and no
   bad_power("voltages exchanged", {"drone_voltage_V", "supply_voltage_V"},
             [](PowerLog& l) { std::swap(l.drone_voltage, l.supply_voltage); });
   bad_power("feet", {"height_m", "feet"}, [&](PowerLog& l) { l.height = scaled(l.height, 3.281); });
+  bad_power("km/h", {"airspeed_m_s", "km/h"},
+            [&](PowerLog& l) { l.airspeed = scaled(l.airspeed, 3.6); });
   bad_power("heights counted downwards", {"height_m", "positive upwards"},
             [&](PowerLog& l) { l.height = scaled(l.height, -1); });
   bad_power("kelvin and an ammeter the wrong way round", {"kelvin", "supply_current_A"},
