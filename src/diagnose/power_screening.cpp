@@ -476,7 +476,7 @@ void check_airspeeds(const Design& design, const PowerLog& whole,
   constexpr double km_h = 1 / 3.6;
   constexpr std::size_t enough_samples = 1000;
   constexpr double twice = 0.7;        // as a logarithm
-  constexpr double clearly = 0.03;     // what the median of a fifth of a log knows
+  constexpr double too_much = 0.03;    // what the median of a fifth of a log knows
   constexpr double far_better = 0.25;  // of what a sixth of the drag leaves
   constexpr double least_drag = 1.0 / 6;
   PowerLog log = thinned(whole, enough_samples);
@@ -487,7 +487,7 @@ void check_airspeeds(const Design& design, const PowerLog& whole,
   slippery.drone.drag.top_area *= least_drag;
   slippery.tether.drag_coefficient *= least_drag;
   const double still_too_little = growth_beyond(slippery, log);
-  if (still_too_little > -clearly) return;
+  if (still_too_little > -too_much) return;
   for (double& airspeed : log.airspeed) airspeed *= km_h;
   if (std::abs(growth_beyond(design, log)) > -far_better * still_too_little) return;
   report(
