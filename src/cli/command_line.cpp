@@ -176,7 +176,7 @@ class Command {
   Command& flight(FlightOptions& flight) {
     group("Flight");
     option("--mass-g G", flight.mass_g, "Mass of the drone as flown, in g (default: the spec's)");
-    option("--from PLACE", flight.from, "First sample: seconds (120) or percent (25%)");
+    option("--from PLACE", flight.from, "First sample of a flight: seconds (120) or percent (25%)");
     option("--to PLACE", flight.to, "Last sample; with neither, what is flown is used");
     option("--pitch-offset-deg DEGREES", flight.pitch_offset_deg,
            "Pitch that the log shows in level flight, nose-up (default: 0)");
@@ -656,7 +656,8 @@ class CommandLine {
               "With what this flight log says: ArduPilot (.bin, .log), PX4 (.ulg) or CSV",
               "With what this power log says: the same, with voltage and current")
         .group("Rules")
-        .option("--rules BOOK", rules_, "With what published rules ask: eu-c3, uk or us")
+        .option("--rules BOOK", rules_,
+                "With what published rules ask: eu-c3, uk, us or electrical")
         .output_file(output_)
         .examples({"tethercalc report my.json --flight flight.bin --output report.html",
                    "tethercalc report my.json --rules eu-c3 --output report.html"});
@@ -748,11 +749,15 @@ class CommandLine {
       }
     }
     for (const auto& [option, file] : outputs) {
+      if (file == "-" && option != "--output") {
+        problems_.add(option, "\"-\" is no file: standard output has the answer itself");
+        continue;
+      }
       // Told before a long computation, not after it.
       if (file != "-") problems_.succeeds([&file = file] { check_can_be_written(file); });
       if (std::ranges::any_of(inputs,
                               [&file = file](const auto& read) { return same_file(file, read); })) {
-        problems_.add(option, "\"" + file + "\" is read; give another file to write");
+        problems_.add(option, is_read_words(file));
       }
       // A log behind --into, meant to be read, would be lost.
       if (option == "--into" && same_file(file, file) && !file.ends_with(".json")) {

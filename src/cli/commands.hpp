@@ -60,6 +60,17 @@ void be_quiet();
 /// the shell, without a word.
 [[noreturn]] void die_of_closed_pipe();
 
+/// Why a file that is read is not written.
+[[nodiscard]] std::string is_read_words(const std::string& file);
+
+/// Refuses to write what `option` names over a file that this run has read, whoever named that: an
+/// argument, a spec or a folder. Throws InputError.
+void check_not_read(const std::string& option, const std::string& file);
+
+/// Writes what `option` asks for, whole or not at all. Throws InputError where it cannot, and for a
+/// file that was read.
+void write_asked(const std::string& option, const std::string& file, std::string_view content);
+
 /// Writes the answer, to the file whole or not at all. Throws InputError where it cannot.
 void emit(const Output& output, const std::string& text);
 

@@ -304,7 +304,7 @@ int run_check(const CheckOptions& options, const Output& output) {
   std::vector<ReferenceCheck> checks;
   for (const auto& spec : reference_specs(options.paths)) checks.push_back(checked(spec));
   if (!options.junit_file.empty())
-    write_whole_file(options.junit_file, check_junit(checks, options.update));
+    write_asked("--junit", options.junit_file, check_junit(checks, options.update));
 
   std::vector<InputProblem> problems;
   for (const ReferenceCheck& check : checks) {

@@ -209,8 +209,8 @@ int run_drag(const DragOptions& options, const Output& output) {
     return done;
   }
   if (options.into) {
-    write_whole_file(options.into_file, spec_text(spec_with_drag(*file, result.fit),
-                                                  options.spec.file, options.into_file));
+    write_asked("--into", options.into_file,
+                spec_text(spec_with_drag(*file, result.fit), options.spec.file, options.into_file));
   }
   if (parameters) {
     emit(output, autopilot_parameter_file(result, *parameters));
@@ -242,12 +242,13 @@ int run_diagnose(const DiagnoseOptions& options, const Output& output) {
     return done;
   }
   if (!options.into_file.empty()) {
-    write_whole_file(options.into_file, spec_text(told.spec, options.spec.file, options.into_file));
+    write_asked("--into", options.into_file,
+                spec_text(told.spec, options.spec.file, options.into_file));
   }
   const bool planned = told.next_flight && !told.next_flight->manoeuvres.empty();
   if (planned) {
-    write_whole_file(options.next_flight_file,
-                     mission_text(*told.next_flight, target->home, target->format));
+    write_asked("--next-flight", options.next_flight_file,
+                mission_text(*told.next_flight, target->home, target->format));
   }
   tell(told, planned ? options.next_flight_file : "", output);
   std::vector<std::string> codes;

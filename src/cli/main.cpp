@@ -78,8 +78,21 @@ void die_of_closed_pipe() {
   std::_Exit(128 + SIGPIPE);  // where the signal is blocked
 }
 
+std::string is_read_words(const std::string& file) {
+  return fmt::format("\"{}\" is read; give another file to write", file);
+}
+
+void check_not_read(const std::string& option, const std::string& file) {
+  if (has_been_read(file)) throw InputError(option, is_read_words(file));
+}
+
+void write_asked(const std::string& option, const std::string& file, std::string_view content) {
+  check_not_read(option, file);
+  write_whole_file(file, content);
+}
+
 void emit(const Output& output, const std::string& text) {
-  if (!output.file.empty()) return write_whole_file(output.file, text);
+  if (!output.file.empty()) return write_asked("--output", output.file, text);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     if (errno == EPIPE) die_of_closed_pipe();
     throw InputError("standard output",
@@ -90,7 +103,10 @@ void emit(const Output& output, const std::string& text) {
 void emit_lines(const Output& output, const std::function<void(const LineTaker&)>& lines) {
   constexpr std::size_t part = std::size_t{1} << 20;
   std::optional<WholeFile> file;
-  if (!output.file.empty()) file.emplace(output.file);
+  if (!output.file.empty()) {
+    check_not_read("--output", output.file);
+    file.emplace(output.file);
+  }
   std::string kept;
   const auto pass_on = [&] {
     if (file) {

@@ -111,10 +111,10 @@ void check(const MotorOptions& options) {
     need("--figure-of-merit", options.figure_of_merit);
     need("--max-thrust-g", options.max_thrust_g);
   }
+  if (!flown && !options.batteries.empty()) {
+    problems.add("--battery", "chooses battery monitors of a --power-log; give one");
+  }
   if (options.files.empty()) {
-    if (!flown && !options.batteries.empty()) {
-      problems.add("--battery", "chooses battery monitors of a --power-log; give one");
-    }
     if (!flown && !options.columns.empty()) {
       problems.add("--columns", "names columns of a file; give one");
     }

@@ -285,6 +285,10 @@ int run_sweep(const SweepOptions& options) {
                     shard_rows(space.rows(), shard.part, shard.parts),
                     format == RowFormat::csv && shard.part == 1};
   tell_large(sweep.range);
+  for (const auto& [option, written] :
+       {std::pair{"--output", options.file}, std::pair{"--summary", options.summary_file}}) {
+    check_not_read(option, written);
+  }
   RowFile file = to_standard_output(options) ? RowFile::standard_output()
                  : options.resume            ? RowFile::resume(options.file)
                                              : RowFile::create(options.file);
@@ -306,7 +310,7 @@ int run_sweep(const SweepOptions& options) {
   if (summarised) {
     summary.sensitivity = sweep_sensitivity(space, base.design, runner);
     if (!options.summary_file.empty()) {
-      write_whole_file(options.summary_file, json_text(summary_json(summary, space)));
+      write_asked("--summary", options.summary_file, json_text(summary_json(summary, space)));
     }
     remark(summary_text(summary, space, {}));
   }

@@ -9,6 +9,7 @@
 #include "diagnose/flight_clock.hpp"
 #include "diagnose/flight_samples.hpp"
 #include "identify/flight_units.hpp"
+#include "identify/slow_log.hpp"
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
 
@@ -50,7 +51,6 @@ std::vector<bool> usable_samples(const FlightLog& log, const LogFaults& faults,
 /// Says what the times between samples cost.
 void tell_steps(const FlightRecord& record, double step, std::vector<Warning>& notes) {
   constexpr double many = 0.05;
-  constexpr double slowest = 0.75;  // s; two a second, and jitter
   std::size_t beside_long_ones = 0;
   for (std::size_t i = 1; i + 1 < record.size(); ++i) {
     beside_long_ones += is_beside_long_step(record, i, step) ? 1 : 0;
@@ -62,12 +62,7 @@ void tell_steps(const FlightRecord& record, double step, std::vector<Warning>& n
                                  "differences over stamps that jump are wrong as well",
                                  beside_long_ones, record.size(), step_tolerance, step)});
   }
-  if (step > slowest) {
-    notes.push_back({WarningKind::log_slow,
-                     fmt::format("one sample every {:.3g} s: what the drone did between them is "
-                                 "lost, and drag with it; log twice a second or faster",
-                                 step)});
-  }
+  if (auto slow = slow_log_warning(step)) notes.push_back(std::move(*slow));
 }
 
 FlightData read_flight(const Design& design, const MeasuredFlight& flight, double pitch_offset) {

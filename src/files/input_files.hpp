@@ -19,6 +19,9 @@ inline constexpr std::size_t text_file_limit = std::size_t{1} << 20;
 /// than `text_file_limit` bytes, of which no more is read.
 LoadedText read_text_file(const std::string& path);
 
+/// Whether `path` is a file that `read_text_file` has read in this process.
+[[nodiscard]] bool has_been_read(const std::filesystem::path& path);
+
 /// A whole file, read in place: a regular file is memory-mapped, so that only the pages looked at
 /// are loaded and none counts as memory of this process; a pipe or device is read into memory.
 /// The bytes stay valid as long as this object lives. The file must not be shortened meanwhile:

@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -63,6 +65,34 @@ std::string read_to_end(int descriptor, const std::string& name, std::size_t mos
   return all;
 }
 
+using FileIdentity = std::pair<dev_t, ino_t>;
+
+/// Those that were read, by whichever name.
+class FilesRead {
+ public:
+  void add(int descriptor) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    const std::lock_guard lock(mutex_);
+    files_.insert({status.st_dev, status.st_ino});
+  }
+  [[nodiscard]] bool contains(const fs::path& path) const {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return false;
+    const std::lock_guard lock(mutex_);
+    return files_.contains({status.st_dev, status.st_ino});
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::set<FileIdentity> files_;
+};
+
+FilesRead& files_read() {
+  static FilesRead files;
+  return files;
+}
+
 LoadedText checked_text(int descriptor, const std::string& name) {
   std::string text = read_to_end(descriptor, name, text_file_limit);
   if (text.size() > text_file_limit) {
@@ -92,8 +122,11 @@ LoadedText read_text_file(const std::string& path) {
   if (file.number < 0) {
     throw InputError(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
   }
+  files_read().add(file.number);
   return checked_text(file.number, path);
 }
+
+bool has_been_read(const fs::path& path) { return files_read().contains(path); }
 
 namespace {
 

@@ -150,6 +150,9 @@ std::vector<ShapeRequest> parsed_requests(const CableOptions& options, const Des
   };
   needs_profile("--exponent", options.exponent.has_value(), WindProfile::power_law);
   needs_profile("--roughness", options.roughness_length.has_value(), WindProfile::logarithmic);
+  if (options.reference_height && request.profile == WindProfile::uniform) {
+    problems.add("--reference-height", "says nothing without --profile");
+  }
   const double known_at =
       request.reference_height.value_or(request.station_height + request.height);
   if (const auto rough = roughness_conflict(request.profile, request.roughness_length, known_at)) {

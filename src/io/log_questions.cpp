@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "identify/slow_log.hpp"
 #include "io/checked_values.hpp"
 #include "io/closest_name.hpp"
 #include "tethercalc/diagnose/hypothesis.hpp"
@@ -170,15 +171,28 @@ PowerLog read_power(const LogsAsked& options, const LogReaders& read, std::vecto
   return all;
 }
 
-/// What is said of a power log needs one.
-void check_power_options(const LogsAsked& options) {
-  if (!options.power_logs.empty()) return;
-  if (options.free_flight) {
-    throw InputError("--free-flight", "is of the power; give --power LOG, or --log LOG");
-  }
-  if (!options.batteries.empty()) {
-    throw InputError("--battery", "is of the power; give --power LOG, or --log LOG");
-  }
+/// The options that were given, of those that are of a flight's log alone.
+std::vector<std::string> given_of_a_flight(const FlightOptions& flight) {
+  std::vector<std::string> given;
+  if (!flight.from.empty()) given.emplace_back("--from");
+  if (!flight.to.empty()) given.emplace_back("--to");
+  if (flight.pitch_offset_deg) given.emplace_back("--pitch-offset-deg");
+  if (!flight.trim_log.empty()) given.emplace_back("--trim-log");
+  return given;
+}
+
+/// Likewise of any log.
+std::vector<std::string> given_of_a_log(const LogsAsked& options) {
+  const FlightOptions& flight = options.flight;
+  std::vector<std::string> given;
+  if (flight.mass_g) given.emplace_back("--mass-g");
+  if (flight.air_density_kg_m3) given.emplace_back("--air-density");
+  if (flight.pressure_hPa) given.emplace_back("--pressure-hPa");
+  if (flight.temperature_C) given.emplace_back("--temperature-C");
+  if (flight.core != 0) given.emplace_back("--core");
+  if (!flight.columns.empty()) given.emplace_back("--columns");
+  if (!options.base.empty()) given.emplace_back("--base");
+  return given;
 }
 
 std::vector<Warning> assumptions_of(const FlightOptions& flight, const DragFitConditions& taken) {
@@ -199,6 +213,25 @@ std::vector<Warning> assumptions_of(const FlightOptions& flight, const DragFitCo
 }
 
 }  // namespace
+
+void check_options_have_logs(const LogsAsked& options) {
+  Problems problems;
+  if (options.power_logs.empty()) {
+    const char* const of_power = "is of the power; give --power LOG, or --log LOG";
+    if (options.free_flight) problems.add("--free-flight", of_power);
+    if (!options.batteries.empty()) problems.add("--battery", of_power);
+  }
+  if (options.flight_logs.empty()) {
+    for (const std::string& option : given_of_a_flight(options.flight)) {
+      problems.add(option, "is of a flight; give --flight LOG, or --log LOG");
+    }
+    for (const std::string& option :
+         options.power_logs.empty() ? given_of_a_log(options) : std::vector<std::string>{}) {
+      problems.add(option, "is of a log; give --flight LOG, --power LOG, or --log LOG");
+    }
+  }
+  problems.throw_if_any();
+}
 
 std::optional<LogPosition> log_position(const std::string& option, const std::string& text) {
   if (text.empty()) return std::nullopt;
@@ -321,6 +354,11 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
     refuse_repeated(name, reading.log, pitches);
     for (const auto& [kind, amiss] : reading.notes)
       note({kind, fmt::format("{}: {}", name, amiss)});
+    if (reading.log.time.size() > 1) {
+      if (auto slow = slow_log_warning(median_step(reading.log.time))) {
+        note({slow->kind, fmt::format("{}: {}", name, slow->sentence)});
+      }
+    }
     if (!reading.log.north_wind.empty()) {
       note({WarningKind::log_wind_unused,
             name + ": the measured wind is not used: a steady one is fitted"});
@@ -360,7 +398,7 @@ AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design
     throw InputError("diagnose",
                      "needs a measured log: --flight LOG, --power LOG, or --log LOG for both");
   }
-  check_power_options(options);
+  check_options_have_logs(options);
   AskedDiagnosis asked{{design}, {}, {}};
   DiagnosisQuestion& question = asked.question;
   question.hypotheses = std::move(own);

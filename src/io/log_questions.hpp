@@ -106,6 +106,9 @@ struct LogsAsked {
 /// log stands beside them.
 [[nodiscard]] LogsAsked with_halves(LogsAsked options);
 
+/// Refuses options that say something of logs of which none was given, all of them at once.
+void check_options_have_logs(const LogsAsked& options);
+
 /// A question with its logs, and what is to be said of how they were read.
 struct AskedDiagnosis {
   DiagnosisQuestion question;

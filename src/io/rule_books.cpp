@@ -94,9 +94,11 @@ std::vector<std::string> rule_book_ids() {
 RuleBook rule_book(const std::string& id, const std::string& where) {
   const std::vector<std::string> ids = rule_book_ids();
   if (std::ranges::count(ids, id) > 0) return book_of(id);
-  throw InputError(where, fmt::format("\"{}\" is no book of rules; allowed are {} and {}{}", id,
+  const std::string wrong =
+      id.empty() ? "is needed" : fmt::format("\"{}\" is no book of rules", id);
+  throw InputError(where, fmt::format("{}; allowed are {} and {}{}", wrong,
                                       fmt::join(ids.begin(), ids.end() - 1, ", "), ids.back(),
-                                      did_you_mean(id, ids)));
+                                      id.empty() ? std::string() : did_you_mean(id, ids)));
 }
 
 }  // namespace tethercalc

@@ -92,6 +92,7 @@ std::string difference_sentence(const ShapeStudy& study) {
     return "One of the two takes more power than motors or line have.";
   }
   const double percent = 100 * (straight / right - 1);
+  if (std::abs(percent) < 0.05) return "The straight tether takes the same power, within 0.1 %.";
   return fmt::format("The straight tether {} the power by {} %.",
                      percent < 0 ? "understates" : "overstates", fixed(std::abs(percent), 1));
 }

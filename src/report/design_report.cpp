@@ -179,8 +179,10 @@ std::string design_text(const DesignFile& file, const DesignRequest& request,
   }
   if (std::isfinite(answer.best.area)) {
     if (!study.problem.frees(cross_section_path)) {
-      out += fmt::format("  cross-section {} mm²\n",
-                         significant(answer.best.area / unit::square_millimetre, 5));
+      const bool held = study.problem.base.tether.cross_section.has_value();
+      out += fmt::format("  cross-section {} mm²{}\n",
+                         significant(answer.best.area / unit::square_millimetre, 5),
+                         held ? ", held as tether.cross_section_mm2 has it" : "");
     }
     TextTable table(
         {word_column(""), "supply W", "lost W", "current A", "at drone V", "headroom", "tether g"});

@@ -23,6 +23,13 @@ std::string headroom_words(double headroom) {
                       : std::string("level flight");
 }
 
+/// A headroom that falls short, to as many digits as show it.
+std::string headroom_below(double demanded, double headroom) {
+  int digits = 3;
+  while (digits < 10 && significant(headroom, digits) == significant(demanded, digits)) ++digits;
+  return significant(headroom, digits);
+}
+
 /// What is said of a limit. In place of the names in braces stands what `filled_in` puts there.
 struct LimitWords {
   const char* of_optimum;   ///< why the optimum is where it is
@@ -349,11 +356,8 @@ std::string shortcoming(const Design& design, const AreaPoints& points) {
       if (point.thermal_runaway) return "overheats without end in " + where;
       const double demanded = demanded_headroom(design.requirements, missed.condition);
       if (demanded == 1) return "cannot hold " + where;
-      int decimals = 2;
-      while (decimals < 9 && fixed(point.headroom, decimals) == fixed(demanded, decimals)) {
-        ++decimals;
-      }
-      return fmt::format("headroom {} < {}", fixed(point.headroom, decimals), fixed(demanded, 2));
+      return fmt::format("headroom {} < {}", headroom_below(demanded, point.headroom),
+                         fixed(demanded, 2));
     }
     case Demand::conductor_temperature:
     case Demand::drum_temperature: {
@@ -427,7 +431,7 @@ std::string refusal_sentence(const Design& design, const Refusal& refusal) {
           : "where thinner conductors deliver less power and thicker ones weigh "
             "more than they deliver";
   return fmt::format("No cross-section gives {}. The most is a headroom of {} at {} mm², {}.",
-                     demand, significant(best.value, 3),
+                     demand, headroom_below(demanded, best.value),
                      significant(best.area / unit::square_millimetre, 4),
                      filled_in(reason, design, where));
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "model/constants.hpp"
 #include "report/result_values.hpp"
 
@@ -35,6 +37,24 @@ std::string beyond_end(const Design& design, const ReachEnd& end) {
 /// Whether less than that does not meet the demands somewhere.
 bool begins_later(Reach reach, const ReachEnd& end) { return end.from > search_start(reach); }
 
+/// Towards where the demands are met: what is shown can be flown.
+std::string reached(double value, const ReachWords& words, double (*towards)(double)) {
+  constexpr double rounding = 1e-6;  // of the last digit
+  const double scale = std::pow(10, words.decimals);
+  const double digits = value / words.si_factor * scale;
+  const double nearest = std::round(digits);
+  const double shown = std::abs(digits - nearest) < rounding ? nearest : towards(digits);
+  return fixed(shown / scale, words.decimals);
+}
+
+std::string greatest(double value, const ReachWords& words) {
+  return reached(value, words, [](double x) { return std::floor(x); });
+}
+
+std::string least(double value, const ReachWords& words) {
+  return reached(value, words, [](double x) { return std::ceil(x); });
+}
+
 std::string sentence_of(const Design& design, const ReachResult& result,
                         const AreaPoints& as_given) {
   const ReachWords words = words_of(result.reach);
@@ -42,13 +62,13 @@ std::string sentence_of(const Design& design, const ReachResult& result,
     return fmt::format("At no {} does this cable meet the demands; at the design's own: {}.",
                        words.noun, shortcoming(design, as_given));
   }
-  const auto number = [&](double value) { return fixed(value / words.si_factor, words.decimals); };
   const std::string from =
       begins_later(result.reach, *result.end)
-          ? fmt::format(", from {} {} on", number(result.end->from), words.unit)
+          ? fmt::format(", from {} {} on", least(result.end->from, words), words.unit)
           : "";
-  return fmt::format("Greatest {}: {} {}{}; beyond it {}.", words.noun, number(result.end->value),
-                     words.unit, from, beyond_end(design, *result.end));
+  return fmt::format("Greatest {}: {} {}{}; beyond it {}.", words.noun,
+                     greatest(result.end->value, words), words.unit, from,
+                     beyond_end(design, *result.end));
 }
 
 /// What ends a reach; null where nothing does.
@@ -71,7 +91,7 @@ std::vector<Warning> envelope_warnings(const DesignFile& file, const EnvelopeStu
   std::vector<Warning> warnings = all_warnings(file, {}, {}, study.side);
   if (study.ground) {
     const ReachWords reach = words_of(study.ground->reach);
-    const std::string end = fixed(study.ground->value / reach.si_factor, reach.decimals);
+    const std::string end = greatest(study.ground->value, reach);
     warnings.push_back(
         ground_warning(study.ground->contact,
                        fmt::format("at the greatest {}, {} {}, ", reach.noun, end, reach.unit)));
@@ -97,7 +117,7 @@ std::string envelope_text(const DesignFile& file, const EnvelopeStudy& study,
                      fmt::format("{} {}", of.noun, of.unit), word_column("beyond it")});
     for (const EnvelopePoint& point : curve.points) {
       table.add({fixed(point.against / against.si_factor, against.decimals),
-                 fixed(end_value(point.end) / of.si_factor, of.decimals),
+                 greatest(end_value(point.end), of),
                  point.end ? beyond_end(file.design, *point.end)
                            : std::string("the demands are not met")});
     }

@@ -79,7 +79,8 @@ bool varies(std::span<const Triple> triples) {
 }
 
 Sensitivity sensitivity_of(std::span<const Triple> triples, std::uint64_t seed) {
-  if (!varies(triples)) return {{nan, nan}, {nan, nan}};
+  constexpr std::size_t fewest = 30;  // of fewer neither a share nor its error means anything
+  if (triples.size() < fewest || !varies(triples)) return {{nan, nan}, {nan, nan}};
   Sums sums;
   for (const Triple& triple : triples) sums.add(triple);
   std::vector<double> first;

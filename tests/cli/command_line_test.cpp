@@ -177,6 +177,42 @@ TEST_CASE("where nothing can be written is told before anything is computed") {
   CHECK_THAT(ran.err, Contains("/nowhere/summary.json: cannot be written"));
 }
 
+TEST_CASE("no command writes over what a spec or a folder has it read") {
+  const TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+  const std::string table = "thrust_g,power_W\n0,0\n500,60\n1200,200\n2000,420\n";
+  write_file(path("m.csv"), table);
+  write_file(path("s.json"), file_text(published));
+  std::filesystem::create_directory(path("ck"));
+  write_file(path("ck/a.json"), file_text(published));
+  REQUIRE(run_tethercalc({"check", path("ck"), "--update"}).exit_code == 0);
+  const std::string record = file_text(path("ck/a.expected.json"));
+  const std::string motor = "drone.motor=" + path("m.csv");
+  const std::string motors = motor + ",holybro-air2216-920kv-10in";
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"optimize", path("s.json"), "--set", motor, "--output", path("m.csv")},
+           {"validate", path("s.json"), "--output", path("s.json")},
+           {"sweep", path("s.json"), "--vary", motors, "--output", path("m.csv")},
+           {"sweep", path("s.json"), "--vary", motors, "--sample", "40", "--output",
+            path("rows.csv"), "--summary", path("m.csv")},
+           {"design", path("s.json"), "--free", motors, "--output", path("m.csv")},
+           {"check", path("ck"), "--output", path("ck/a.json")},
+           {"check", path("ck"), "--junit", path("ck/a.json")},
+           {"check", path("ck"), "--update", "--junit", path("ck/a.expected.json")}}) {
+    INFO(arguments[0] << " " << arguments.back());
+    const Ran ran = run_tethercalc(arguments);
+    CHECK(ran.exit_code == 2);
+    CHECK_THAT(ran.err, Contains("is read; give another file to write"));
+    CHECK(file_text(path("m.csv")) == table);
+    CHECK(file_text(path("s.json")) == file_text(published));
+    CHECK(file_text(path("ck/a.json")) == file_text(published));
+    CHECK(file_text(path("ck/a.expected.json")) == record);
+  }
+  CHECK_FALSE(std::filesystem::exists(path("rows.csv")));
+  CHECK_THAT(run_tethercalc({"check", path("ck"), "--junit", "-"}).err,
+             Contains("--junit: \"-\" is no file"));
+}
+
 TEST_CASE("no command writes over a file that it reads, nor two answers into one file") {
   const TemporaryFolder folder;
   const std::string spec = (folder.path() / "spec.json").string();

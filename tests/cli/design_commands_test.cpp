@@ -72,6 +72,33 @@ TEST_CASE("an infeasible design exits with 1 and names what would help") {
   }
 }
 
+TEST_CASE("a headroom that falls short is never printed as the one that is asked for") {
+  const Ran run = run_tethercalc({"optimize", published, "--set", "supply.voltage_V=53"});
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.out,
+             Contains("No cross-section gives a thrust headroom of 2.00 in hover. The most "
+                      "is\na headroom of 1.99") ||
+                 Contains("The most is a headroom of 1.99"));
+}
+
+TEST_CASE("the greatest height and headwind that envelope prints can be flown") {
+  const Ran run = run_tethercalc({"envelope", published, "--area-mm2", "1.5"});
+  REQUIRE(run.exit_code == 0);
+  const auto printed = [&run](const std::string& what) {
+    const std::size_t at = run.out.find("Greatest " + what + ": ");
+    REQUIRE(at != std::string::npos);
+    const std::string rest = run.out.substr(at + what.size() + 11);
+    return rest.substr(0, rest.find(' '));
+  };
+  const auto flies = [](const std::string& field, const std::string& value) {
+    const Ran evaluated =
+        run_tethercalc({"evaluate", published, "--area-mm2", "1.5", "--set", field + "=" + value});
+    return evaluated.out.find("does not meet") == std::string::npos;
+  };
+  CHECK(flies("tether.length_m", printed("height")));
+  CHECK(flies("flight.headwind_m_s", printed("headwind")));
+}
+
 TEST_CASE("tables fit 100 columns") {
   const std::vector<std::vector<std::string>> commands{
       {"optimize", published},

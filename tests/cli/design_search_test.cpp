@@ -98,6 +98,15 @@ TEST_CASE("where leaning less saves power, no wind is ruled out unseen") {
   CHECK(json::parse(found.out)["value"].get<double>() <= least * (1 + 1e-9));
 }
 
+TEST_CASE("a cross-section that the spec holds is told to be held") {
+  const std::vector<std::string> free{"--free", "supply.voltage_V=40..100"};
+  std::vector<std::string> held = free;
+  held.insert(held.end(), {"--set", "tether.cross_section_mm2=1.2"});
+  CHECK_THAT(design(held).out,
+             Contains("cross-section 1.2000 mm², held as tether.cross_section_mm2 has it"));
+  CHECK_THAT(design(free).out, Contains("cross-section") && !Contains("held as"));
+}
+
 TEST_CASE("a field that is set and free is told to be free") {
   const std::vector<std::string> free{"--free", "tether.conductor=copper,aluminium"};
   std::vector<std::string> also_set = free;

@@ -105,6 +105,21 @@ TEST_CASE("drag tells parameters, what is well known, and the range that it chos
                           Contains("Well determined is the drag force"));
 }
 
+TEST_CASE("drag is told to be lost between samples a second apart") {
+  const TemporaryFolder folder;
+  const std::string slow = (folder.path() / "slow.csv").string();
+  std::istringstream lines(file_text(example));
+  std::string text;
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line); ++number) {
+    if (number == 0 || number % 10 == 1) text += line + "\n";
+  }
+  write_file(slow, text);
+  CHECK_THAT(drag({slow}, known).err, Contains("one sample every 1 s"));
+  CHECK_THAT(drag_of({slow}, known).at("notes").dump(), Contains("one sample every 1 s"));
+  CHECK_THAT(drag({example}, known).err, !Contains("one sample every"));
+}
+
 TEST_CASE("drag's parameters for an autopilot are those of its JSON, with intervals as comments") {
   const json answer = drag_of({example}, known).at("autopilot");
   for (const std::string autopilot : {"ardupilot", "px4"}) {

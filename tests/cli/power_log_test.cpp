@@ -146,6 +146,9 @@ TEST_CASE("options of a power log that contradict each other or the log are refu
        {Case{{"--log", example_power, "--power", example_power}, "--log: is both"},
         {{"--flight", flight_csv, "--free-flight"}, "--free-flight: is of the power"},
         {{"--flight", flight_csv, "--battery", "0"}, "--battery: is of the power"},
+        {{"--power", example_power, "--from", "200"}, "--from: is of a flight"},
+        {{"--power", example_power, "--pitch-offset-deg", "2"}, "--pitch-offset-deg: is of a"},
+        {{"--power", example_power, "--trim-log", flight_csv}, "--trim-log: is of a flight"},
         {{"--power", example_power, "--battery", "first"},
          "--battery: \"first\" is no number of a battery monitor"},
         {{"--power", example_power, "--battery", "0"}, "--battery: chooses among"},
@@ -157,5 +160,14 @@ TEST_CASE("options of a power log that contradict each other or the log are refu
     CHECK(run.exit_code == 2);
     CHECK(run.out.empty());
     CHECK_THAT(run.err, Contains(c.says));
+  }
+  for (const std::vector<std::string>& of_logs : std::vector<std::vector<std::string>>{
+           {"--mass-g", "1500"}, {"--base", "propwash"}, {"--to", "50%"}, {"--free-flight"}}) {
+    std::vector<std::string> arguments{"report", published};
+    arguments.insert(arguments.end(), of_logs.begin(), of_logs.end());
+    const Ran run = run_tethercalc(arguments);
+    CHECK(run.exit_code == 2);
+    CHECK(run.out.empty());
+    CHECK_THAT(run.err, Contains(of_logs.front() + ": is of "));
   }
 }

@@ -127,6 +127,11 @@ TEST_CASE("an offset of the output does not drown its indices") {
   }
 }
 
+TEST_CASE("fewer than 30 points have no indices") {
+  const auto few = sobol_indices(sample_of(ishigami, {16, SampleMethod::sobol, run_seed()}));
+  for (const Sensitivity& s : few) CHECK(std::isnan(s.first_order.value + s.total.value));
+}
+
 TEST_CASE("inputs that an output does not see have no share, and a constant has no indices") {
   const SamplePlan plan{1024, SampleMethod::sobol, run_seed()};
   const auto one_input =

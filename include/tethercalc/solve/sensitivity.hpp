@@ -12,7 +12,8 @@ struct IndexEstimate {
   double standard_error = 0;  ///< one standard deviation
 };
 
-/// Sobol indices of one input. NaN where the output does not vary.
+/// Sobol indices of one input. NaN where the output does not vary or fewer than 30 points are
+/// known.
 struct Sensitivity {
   IndexEstimate first_order;  ///< share of the variance that knowing this input alone would remove
   IndexEstimate total;  ///< share that would remain if everything but this input were known; at
