@@ -93,7 +93,8 @@ Motor, conductor and insulation material are each one of
 The points of a motor, from whatever source, are sorted by thrust, and neighbours whose power does
 not rise with thrust are pooled to their mean (isotonic regression); a warning names them. A
 test-bench CSV is read as [motors.md](motors.md) says: thrust and power, or what power is made of, in
-columns whose header names their units; rows without thrust or power are left out with a warning.
+columns whose header names their units; rows whose thrust or power is not above 0 are left
+out with a warning.
 )";
 
 /// The reference of all fields as Markdown: the content of docs/spec.md.
