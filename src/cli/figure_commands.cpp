@@ -231,11 +231,7 @@ int run_report(const DiagnoseOptions& options, const std::string& rules, const s
   DesignFile file;
   problems.succeeds([&] { file = read_spec(options.spec); });
   if (!rules.empty()) problems.succeeds([&] { book = rule_book(rules); });
-  problems.succeeds([&] { check_options_have_logs(options); });
-  const bool has_logs = !options.flight_logs.empty() || !options.power_logs.empty();
-  if (!has_logs && !options.effect_files.empty()) {
-    problems.add("--effects", "is of a log; give --flight LOG, --power LOG, or --log LOG");
-  }
+  problems.succeeds([&] { check_options_have_logs(options, !options.effect_files.empty()); });
   problems.throw_if_any();
   PageContent content{
       study_overview(file.design, wire_sizes(), chosen_motors({"alike"}, file, files_in(""))),
@@ -248,7 +244,7 @@ int run_report(const DiagnoseOptions& options, const std::string& rules, const s
     content.drag =
         learn_drag("report", options.flight_logs, flown_as(options.flight, file.design)).study;
   }
-  if (has_logs) {
+  if (!options.flight_logs.empty() || !options.power_logs.empty()) {
     const AnsweredDiagnosis told = diagnose_logs(options, file);
     if (told.flight) content.diagnoses.push_back({heading_of(options.flight_logs), *told.flight});
     if (told.power) content.diagnoses.push_back({heading_of(options.power_logs), *told.power});

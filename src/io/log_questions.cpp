@@ -171,30 +171,6 @@ PowerLog read_power(const LogsAsked& options, const LogReaders& read, std::vecto
   return all;
 }
 
-/// The options that were given, of those that are of a flight's log alone.
-std::vector<std::string> given_of_a_flight(const FlightOptions& flight) {
-  std::vector<std::string> given;
-  if (!flight.from.empty()) given.emplace_back("--from");
-  if (!flight.to.empty()) given.emplace_back("--to");
-  if (flight.pitch_offset_deg) given.emplace_back("--pitch-offset-deg");
-  if (!flight.trim_log.empty()) given.emplace_back("--trim-log");
-  return given;
-}
-
-/// Likewise of any log.
-std::vector<std::string> given_of_a_log(const LogsAsked& options) {
-  const FlightOptions& flight = options.flight;
-  std::vector<std::string> given;
-  if (flight.mass_g) given.emplace_back("--mass-g");
-  if (flight.air_density_kg_m3) given.emplace_back("--air-density");
-  if (flight.pressure_hPa) given.emplace_back("--pressure-hPa");
-  if (flight.temperature_C) given.emplace_back("--temperature-C");
-  if (flight.core != 0) given.emplace_back("--core");
-  if (!flight.columns.empty()) given.emplace_back("--columns");
-  if (!options.base.empty()) given.emplace_back("--base");
-  return given;
-}
-
 std::vector<Warning> assumptions_of(const FlightOptions& flight, const DragFitConditions& taken) {
   std::vector<Warning> out;
   if (!flight.air_density_kg_m3 && !flight.pressure_hPa) {
@@ -214,21 +190,34 @@ std::vector<Warning> assumptions_of(const FlightOptions& flight, const DragFitCo
 
 }  // namespace
 
-void check_options_have_logs(const LogsAsked& options) {
+void check_options_have_logs(const LogsAsked& options, bool own_effects) {
   Problems problems;
+  const FlightOptions& flight = options.flight;
+  const auto refuse = [&problems](bool given, const char* option, const char* why) {
+    if (given) problems.add(option, why);
+  };
   if (options.power_logs.empty()) {
     const char* const of_power = "is of the power; give --power LOG, or --log LOG";
-    if (options.free_flight) problems.add("--free-flight", of_power);
-    if (!options.batteries.empty()) problems.add("--battery", of_power);
+    refuse(options.free_flight, "--free-flight", of_power);
+    refuse(!options.batteries.empty(), "--battery", of_power);
   }
   if (options.flight_logs.empty()) {
-    for (const std::string& option : given_of_a_flight(options.flight)) {
-      problems.add(option, "is of a flight; give --flight LOG, or --log LOG");
-    }
-    for (const std::string& option :
-         options.power_logs.empty() ? given_of_a_log(options) : std::vector<std::string>{}) {
-      problems.add(option, "is of a log; give --flight LOG, --power LOG, or --log LOG");
-    }
+    const char* const of_a_flight = "is of a flight; give --flight LOG, or --log LOG";
+    refuse(!flight.from.empty(), "--from", of_a_flight);
+    refuse(!flight.to.empty(), "--to", of_a_flight);
+    refuse(flight.pitch_offset_deg.has_value(), "--pitch-offset-deg", of_a_flight);
+    refuse(!flight.trim_log.empty(), "--trim-log", of_a_flight);
+  }
+  if (options.flight_logs.empty() && options.power_logs.empty()) {
+    const char* const of_a_log = "is of a log; give --flight LOG, --power LOG, or --log LOG";
+    refuse(flight.mass_g.has_value(), "--mass-g", of_a_log);
+    refuse(flight.air_density_kg_m3.has_value(), "--air-density", of_a_log);
+    refuse(flight.pressure_hPa.has_value(), "--pressure-hPa", of_a_log);
+    refuse(flight.temperature_C.has_value(), "--temperature-C", of_a_log);
+    refuse(flight.core != 0, "--core", of_a_log);
+    refuse(!flight.columns.empty(), "--columns", of_a_log);
+    refuse(!options.base.empty(), "--base", of_a_log);
+    refuse(own_effects, "--effects", of_a_log);
   }
   problems.throw_if_any();
 }
@@ -352,13 +341,13 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
   for (const std::string& name : names) {
     FlightLogReading reading = read.flight(name, {.core = flight.core, .columns = flight.columns});
     refuse_repeated(name, reading.log, pitches);
-    for (const auto& [kind, amiss] : reading.notes)
-      note({kind, fmt::format("{}: {}", name, amiss)});
     if (reading.log.time.size() > 1) {
       if (auto slow = slow_log_warning(median_step(reading.log.time))) {
-        note({slow->kind, fmt::format("{}: {}", name, slow->sentence)});
+        reading.notes.push_back(std::move(*slow));
       }
     }
+    for (const auto& [kind, amiss] : reading.notes)
+      note({kind, fmt::format("{}: {}", name, amiss)});
     if (!reading.log.north_wind.empty()) {
       note({WarningKind::log_wind_unused,
             name + ": the measured wind is not used: a steady one is fitted"});
@@ -398,7 +387,7 @@ AskedDiagnosis diagnosis_question(const LogsAsked& options, const Design& design
     throw InputError("diagnose",
                      "needs a measured log: --flight LOG, --power LOG, or --log LOG for both");
   }
-  check_options_have_logs(options);
+  check_options_have_logs(options, !own.empty());
   AskedDiagnosis asked{{design}, {}, {}};
   DiagnosisQuestion& question = asked.question;
   question.hypotheses = std::move(own);

@@ -106,8 +106,9 @@ struct LogsAsked {
 /// log stands beside them.
 [[nodiscard]] LogsAsked with_halves(LogsAsked options);
 
-/// Refuses options that say something of logs of which none was given, all of them at once.
-void check_options_have_logs(const LogsAsked& options);
+/// Refuses options that say something of logs of which none was given, all of them at once;
+/// `own_effects` says whether there are effects beside those of the catalogue.
+void check_options_have_logs(const LogsAsked& options, bool own_effects);
 
 /// A question with its logs, and what is to be said of how they were read.
 struct AskedDiagnosis {

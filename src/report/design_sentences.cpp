@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <utility>
 
@@ -25,9 +26,12 @@ std::string headroom_words(double headroom) {
 
 /// A headroom that falls short, to as many digits as show it.
 std::string headroom_below(double demanded, double headroom) {
-  int digits = 3;
-  while (digits < 10 && significant(headroom, digits) == significant(demanded, digits)) ++digits;
-  return significant(headroom, digits);
+  std::string words;
+  for (int digits = 3; digits <= 10; ++digits) {
+    words = significant(headroom, digits);
+    if (std::strtod(words.c_str(), nullptr) < demanded) break;
+  }
+  return words;
 }
 
 /// What is said of a limit. In place of the names in braces stands what `filled_in` puts there.
