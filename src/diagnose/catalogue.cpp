@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <initializer_list>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "diagnose/flight_prediction.hpp"
@@ -21,24 +23,30 @@ using Values = std::span<const double>;
 
 /// The readings `delay` s later than each sample, by Lagrange's cubic through the four nearest
 /// samples: a straight line between two would average their noise and so seem to explain something.
-void shift(const std::vector<double>& time, double delay, std::vector<double>& readings) {
+void shift(const std::vector<double>& time, double delay,
+           std::initializer_list<std::vector<double>*> series) {
   const std::size_t size = time.size();
   if (size < 4) return;
-  const std::vector<double> logged = readings;
+  std::vector<std::size_t> first(size);
+  std::vector<std::array<double, 4>> basis(size);
   std::size_t k = 0;  // time[k] is the last at or before the wanted time, as far as there is one
   for (std::size_t i = 0; i < size; ++i) {
     const double wanted = std::clamp(time[i] + delay, time.front(), time.back());
     while (k + 2 < size && time[k + 1] <= wanted) ++k;
-    const std::size_t first = std::min(k == 0 ? 0 : k - 1, size - 4);
-    double value = 0;
-    for (std::size_t a = first; a < first + 4; ++a) {
-      double basis = 1;
-      for (std::size_t b = first; b < first + 4; ++b) {
-        if (b != a) basis *= (wanted - time[b]) / (time[a] - time[b]);
+    first[i] = std::min(k == 0 ? 0 : k - 1, size - 4);
+    const double* const t = &time[first[i]];
+    for (std::size_t a = 0; a < 4; ++a) {
+      basis[i][a] = 1;
+      for (std::size_t b = 0; b < 4; ++b) {
+        if (b != a) basis[i][a] *= (wanted - t[b]) / (t[a] - t[b]);
       }
-      value += basis * logged[a];
     }
-    readings[i] = value;
+  }
+  for (std::vector<double>* readings : series) {
+    const std::vector<double> logged = *readings;
+    for (std::size_t i = 0; i < size; ++i) {
+      (*readings)[i] = std::inner_product(basis[i].begin(), basis[i].end(), &logged[first[i]], 0.0);
+    }
   }
 }
 
@@ -49,18 +57,18 @@ void misalign(FlightPrediction& p, double angle) {
   for (std::size_t i = 0; i < p.airspeed.size(); ++i) {
     const double ahead = p.airspeed[i];
     const double aside = p.aside[i];
-    const DragForces logged = law_drag(p, i, ahead, aside);
     const DragForces own = law_drag(p, i, ahead * c - aside * s, ahead * s + aside * c);
     const auto acceleration = [&](double thrust, double drag) {
       return p.lift[i] * thrust - drag / p.record.mass;
     };
     // Along the drone's own axes. What effects did to the drag stays as it was.
-    const double forward = acceleration(p.tan_tilt[i], p.drag[i] + own.forward - logged.forward);
+    const double forward =
+        acceleration(p.thrust.tan_tilt[i], p.drag[i] + own.forward - p.law_drag[i]);
     const double sideward =
-        acceleration(p.sideward_thrust[i], p.side_drag[i] + own.right - logged.right);
-    p.acceleration[i] += forward * c + sideward * s - acceleration(p.tan_tilt[i], p.drag[i]);
+        acceleration(p.thrust.sideward[i], p.side_drag[i] + own.right - p.law_side_drag[i]);
+    p.acceleration[i] += forward * c + sideward * s - acceleration(p.thrust.tan_tilt[i], p.drag[i]);
     p.side_acceleration[i] +=
-        sideward * c - forward * s - acceleration(p.sideward_thrust[i], p.side_drag[i]);
+        sideward * c - forward * s - acceleration(p.thrust.sideward[i], p.side_drag[i]);
   }
 }
 
@@ -108,11 +116,11 @@ void lag(FlightPrediction& p, double constant) {
   // The true speed is ahead by what the logged one gains in a time constant.
   const double sideways = p.record.both_axes ? constant : 0;
   for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
-    const DragForces logged = law_drag(p, i, p.airspeed[i], p.aside[i]);
     const DragForces truly = law_drag(p, i, p.airspeed[i] + constant * p.acceleration[i],
                                       p.aside[i] + sideways * p.side_acceleration[i]);
-    p.acceleration[i] = acceleration[i] - (truly.forward - logged.forward) / p.record.mass;
-    p.side_acceleration[i] = side_acceleration[i] - (truly.right - logged.right) / p.record.mass;
+    p.acceleration[i] = acceleration[i] - (truly.forward - p.law_drag[i]) / p.record.mass;
+    p.side_acceleration[i] =
+        side_acceleration[i] - (truly.right - p.law_side_drag[i]) / p.record.mass;
   }
   lag_acceleration(p, constant);
 }
@@ -159,8 +167,8 @@ void swing(FlightPrediction& p, double load, double rope, double damping) {
   for (std::size_t i = 0; i < record.size(); ++i) {
     // The thrust carries the load as well.
     const double more_lift = load * p.lift[i];
-    const double forward = p.acceleration[i] + more_lift * p.tan_tilt[i];
-    const double sideward = p.side_acceleration[i] + more_lift * p.sideward_thrust[i];
+    const double forward = p.acceleration[i] + more_lift * p.thrust.tan_tilt[i];
+    const double sideward = p.side_acceleration[i] + more_lift * p.thrust.sideward[i];
     const auto [along, right] = over_ground(record, i, {forward, record.both_axes ? sideward : 0});
     const InPlane driving(along, right);
     const double step = i > 0 ? record.time[i] - record.time[i - 1] : infinity;
@@ -221,8 +229,7 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              if (x[0] == 0) return;
-             shift(p.record.time, x[0], p.tilt);
-             shift(p.record.time, x[0], p.sideward_thrust);
+             shift(p.record.time, x[0], {&p.thrust.tilt, &p.thrust.sideward});
            },
        .is_delay = true},
 
@@ -244,7 +251,7 @@ std::vector<Effect> flight_effects() {
        .flight_phase = FlightPhase::attitude,
        .on_flight =
            [](FlightPrediction& p, Values x) {
-             for (double& tilt : p.tilt) tilt += x[0];
+             for (double& tilt : p.thrust.tilt) tilt += x[0];
            }},
 
       {.id = "linear_drag",
@@ -392,10 +399,12 @@ std::vector<Effect> flight_effects() {
        .on_flight =
            [](FlightPrediction& p, Values x) {
              for (std::size_t i = 0; i < p.drag.size(); ++i) {
-               const double against = -p.airspeed[i] * p.tilt[i];
-               if (against > 0) p.drag[i] -= x[0] * p.airspeed[i] * std::abs(p.tilt[i]);
-               const double roll = std::atan(p.sideward_thrust[i]);
-               if (p.aside[i] * roll < 0) p.side_drag[i] -= x[0] * p.aside[i] * std::abs(roll);
+               const double against = -p.airspeed[i] * p.thrust.tilt[i];
+               if (against > 0) p.drag[i] -= x[0] * p.airspeed[i] * std::abs(p.thrust.tilt[i]);
+               const double sideward = p.thrust.sideward[i];
+               if (p.aside[i] * sideward < 0) {
+                 p.side_drag[i] -= x[0] * p.aside[i] * std::abs(std::atan(sideward));
+               }
              }
            }},
 
@@ -636,12 +645,11 @@ std::vector<Effect> flight_effects() {
        .flight_phase = FlightPhase::reading,
        .on_flight = [](FlightPrediction& p, Values x) {
          for (std::size_t i = 0; i < p.acceleration.size(); ++i) {
-           const DragForces logged = law_drag(p, i, p.airspeed[i], p.aside[i]);
            const DragForces own = law_drag(p, i, p.airspeed[i] / x[0], p.aside[i] / x[0]);
            p.acceleration[i] =
-               x[0] * (p.acceleration[i] + (logged.forward - own.forward) / p.record.mass);
+               x[0] * (p.acceleration[i] + (p.law_drag[i] - own.forward) / p.record.mass);
            p.side_acceleration[i] =
-               x[0] * (p.side_acceleration[i] + (logged.right - own.right) / p.record.mass);
+               x[0] * (p.side_acceleration[i] + (p.law_side_drag[i] - own.right) / p.record.mass);
          }
        }}};
 }

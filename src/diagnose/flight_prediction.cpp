@@ -22,12 +22,80 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
+/// For expressions that take two samples at a time.
+Eigen::Map<const Series> array(const std::vector<double>& x) {
+  return {x.data(), static_cast<Index>(x.size())};
+}
+Eigen::Map<Series> array(std::vector<double>& x) {
+  return {x.data(), static_cast<Index>(x.size())};
+}
+
 void set_cosines(const std::vector<double>& tangent, std::vector<double>& cosine) {
-  // As an expression of arrays, two roots at a time.
-  Series::Map(cosine.data(), static_cast<Index>(cosine.size())) =
-      (1 + Series::Map(tangent.data(), static_cast<Index>(tangent.size())).square())
-          .sqrt()
-          .inverse();
+  array(cosine) = (1 + array(tangent).square()).sqrt().inverse();
+}
+
+/// The effects of a phase with their values, and numbers beside them.
+MadeFrom made_from(std::span<const EffectValues> effects, FlightPhase phase,
+                   std::vector<double> numbers) {
+  MadeFrom from{{}, std::move(numbers)};
+  for (const EffectValues& e : effects) {
+    if (e.effect->flight_phase != phase) continue;
+    from.effects.push_back(e.effect);
+    from.numbers.insert(from.numbers.end(), e.values.begin(), e.values.end());
+  }
+  return from;
+}
+
+/// The attitude phase.
+void direct_thrust(FlightPrediction& p, const FlightBase& base,
+                   std::span<const EffectValues> effects) {
+  MadeFrom from = made_from(effects, FlightPhase::attitude, {base.roll_trim});
+  if (p.thrust.from == from) return;
+  std::swap(p.thrust, p.thrust_before);
+  if (p.thrust.from == from) return;
+
+  const FlightRecord& record = p.record;
+  ThrustDirection& thrust = p.thrust;
+  thrust = {std::move(from),        record.tilt,        record.tan_tilt, record.cos_tilt,
+            record.sideward_thrust, record.cos_sideward};
+  act(p, effects, FlightPhase::attitude);
+  if (thrust.tilt != record.tilt) {
+    std::transform(thrust.tilt.begin(), thrust.tilt.end(), thrust.tan_tilt.begin(),
+                   [](double tilt) { return std::tan(tilt); });
+    set_cosines(thrust.tan_tilt, thrust.cos_tilt);
+  }
+  if (base.roll_trim != 0) {
+    for (double& sideward : thrust.sideward) sideward -= base.roll_trim;
+  }
+  if (thrust.sideward != record.sideward_thrust) {
+    set_cosines(thrust.sideward, thrust.cos_sideward);
+  }
+}
+
+/// The air phase, and the drag by the law.
+void meet_air(FlightPrediction& p, const FlightBase& base, std::span<const EffectValues> effects) {
+  MadeFrom from = made_from(effects, FlightPhase::air,
+                            {base.wind_gain, base.front_area, base.top_area, base.side_area});
+  const MadeFrom& thrust = p.thrust.from;
+  from.effects.insert(from.effects.end(), thrust.effects.begin(), thrust.effects.end());
+  from.numbers.insert(from.numbers.end(), thrust.numbers.begin(), thrust.numbers.end());
+  if (p.air_from == from) return;
+  p.air_from = std::move(from);
+
+  const FlightRecord& record = p.record;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    p.headwind[i] = base.wind_gain * record.headwind[i];
+    p.aside[i] = record.right_speed[i] - base.wind_gain * record.crosswind[i];
+  }
+  p.law = {base.front_area, base.top_area, 0, 0};
+  p.side_area = base.side_area;
+  act(p, effects, FlightPhase::air);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
+    const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
+    p.law_drag[i] = drag.forward;
+    p.law_side_drag[i] = drag.right;
+  }
 }
 
 /// A speed added up from the first sample on.
@@ -163,16 +231,11 @@ FlightRecord part_of(const FlightRecord& record, std::size_t first, std::size_t 
 
 FlightPrediction::FlightPrediction(const FlightRecord& flight)
     : record(flight),
-      tilt(flight.size()),
       headwind(flight.size()),
       aside(flight.size()),
-      tan_tilt(flight.size()),
-      cos_tilt(flight.size()),
       airspeed(flight.size()),
-      drag(flight.size()),
-      sideward_thrust(flight.size()),
-      cos_sideward(flight.size()),
-      side_drag(flight.size()),
+      law_drag(flight.size()),
+      law_side_drag(flight.size()),
       lift(flight.size()),
       acceleration(flight.size()),
       side_acceleration(flight.size()) {}
@@ -195,44 +258,19 @@ void pull(FlightPrediction& p, std::size_t i, double along, double right) {
 
 void predict_acceleration(FlightPrediction& p, const FlightBase& base,
                           std::span<const EffectValues> effects) {
-  const FlightRecord& record = p.record;
-  const std::size_t size = record.size();
-  p.tilt = record.tilt;
-  for (std::size_t i = 0; i < size; ++i) {
-    p.headwind[i] = base.wind_gain * record.headwind[i];
-    p.aside[i] = record.right_speed[i] - base.wind_gain * record.crosswind[i];
-  }
-  p.sideward_thrust = record.sideward_thrust;
-  p.law = {base.front_area, base.top_area, 0, 0};
-  p.side_area = base.side_area;
-  act(p, effects, FlightPhase::attitude);
-  act(p, effects, FlightPhase::air);
+  direct_thrust(p, base, effects);
+  meet_air(p, base, effects);
 
-  p.tan_tilt = record.tan_tilt;
-  p.cos_tilt = record.cos_tilt;
-  if (p.tilt != record.tilt) {
-    std::transform(p.tilt.begin(), p.tilt.end(), p.tan_tilt.begin(),
-                   [](double tilt) { return std::tan(tilt); });
-    set_cosines(p.tan_tilt, p.cos_tilt);
-  }
-  if (base.roll_trim != 0) {
-    for (double& thrust : p.sideward_thrust) thrust -= base.roll_trim;
-  }
-  p.cos_sideward = record.cos_sideward;
-  if (p.sideward_thrust != record.sideward_thrust) set_cosines(p.sideward_thrust, p.cos_sideward);
-  for (std::size_t i = 0; i < size; ++i) {
-    p.airspeed[i] = record.forward_speed[i] - p.headwind[i];
-    const DragForces drag = law_drag(p, i, p.airspeed[i], p.aside[i]);
-    p.drag[i] = drag.forward;
-    p.side_drag[i] = drag.right;
-    p.lift[i] = record.gravity - base.vertical_acceleration_gain * record.down_acceleration[i];
-  }
+  const FlightRecord& record = p.record;
+  array(p.lift) =
+      record.gravity - base.vertical_acceleration_gain * array(record.down_acceleration);
+  p.drag = p.law_drag;
+  p.side_drag = p.law_side_drag;
   act(p, effects, FlightPhase::force);
 
-  for (std::size_t i = 0; i < size; ++i) {
-    p.acceleration[i] = p.lift[i] * p.tan_tilt[i] - p.drag[i] / record.mass;
-    p.side_acceleration[i] = p.lift[i] * p.sideward_thrust[i] - p.side_drag[i] / record.mass;
-  }
+  array(p.acceleration) = array(p.lift) * array(p.thrust.tan_tilt) - array(p.drag) / record.mass;
+  array(p.side_acceleration) =
+      array(p.lift) * array(p.thrust.sideward) - array(p.side_drag) / record.mass;
   act(p, effects, FlightPhase::reading);
 }
 
@@ -240,8 +278,8 @@ std::vector<double> simulate_speed(const FlightRecord& record, const FlightBase&
                                    std::span<const EffectValues> effects, double window,
                                    double longest_step) {
   FlightRecord simulated = record;
-  FlightPrediction prediction(simulated);
   for (int iteration = 0; iteration < picard_iterations; ++iteration) {
+    FlightPrediction prediction(simulated);
     predict_acceleration(prediction, base, effects);
     std::vector<double>& a = prediction.acceleration;
     // The nose turns into what flies to the side.

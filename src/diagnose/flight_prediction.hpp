@@ -100,22 +100,42 @@ struct FlightBase {
   double roll_trim = 0;
 };
 
-/// A prediction in the making. The catalogue's effects work on it in the phases of `FlightPhase`;
-/// each vector holds one element a sample.
-struct FlightPrediction {
-  const FlightRecord& record;    ///< what is predicted from
+/// What the samples of a phase were made from: as long as nothing of it changes they stay.
+struct MadeFrom {
+  std::vector<const Effect*> effects;
+  std::vector<double> numbers;  ///< of the base, and of the effects
+
+  bool operator==(const MadeFrom&) const = default;
+};
+
+/// The thrust's direction, one element a sample.
+struct ThrustDirection {
+  MadeFrom from;
   std::vector<double> tilt;      ///< θ as the thrust had it, from which attitude effects start
+  std::vector<double> tan_tilt;  ///< of `tilt`; known after the attitude phase
+  std::vector<double> cos_tilt;  ///< of `tilt`; known after the attitude phase
+  /// tan φ/cos θ as the thrust had it, from which attitude effects start.
+  std::vector<double> sideward;
+  std::vector<double> cos_sideward;  ///< of the lean to the side; known after the attitude phase
+};
+
+/// A prediction in the making. The catalogue's effects work on it in the phases of `FlightPhase`;
+/// each vector holds one element a sample. It may be made anew with other values: a phase whose
+/// effects and parameters are as before is not done again, so the record must stay as it is.
+struct FlightPrediction {
+  const FlightRecord& record;  ///< what is predicted from
+  ThrustDirection thrust;
+  /// Of the values before: derivatives are taken by going away from a point and back to it.
+  ThrustDirection thrust_before;
+  MadeFrom air_from;
   std::vector<double> headwind;  ///< w along the forward axis, m/s: airspeed is forward speed − w
   std::vector<double> aside;     ///< m/s, the airspeed to the right
   AirframeDrag law;              ///< of the drag
   double side_area = 0;          ///< m², in place of the law's front area to the side
-  std::vector<double> tan_tilt;  ///< of `tilt`; known in the force phase
-  std::vector<double> cos_tilt;  ///< of `tilt`; known in the force phase
   std::vector<double> airspeed;  ///< m/s, forward positive; known in the force phase
-  std::vector<double> drag;      ///< N against the motion; known in the force phase
-  /// tan φ/cos θ as the thrust had it, from which attitude effects start.
-  std::vector<double> sideward_thrust;
-  std::vector<double> cos_sideward;  ///< of the lean to the side; known in the force phase
+  std::vector<double> law_drag;  ///< N by the law alone; known in the force phase
+  std::vector<double> law_side_drag;  ///< N likewise, to the right
+  std::vector<double> drag;           ///< N against the motion; known in the force phase
   std::vector<double> side_drag;  ///< N against the motion to the right; known in the force phase
   std::vector<double> lift;       ///< m/s², what the thrust carries; known in the force phase
   std::vector<double> acceleration;       ///< m/s² forward at each sample: the result
@@ -164,9 +184,10 @@ struct DragForces {
   // To both sides alike.
   const AirframeDrag sideward{p.side_area, p.law.top_area, p.law.linear_speed, 0};
   return {airframe_drag_along(p.law, density, forward, right,
-                              effective_area(p.law, p.tan_tilt[i], p.cos_tilt[i])),
-          airframe_drag_along(sideward, density, right, forward,
-                              effective_area(sideward, p.sideward_thrust[i], p.cos_sideward[i]))};
+                              effective_area(p.law, p.thrust.tan_tilt[i], p.thrust.cos_tilt[i])),
+          airframe_drag_along(
+              sideward, density, right, forward,
+              effective_area(sideward, p.thrust.sideward[i], p.thrust.cos_sideward[i]))};
 }
 
 /// Samples first ≤ i < last of a flight.

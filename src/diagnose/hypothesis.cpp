@@ -145,7 +145,7 @@ void push(const Ordered& ordered, FlightPrediction& p, std::span<const double> v
   for (std::size_t i = 0; i < r.size(); ++i) {
     const std::array<double, flight_formula_channels.size()> channels{
         r.time[i],
-        p.tilt[i],
+        p.thrust.tilt[i],
         std::atan(r.sideward_thrust[i] * std::cos(r.tilt[i])),
         r.yaw[i],
         r.forward_speed[i],

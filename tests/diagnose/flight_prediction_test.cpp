@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "support/random.hpp"
 #include "tethercalc/model/units.hpp"
 
 using namespace tethercalc;
@@ -227,8 +228,49 @@ TEST_CASE("an attitude delay shifts a smooth tilt back to where it was") {
   for (std::size_t i = 3; i + 5 < record.size(); ++i) {
     // Lagrange's cubic at 0.1 s steps errs by h⁴·f⁗/24·(9/16) ≤ 2.3e-7 here.
     const double wanted = 0.4 * std::sin(0.7 * (record.time[i] + 0.13));
-    CHECK(prediction.tilt[i] == Approx(wanted).margin(3e-7));
+    CHECK(prediction.thrust.tilt[i] == Approx(wanted).margin(3e-7));
   }
+}
+
+TEST_CASE("a prediction made anew with other values is what one from the start is") {
+  FlightRecord record = swinging_flight();
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    record.headwind[i] = 2 + std::sin(0.2 * record.time[i]);
+    record.crosswind[i] = 1;
+  }
+  const std::span<const Effect> catalogue = effect_catalogue(LogKind::flight);
+  test::each_random(5, [&](test::Random& random) {
+    record.both_axes = random.chance(0.5);
+    FlightPrediction anew(record);
+    std::vector<double> sizes(catalogue.size(), 0.0);
+    FlightBase drawn = base;
+    for (int change = 0; change < 100; ++change) {
+      // One number changes at a time, as where derivatives are taken, or goes back to what it was.
+      const auto which =
+          static_cast<std::size_t>(random.integer(0, static_cast<int>(catalogue.size()) + 3));
+      const double size = random.chance(0.5) ? 0 : random.uniform(0.1, 1);
+      if (which < catalogue.size()) sizes[which] = size;
+      if (which == catalogue.size()) drawn.front_area = base.front_area * (1 + size);
+      if (which == catalogue.size() + 1) drawn.roll_trim = 0.1 * size;
+      if (which == catalogue.size() + 2) drawn.wind_gain = size;
+      if (which == catalogue.size() + 3) drawn.vertical_acceleration_gain = 1 - size;
+      std::vector<std::vector<double>> values(catalogue.size());
+      std::vector<EffectValues> effects;
+      for (std::size_t k = 0; k < catalogue.size(); ++k) {
+        if (sizes[k] == 0) continue;
+        for (const EffectParameter& p : catalogue[k].parameters) {
+          values[k].push_back(std::min(p.neutral + sizes[k] * p.scale, p.upper));
+        }
+        effects.push_back({&catalogue[k], values[k]});
+      }
+      predict_acceleration(anew, drawn, effects);
+      FlightPrediction fresh(record);
+      predict_acceleration(fresh, drawn, effects);
+      REQUIRE(anew.acceleration == fresh.acceleration);
+      REQUIRE(anew.side_acceleration == fresh.side_acceleration);
+      REQUIRE(anew.airspeed == fresh.airspeed);
+    }
+  });
 }
 
 TEST_CASE("a flight that obeys the model is simulated back onto its own speed") {
