@@ -27,6 +27,24 @@ Observations observe_part(const FlightLog& log, const DragIdentificationOptions&
   return flight;
 }
 
+std::optional<Warning> unused_flights_warning(const FlightLog& log,
+                                              const DragIdentificationOptions& options) {
+  if (options.from || options.to) return std::nullopt;
+  const auto times = [&log](const SampleRange& part) {
+    return fmt::format("{:.1f} s to {:.1f} s", log.time[part.first], log.time[part.last - 1]);
+  };
+  const SampleRange used = moving_part(log);
+  std::string others;
+  for (const SampleRange& part : moving_parts(log)) {
+    if (part == used) continue;
+    others += fmt::format("{}{}", others.empty() ? "" : ", ", times(part));
+  }
+  if (others.empty()) return std::nullopt;
+  return Warning{
+      WarningKind::log_flights_unused,
+      fmt::format("of its flights the longest is used, {}; not used: {}", times(used), others)};
+}
+
 DragIdentification identify_drag(std::span<const FlightLog> logs,
                                  const DragIdentificationOptions& options) {
   DragIdentification out;

@@ -372,7 +372,13 @@ LearnedDrag learned_drag(const std::vector<std::string>& logs, const FlightOptio
   };
   const DragIdentificationOptions how = identification_options(flight, read);
   try {
-    learned.study = study_drag(heading_of(logs), read_flight_logs(logs, flight, read, keep), how);
+    const std::vector<FlightLog> read_logs = read_flight_logs(logs, flight, read, keep);
+    learned.study = study_drag(heading_of(logs), read_logs, how);
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+      if (const auto unused = unused_flights_warning(read_logs[i], how)) {
+        keep({unused->kind, fmt::format("{}: {}", logs[i], unused->sentence)});
+      }
+    }
   } catch (const UnsuitableFlight& error) {
     throw InputError(logs.size() == 1 ? logs.front() : "drag", error.what());
   }

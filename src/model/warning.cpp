@@ -45,6 +45,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "log_ground_speed",
                                                                    "log_flight_of_several",
                                                                    "log_flights_joined",
+                                                                   "log_flights_unused",
                                                                    "log_not_flying",
                                                                    "log_averaged",
                                                                    "log_clock_jitter",

@@ -120,6 +120,29 @@ TEST_CASE("drag is told to be lost between samples a second apart") {
   CHECK_THAT(drag({example}, known).err, !Contains("one sample every"));
 }
 
+TEST_CASE("drag tells the flights of a log that teach it nothing, unless a range is chosen") {
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "two-flights.csv").string();
+  std::istringstream lines(file_text(example));
+  std::string first;
+  std::getline(lines, first);
+  first += "\n";
+  std::string second;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t comma = line.find(',');
+    first += line + "\n";
+    second += fmt::format("{:.1f}{}\n", std::stod(line.substr(0, comma)) + 600, line.substr(comma));
+  }
+  write_file(log, first + second);
+  const std::string unused =
+      "two-flights.csv: of its flights the longest is used, 35.7 s to 464.3 "
+      "s; not used: 635.7 s to 1064.3 s";
+  CHECK_THAT(drag({log}, known).err, Contains(unused));
+  CHECK_THAT(drag_of({log}, known).at("notes").dump(), Contains(unused));
+  CHECK_THAT(drag({log}, and_also(known, {"--from", "600"})).err, !Contains("not used"));
+  CHECK_THAT(drag({example}, known).err, !Contains("not used"));
+}
+
 TEST_CASE("drag's parameters for an autopilot are those of its JSON, with intervals as comments") {
   const json answer = drag_of({example}, known).at("autopilot");
   for (const std::string autopilot : {"ardupilot", "px4"}) {

@@ -7,6 +7,7 @@
 
 #include "tethercalc/identify/drag_fit.hpp"
 #include "tethercalc/identify/observations.hpp"
+#include "tethercalc/model/warning.hpp"
 
 namespace tethercalc {
 
@@ -32,6 +33,11 @@ struct DragIdentification {
 /// km/h, time in milliseconds): drag and diagnosis refuse the same.
 [[nodiscard]] Observations observe_part(const FlightLog& log,
                                         const DragIdentificationOptions& options);
+
+/// What is to be said of a log whose flights beside the longest are not observed, since no range is
+/// chosen; nothing of others. Throws UnsuitableFlight where the drone never moves.
+[[nodiscard]] std::optional<Warning> unused_flights_warning(
+    const FlightLog& log, const DragIdentificationOptions& options);
 
 /// Fits the drag shared by `logs` and the wind of each, see `fit_drag`, to the samples chosen by
 /// `options`, see `select_range` and `moving_part`. Throws UnsuitableFlight where a log is invalid

@@ -49,6 +49,7 @@ enum class WarningKind {
   log_ground_speed,            ///< ground speed taken as airspeed
   log_flight_of_several,       ///< which flight of several is which log, and what of it is used
   log_flights_joined,          ///< flights of one log judged together
+  log_flights_unused,          ///< flights of one log beside the one that drag is learned of
   log_not_flying,              ///< seconds on the ground or tilted too far
   log_averaged,                ///< means judged instead of samples
   log_clock_jitter,            ///< stamps off the even moments of the samples
@@ -70,7 +71,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 58;
+inline constexpr std::size_t warning_kind_count = 59;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.
