@@ -185,7 +185,7 @@ ShownMotor motor_of_flight(const MotorOptions& options) {
   try {
     flown = flown_motor(flight.log, file.design, *options.max_thrust_g * unit::gram_force,
                         library_motors());
-  } catch (const UnsuitablePowerFlight& error) {
+  } catch (const std::invalid_argument& error) {
     throw InputError(options.power_log, error.what());
   }
   ShownMotor out;

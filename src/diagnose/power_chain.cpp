@@ -79,6 +79,13 @@ double motor_curve_power(const MotorCurve& motor, double thrust) {
 
 }  // namespace
 
+void check_flies_free(const PowerLog& log) {
+  if (!log.free_flight || (log.supply_voltage.empty() && log.supply_current.empty())) return;
+  throw std::invalid_argument(
+      "a drone that flies free has no supply, but the log has supply_voltage_V or "
+      "supply_current_A; was it flown on the tether?");
+}
+
 void append_flight(PowerLog& all, const PowerLog& flight) {
   if (all.time.empty()) {
     all = flight;

@@ -71,11 +71,7 @@ std::string lacking(const Effect& effect, const Design& design, const PowerLog& 
 void check_stages(const PowerLog& log) {
   const bool has_stage = is_measured(Stage::tether, log) || is_measured(Stage::converter, log) ||
                          is_measured(Stage::motors, log);
-  if (log.free_flight && !(log.supply_voltage.empty() && log.supply_current.empty())) {
-    throw std::invalid_argument(
-        "a drone that flies free has no supply, but the log has supply_voltage_V or "
-        "supply_current_A; was it flown on the tether?");
-  }
+  check_flies_free(log);
   if (has_stage) return;
   const auto of = [&](Stage stage) {
     return fmt::format("{}", fmt::join(channels_needed({stage}, log.free_flight), ", "));

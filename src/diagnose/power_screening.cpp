@@ -13,6 +13,7 @@
 
 #include "identify/statistics.hpp"
 #include "model/constants.hpp"
+#include "tethercalc/identify/observations.hpp"
 #include "tethercalc/model/design.hpp"
 
 namespace tethercalc {
@@ -114,15 +115,16 @@ std::vector<double> advanced(const std::vector<double>& time, const std::vector<
   return interpolated(time, x, std::move(at));
 }
 
-/// Correlation of sample-to-sample changes over samples where all is well. Changes beyond ten times
-/// their median size are cut to that, so that a few do not decide.
+/// Correlation of the changes over two samples where all is well: of a ramp they are twice those
+/// over one, with the same noise. Changes beyond ten times their median size are cut to that, so
+/// that a few do not decide.
 double change_correlation(const std::vector<double>& a, const std::vector<double>& b,
                           const std::vector<char>& usable) {
   std::vector<double> da, db;
-  for (std::size_t i = 1; i < a.size(); ++i) {
-    if (!usable[i] || !usable[i - 1]) continue;
-    const double change_a = a[i] - a[i - 1];
-    const double change_b = b[i] - b[i - 1];
+  for (std::size_t i = 2; i < a.size(); ++i) {
+    if (!usable[i] || !usable[i - 1] || !usable[i - 2]) continue;
+    const double change_a = a[i] - a[i - 2];
+    const double change_b = b[i] - b[i - 2];
     if (!std::isfinite(change_a + change_b)) continue;
     da.push_back(change_a);
     db.push_back(change_b);
@@ -146,29 +148,36 @@ double change_correlation(const std::vector<double>& a, const std::vector<double
 }
 
 /// The delay in s at which `agreement` (a correlation over about `samples` pairs) is largest; 0
-/// where no delay is clearly better than none.
+/// where no delay is clearly better than none. Tried are delays of whole sampling intervals:
+/// between samples a straight line averages their noise, and channels would agree best half an
+/// interval off.
 double best_delay(const std::function<double(double)>& agreement, std::size_t samples,
                   double interval) {
   constexpr double furthest = 12;      // s: a clock further off shows in any plot
   constexpr double negligible = 0.25;  // s: a quarter of the sampling of a 1 Hz log
+  const double step = interval * std::ceil(negligible / interval);
+  const int steps = static_cast<int>(furthest / step);
   const double none = agreement(0);
   double best = 0;
   double best_value = none;
   double least_value = none;
-  const double step = std::max(0.5 * interval, 0.25);
-  for (double delay = -furthest; delay <= furthest + 1e-9; delay += step) {
-    const double value = agreement(delay);
+  for (int k = -steps; k <= steps; ++k) {
+    const double value = agreement(k * step);
     least_value = std::min(least_value, value);
     if (value > best_value) {
       best_value = value;
-      best = delay;
+      best = k * step;
     }
   }
-  // Parabola through the three values around the best.
+  // The top of the parabola through the three values around the best.
   const double before = agreement(best - step);
   const double after = agreement(best + step);
   const double bend = before - 2 * best_value + after;
-  if (bend < 0) best += std::clamp(0.5 * step * (before - after) / bend, -step, step);
+  if (bend < 0) {
+    const double off = std::clamp(0.5 * (before - after) / bend, -1.0, 1.0);
+    best += step * off;
+    best_value -= 0.25 * (before - after) * off;
+  }
   // Fisher's z: atanh of a correlation has a standard deviation of 1/√n; two of them are compared,
   // and the best of some fifty chosen.
   const double z =
@@ -303,7 +312,8 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
     // A corner of a climb may look like one; a handful is nothing to report.
     if (500 * spikes > n) {
       screened.notes.push_back(
-          {WarningKind::log_spikes, fmt::format("{}: {} spikes left out", channel.name, spikes)});
+          {WarningKind::log_spikes,
+           fmt::format("{}: {} spike{} left out", channel.name, spikes, spikes == 1 ? "" : "s")});
     }
     fill_in(log.time, bad[c], x);
   }
@@ -560,6 +570,12 @@ void check_power_units(const Design& design, const PowerLog& log) {
     if (!(middle > 0)) report(fmt::format("{} is {:.3g} {} in the median", name, middle, unit));
     return !values.empty() && middle > 0;
   };
+  constexpr double longest_step = 100;  // s, in which any drone climbs and turns back
+  const double step = median_step(log.time);
+  if (step > longest_step) {
+    report(
+        fmt::format("time_s has a row every {:.3g} s in the median; is it in milliseconds?", step));
+  }
   const bool has_voltage = require_positive("supply_voltage_V", log.supply_voltage, "V");
   const bool has_current = require_positive("supply_current_A", log.supply_current, "A");
   if (has_voltage) {

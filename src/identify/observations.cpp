@@ -142,9 +142,11 @@ SampleRange range_in_seconds(const FlightLog& log, double from, double to) {
   const auto first = std::lower_bound(begin, log.time.end(), from);
   const auto last = std::upper_bound(begin, log.time.end(), to);
   if (!(from <= to) || first >= last) {
-    throw UnsuitableFlight(
-        fmt::format("no sample from {} s to {} s; the log runs from {:.3f} s to {:.3f} s", from, to,
-                    log.time.front(), log.time.back()));
+    const std::string wanted = !std::isfinite(to)     ? fmt::format("from {} s on", from)
+                               : !std::isfinite(from) ? fmt::format("up to {} s", to)
+                                                      : fmt::format("from {} s to {} s", from, to);
+    throw UnsuitableFlight(fmt::format("no sample {}; the log runs from {:.3f} s to {:.3f} s",
+                                       wanted, log.time.front(), log.time.back()));
   }
   return {static_cast<std::size_t>(first - begin), static_cast<std::size_t>(last - begin)};
 }

@@ -44,9 +44,9 @@ bool repeats_another(std::vector<double> channel, std::vector<std::vector<double
   return repeats;
 }
 
-void refuse_repeated(const std::string& name, const FlightLog& log,
-                     std::vector<std::vector<double>>& pitches) {
-  if (!repeats_another(log.pitch, pitches)) return;
+void refuse_repeated(const std::string& name, const std::vector<double>& channel,
+                     std::vector<std::vector<double>>& of_others) {
+  if (!repeats_another(channel, of_others)) return;
   throw InputError(name,
                    "is the same flight as another of these logs, or a part of it; counted twice it "
                    "would seem to tell more than it does");
@@ -108,7 +108,7 @@ LoggedFlight read_flights(const LogsAsked& options, std::span<const Effect> own,
     FlightLogReading reading = read.flight(name, {.core = options.flight.core,
                                                   .level_where_missing = true,
                                                   .columns = options.flight.columns});
-    refuse_repeated(name, reading.log, pitches);
+    refuse_repeated(name, reading.log.pitch, pitches);
     const bool several = options.flight_logs.size() > 1;
     if (several) {
       notes.push_back({WarningKind::log_flight_of_several,
@@ -146,11 +146,7 @@ PowerLog read_power(const LogsAsked& options, const LogReaders& read, std::vecto
   std::vector<std::vector<double>> airspeeds;
   for (const std::string& name : options.power_logs) {
     PowerLogReading reading = read.power(name, how);
-    if (repeats_another(reading.log.airspeed, airspeeds)) {
-      notes.push_back({WarningKind::log_flight_of_several,
-                       name + " is the same flight as another of these logs: together they tell no "
-                              "more than one, whatever intervals say"});
-    }
+    refuse_repeated(name, reading.log.airspeed, airspeeds);
     try {
       append_flight(all, reading.log);
     } catch (const std::invalid_argument& error) {
@@ -340,7 +336,7 @@ std::vector<FlightLog> read_flight_logs(const std::vector<std::string>& names,
   std::vector<std::vector<double>> pitches;
   for (const std::string& name : names) {
     FlightLogReading reading = read.flight(name, {.core = flight.core, .columns = flight.columns});
-    refuse_repeated(name, reading.log, pitches);
+    refuse_repeated(name, reading.log.pitch, pitches);
     if (reading.log.time.size() > 1) {
       if (auto slow = slow_log_warning(median_step(reading.log.time))) {
         reading.notes.push_back(std::move(*slow));

@@ -22,6 +22,7 @@ std::string_view warning_code(WarningKind kind) {
                                                                    "tether_inclination_unknown",
                                                                    "rated_temperature_unknown",
                                                                    "slack_unused",
+                                                                   "field_unused",
                                                                    "tether_touches_ground",
                                                                    "tether_does_not_hang",
                                                                    "offset_is_upwind",

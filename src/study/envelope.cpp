@@ -137,7 +137,9 @@ std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
   const bool drum_is_empty =
       missed.demand == Demand::tether_shape &&
       holds_all_cable(design.tether, points(good).in(missed.condition).tether_length);
-  return ReachEnd{good, from, true, limit_of(missed.demand), missed.condition, drum_is_empty};
+  const Design beyond = at_reach(design, reach, bad);
+  const Limit limit = missed_limit(beyond, points(bad).in(missed.condition), missed.demand);
+  return ReachEnd{good, from, true, limit, missed.condition, drum_is_empty};
 }
 
 std::vector<EnvelopePoint> envelope_curve(const Design& design, Reach of, Reach against,
@@ -162,8 +164,7 @@ bool EnvelopeStudy::any() const {
 EnvelopeStudy study_envelope(const Design& design) {
   EnvelopeStudy study;
   study.as_given =
-      evaluate_areas(design, std::span(&*design.tether.cross_section, 1), ConductorsAsked::one)
-          .front();
+      evaluate_areas_to_tell(design, std::span(&*design.tether.cross_section, 1)).front();
   for (const Reach reach : reaches_of(design)) {
     study.greatest.push_back({reach, greatest_reach(design, reach)});
   }

@@ -91,6 +91,7 @@ std::vector<SampleRange> hover_stretches(const PowerLog& flight) {
 FlownMotor flown_motor(const PowerLog& flight, const Design& design, double max_thrust,
                        std::span<const MotorEntry> measured) {
   const Drone& drone = design.drone;
+  check_flies_free(flight);
   std::vector<double> motor_power = bus_power_of(flight);
   if (motor_power.empty()) {
     throw UnsuitablePowerFlight(

@@ -513,3 +513,18 @@ TEST_CASE("rows of sweep and compare tell estimated motors from measured ones") 
     CHECK(row.at("power_uncertainty_percent").is_null() == measured);
   }
 }
+
+TEST_CASE("fields that count for nothing beside others are told, and those that count are not") {
+  const auto told = [](const std::vector<std::string>& fields) {
+    std::vector<std::string> asked{"optimize", published, "--format", "json"};
+    for (const std::string& field : fields) asked.insert(asked.end(), {"--set", field});
+    return json::parse(run_tethercalc(asked).out).at("warnings").dump();
+  };
+  const std::string reference = "flight.wind_reference_height_m=5";
+  CHECK_THAT(told({reference, "flight.station_height_m=3"}),
+             Contains("of no effect: flight.wind_reference_height_m, flight.station_height_m"));
+  CHECK_THAT(told({"tether.axial_stiffness_N=1e5"}), Contains("of no effect: tether.axial"));
+  CHECK_THAT(told({reference, "flight.wind_profile=power_law", "tether.axial_stiffness_N=1e5",
+                   "tether.model=solved"}),
+             !Contains("of no effect"));
+}

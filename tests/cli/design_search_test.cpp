@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -404,6 +406,19 @@ TEST_CASE("a mistyped study is refused with everything that is wrong") {
   CHECK_THAT(run.err, Contains("did you mean \"total_power_W\"?"));
   CHECK_THAT(run.err, Contains("expected KEY<=VALUE"));
   CHECK_THAT(run.err, Contains("allowed are awg and iec"));
+}
+
+TEST_CASE("where motors are at the end of their curve, an envelope and a sweep say so alike") {
+  const std::vector<std::string> area{"--set", "supply.voltage_V=400", "--area-mm2", "1.5"};
+  std::vector<std::string> asked{"envelope", published, "--format", "json"};
+  asked.insert(asked.end(), area.begin(), area.end());
+  const json payload = json::parse(run_tethercalc(asked).out)["greatest"]["payload_g"];
+  CHECK(payload["limited_by"] == "motor_thrust");
+  const double too_much = 1710 + 1.001 * payload["value"].get<double>();
+  const Ran sweep = run_tethercalc({"sweep", published, "--set", "supply.voltage_V=400", "--vary",
+                                    "tether.cross_section_mm2=1.5", "--vary",
+                                    fmt::format("drone.mass_g={:.3f}", too_much)});
+  CHECK_THAT(sweep.out, Contains("infeasible,motor_thrust,hover"));
 }
 
 TEST_CASE("an envelope names what ends it, and needs a cable") {

@@ -182,6 +182,12 @@ TEST_CASE("a motor is learned from the power of a flight, and says how well") {
   CHECK(motor.at("points").back().at("power_W").get<double>() == Approx(510.4).epsilon(1e-3));
   CHECK_THAT(run.err, Contains("known at its hover only"));
 
+  const Ran tethered =
+      run_tethercalc({"motor", "--power-log", project_file("examples/simulated-power.csv"),
+                      "--spec", published, "--max-thrust-g", "1300"});
+  CHECK(tethered.exit_code == 2);
+  CHECK_THAT(tethered.err, Contains("was it flown on the tether?"));
+
   const Ran bare = run_tethercalc({"motor", "--power-log", log});
   CHECK(bare.exit_code == 2);
   CHECK_THAT(bare.err, Contains("needs --spec SPEC"));

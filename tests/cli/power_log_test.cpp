@@ -1,6 +1,8 @@
 // Power logs through the real program: whatever they come as, whatever is wrong with what is asked.
 #include <zlib.h>
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -133,6 +135,28 @@ TEST_CASE("a motor is learned from an autopilot's log") {
   CHECK_THAT(run.err, Contains("ground speed is taken as airspeed"));
   const json from_gz = json::parse(learned(gz_of(text, file + ".gz")).out);
   CHECK(from_gz.at("points") == motor.at("points"));
+}
+
+TEST_CASE("a power log given twice, and one whose time is in milliseconds, are refused") {
+  const TemporaryFolder folder;
+  const std::string once = (folder.path() / "once.csv").string();
+  const std::string milliseconds = (folder.path() / "milliseconds.csv").string();
+  std::string csv = "time_s,height_m,airspeed_m_s,bus_voltage_V,bus_current_A\n";
+  std::string stretched = csv;
+  for (int i = 0; i < 300; ++i) {
+    const std::string row = fmt::format(",{},{:.2f},16,{:.2f}\n", 20 + i % 7, 0.05 * (i * i % 97),
+                                        25 + 0.01 * (i * 31 % 101));
+    csv += std::to_string(i) + row;
+    stretched += std::to_string(1000 * i) + row;
+  }
+  write_file(once, csv);
+  write_file(milliseconds, stretched);
+  const Ran twice = diagnosed({"--free-flight", "--power", once, "--power", once});
+  CHECK(twice.exit_code == 2);
+  CHECK_THAT(twice.err, Contains("is the same flight as another of these logs"));
+  const Ran slow = diagnosed({"--free-flight", "--power", milliseconds});
+  CHECK(slow.exit_code == 2);
+  CHECK_THAT(slow.err, Contains("is it in milliseconds?"));
 }
 
 TEST_CASE("options of a power log that contradict each other or the log are refused") {

@@ -566,6 +566,17 @@ TEST_CASE("clocks that disagree are set right and not taken for physics") {
   CHECK(names(heavy.findings.front(), "extra_mass"));
 }
 
+TEST_CASE("clocks that agree are left alone, however noisy the channels") {
+  for (int i = 0; i < test::draws(12); ++i) {
+    Scenario scenario;
+    scenario.seed = seed(400'035) + static_cast<unsigned>(i);
+    const Diagnosis diagnosis = diagnosis_of(scenario);
+    INFO(scenario.seed << ": " << summary(diagnosis));
+    CHECK(std::ranges::none_of(
+        diagnosis.notes, [](const Warning& note) { return note.kind == WarningKind::log_lag; }));
+  }
+}
+
 TEST_CASE("a stuck instrument is noticed and not taken for physics") {
   const std::string channel = GENERATE(as<std::string>(), "drone_voltage_V", "bus_current_A",
                                        "supply_current_A", "height_m", "airspeed_m_s");

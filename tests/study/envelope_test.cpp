@@ -42,7 +42,7 @@ TEST_CASE("the greatest payload of strong power is what the motors' last point l
   const double tether = test::airborne_mass(design.tether, 1.5e-6);
   const double lifted = 4 * design.drone.motor.max_thrust() / (2 * standard_gravity);
   CHECK(end->value == Approx(lifted - 1.71 - tether).epsilon(1e-8));
-  CHECK(end->limit == Limit::available_power);
+  CHECK(end->limit == Limit::motor_thrust);
 }
 
 TEST_CASE("in the envelope a cable flies, beyond it it does not") {

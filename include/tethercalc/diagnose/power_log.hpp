@@ -64,6 +64,10 @@ inline constexpr std::array<PowerChannel, 9> power_channels{{
   return power;
 }
 
+/// Throws std::invalid_argument where a log that is said to be of a free flight has channels of a
+/// supply on the ground.
+void check_flies_free(const PowerLog& log);
+
 /// Puts a further free flight of the same drone behind those of `all`, its time counted on from
 /// there. Throws std::invalid_argument where it has other channels than they have.
 void append_flight(PowerLog& all, const PowerLog& flight);

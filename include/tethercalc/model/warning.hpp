@@ -26,6 +26,7 @@ enum class WarningKind {
   tether_inclination_unknown,  ///< a tether near its rating that may hang steeply
   rated_temperature_unknown,   ///< insulation that no heat limits
   slack_unused,                ///< a slack of a tether whose length something else decides
+  field_unused,                ///< a field of the spec that counts for nothing beside others
   tether_touches_ground,       ///< a solved tether that hangs below its station
   tether_does_not_hang,        ///< a solved tether without a way up to its drone
   offset_is_upwind,            ///< a drone aside of its station, judged on the favourable side
@@ -71,7 +72,7 @@ enum class WarningKind {
 };
 
 /// How many there are.
-inline constexpr std::size_t warning_kind_count = 59;
+inline constexpr std::size_t warning_kind_count = 60;
 
 /// "motor_points_pooled" …: the name of the enumerator, as `warning_codes` and `note_codes` of the
 /// JSON answers have it.
