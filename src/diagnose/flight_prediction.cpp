@@ -56,8 +56,12 @@ void direct_thrust(FlightPrediction& p, const FlightBase& base,
 
   const FlightRecord& record = p.record;
   ThrustDirection& thrust = p.thrust;
-  thrust = {std::move(from),        record.tilt,        record.tan_tilt, record.cos_tilt,
-            record.sideward_thrust, record.cos_sideward};
+  thrust.from = std::move(from);
+  thrust.tilt = record.tilt;
+  thrust.tan_tilt = record.tan_tilt;
+  thrust.cos_tilt = record.cos_tilt;
+  thrust.sideward = record.sideward_thrust;
+  thrust.cos_sideward = record.cos_sideward;
   act(p, effects, FlightPhase::attitude);
   if (thrust.tilt != record.tilt) {
     std::transform(thrust.tilt.begin(), thrust.tilt.end(), thrust.tan_tilt.begin(),

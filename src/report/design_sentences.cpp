@@ -650,45 +650,34 @@ namespace {
 
 /// What says something of a wind that grows with height, or in another way than it does, and of a
 /// cable that stretches.
-std::vector<Warning> unused_field_warnings(const Design& design) {
-  std::vector<Warning> warnings;
+std::optional<Warning> unused_fields_warning(const Design& design) {
   const Flight& flight = design.flight;
   const Flight unset;
-  const WindProfile profile = flight.wind_profile;
-  std::vector<std::string> names;
-  const auto unused_if = [&names](bool unused, const char* name) {
-    if (unused) names.emplace_back(name);
+  const bool uniform = flight.wind_profile == WindProfile::uniform;
+  const bool straight = design.tether.model == TetherModel::straight;
+  std::string names;
+  const auto name_if = [&names](bool unused, const char* name) {
+    if (unused) names += (names.empty() ? "" : ", ") + std::string(name);
   };
-  unused_if(profile == WindProfile::uniform && flight.wind_reference_height.has_value(),
-            "flight.wind_reference_height_m");
-  unused_if(profile == WindProfile::uniform && flight.station_height != unset.station_height,
-            "flight.station_height_m");
-  unused_if(profile != WindProfile::power_law && flight.wind_exponent != unset.wind_exponent,
-            "flight.wind_exponent");
-  unused_if(
-      profile != WindProfile::logarithmic && flight.roughness_length != unset.roughness_length,
-      "flight.roughness_length_m");
-  if (!names.empty()) {
-    warnings.push_back(
-        {WarningKind::field_unused,
-         fmt::format("of no effect: {} (flight.wind_profile is {})", fmt::join(names, ", "),
-                     profile == WindProfile::uniform ? "uniform: the wind is the same everywhere"
-                     : profile == WindProfile::power_law ? "power_law"
-                                                         : "logarithmic")});
-  }
-  if (design.tether.model == TetherModel::straight && design.tether.axial_stiffness) {
-    warnings.push_back({WarningKind::field_unused,
-                        "of no effect: tether.axial_stiffness_N (a straight tether is as long as "
-                        "the drone is high; tether.model solved stretches)"});
-  }
-  return warnings;
+  name_if(uniform && flight.wind_reference_height.has_value(), "flight.wind_reference_height_m");
+  name_if(uniform && flight.station_height != unset.station_height, "flight.station_height_m");
+  name_if(
+      flight.wind_profile != WindProfile::power_law && flight.wind_exponent != unset.wind_exponent,
+      "flight.wind_exponent");
+  name_if(flight.wind_profile != WindProfile::logarithmic &&
+              flight.roughness_length != unset.roughness_length,
+          "flight.roughness_length_m");
+  name_if(straight && design.tether.axial_stiffness.has_value(), "tether.axial_stiffness_N");
+  if (names.empty()) return std::nullopt;
+  return Warning{WarningKind::field_unused,
+                 "of no effect with this flight.wind_profile and tether.model: " + names};
 }
 
 }  // namespace
 
 std::vector<Warning> spec_warnings(const DesignFile& file) {
   std::vector<Warning> warnings = file.warnings;
-  for (Warning& unused : unused_field_warnings(file.design)) warnings.push_back(std::move(unused));
+  if (auto unused = unused_fields_warning(file.design)) warnings.push_back(std::move(*unused));
   if (auto drag = drag_estimate_warning(file.design)) warnings.push_back(std::move(*drag));
   if (auto density = density_warning(file.design)) warnings.push_back(std::move(*density));
   return warnings;

@@ -48,7 +48,8 @@ struct FlownMotor {
 ///
 /// Throws UnsuitablePowerFlight for a log without power at the bus, less than 20 s or 50 rows of
 /// hover, hover power that is not positive, and a greatest thrust below that of the hover;
-/// std::invalid_argument for a flight on a tether (`check_flies_free`), whose cable was carried too.
+/// std::invalid_argument for a flight on a tether (`check_flies_free`), whose cable was carried
+/// too.
 [[nodiscard]] FlownMotor flown_motor(const PowerLog& flight, const Design& design,
                                      double max_thrust, std::span<const MotorEntry> measured);
 
