@@ -435,16 +435,16 @@ Diagnosis too_short(const std::vector<FlightData>& flights,
   }
   d.base.holdout_rmse = nan;
   d.extended.holdout_rmse = d.base.holdout_rmse;
-  const double needed = shortest_block * static_cast<double>(fewest_blocks);
+  static_assert(shortest_flight == shortest_block * static_cast<double>(fewest_blocks));
   const std::string needs = fmt::format(
-      "a longer flight: {:.0f} s, this one has {:.1f} s that can be used", needed, usable);
+      "a longer flight: {:.0f} s, this one has {:.1f} s that can be used", shortest_flight, usable);
   for (const Effect* effect : effects) {
     d.not_testable.push_back({effect->id, needs});
   }
   d.notes.push_back(
       {WarningKind::log_too_short, fmt::format("too short to tell an effect from chance: {:.1f} s "
                                                "of usable flight, {:.0f} s are needed",
-                                               usable, needed)});
+                                               usable, shortest_flight)});
   return d;
 }
 

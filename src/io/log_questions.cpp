@@ -38,7 +38,8 @@ bool has_stretch_of(const std::vector<double>& whole, const std::vector<double>&
 /// Adds a channel of a log to those of others; whether it has a part of one of them.
 bool repeats_another(std::vector<double> channel, std::vector<std::vector<double>>& others) {
   const bool repeats = std::any_of(others.begin(), others.end(), [&](const auto& other) {
-    return channel == other || has_stretch_of(other, channel) || has_stretch_of(channel, other);
+    return (channel == other && !channel.empty()) || has_stretch_of(other, channel) ||
+           has_stretch_of(channel, other);
   });
   others.push_back(std::move(channel));
   return repeats;
@@ -143,10 +144,10 @@ PowerLog read_power(const LogsAsked& options, const LogReaders& read, std::vecto
   const PowerLogOptions how{options.free_flight, battery_numbers(options.batteries),
                             options.flight.core, options.flight.columns};
   PowerLog all;
-  std::vector<std::vector<double>> airspeeds;
+  std::vector<std::vector<double>> powers;
   for (const std::string& name : options.power_logs) {
     PowerLogReading reading = read.power(name, how);
-    refuse_repeated(name, reading.log.airspeed, airspeeds);
+    refuse_repeated(name, bus_power_of(reading.log), powers);
     try {
       append_flight(all, reading.log);
     } catch (const std::invalid_argument& error) {

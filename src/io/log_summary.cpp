@@ -305,6 +305,10 @@ std::optional<LogSummary::Wind> wind_in(const AutopilotLog& log) {
                           direction < 0 ? direction + 360 : direction};
 }
 
+std::string too_short_words(double flown, double needed) {
+  return fmt::format("{:.0f} s flown, {:.0f} s are needed to judge it", flown, needed);
+}
+
 /// What `diagnose --power` could do with it.
 LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
                           const std::optional<FlightLogReading>& flight,
@@ -323,9 +327,7 @@ LogSummary::Use power_use(const AutopilotLog& log, const LogSummary& summary,
     if (use.possible && !varies) {
       return {use.command, false, "the current never changes: it is not measured"};
     }
-    use.because = use.possible ? power.source + how
-                               : fmt::format("{:.0f} s flown, {:.0f} s are needed to judge it",
-                                             flown, shortest_power_log);
+    use.because = use.possible ? power.source + how : too_short_words(flown, shortest_power_log);
   } catch (const InputError& error) {
     use.because = error.problems().front().message;
   }
@@ -355,8 +357,11 @@ std::vector<LogSummary::Use> uses_of(const AutopilotLog& log, const LogSummary& 
     options.conditions.mass = 1;  // accelerations do not depend on it
     (void)identify_drag({&flight->log, 1}, options);
   };
-  return {flight_use("drag", identified),
-          flight_use("diagnose --flight", [&] { (void)judged_time(flight->log); }),
+  const auto judged = [&] {
+    const double flown = judged_time(flight->log);
+    if (flown < shortest_flight) throw UnsuitableFlight(too_short_words(flown, shortest_flight));
+  };
+  return {flight_use("drag", identified), flight_use("diagnose --flight", judged),
           power_use(log, summary, flight, in_the_way)};
 }
 

@@ -667,6 +667,15 @@ TEST_CASE("log tells messages, rates and times, for people and programs") {
   CHECK(std::count(csv.out.begin(), csv.out.end(), '\n') == 3);
 }
 
+TEST_CASE("log says of a short flight what diagnose says of it") {
+  const auto log = reference_file("data/logs/sitl_delorean_00000116.bin");
+  if (!log) return;
+  CHECK_THAT(run_tethercalc({"log", log->string()}).out,
+             Contains("diagnose --flight: no, 30 s flown, 72 s are needed"));
+  CHECK_THAT(run_tethercalc({"diagnose", published, "--flight", log->string()}).out,
+             Contains("30.0 s of usable flight, 72 s are needed"));
+}
+
 TEST_CASE("log exports the messages of a name, and names the nearest for one that is not there") {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "flight.bin").string();

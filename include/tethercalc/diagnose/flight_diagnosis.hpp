@@ -65,6 +65,9 @@ struct FlightDiagnosisOptions {
                                         const FlightDiagnosisOptions& options = {},
                                         const SelectionProgress& progress = {});
 
+/// s that have to be judged, alone, to tell an effect from chance.
+inline constexpr double shortest_flight = 72;
+
 /// s of a log that `diagnose_flight` would judge, of a drone in air of 1.225 kg/m³. Throws
 /// UnsuitableFlight where that does.
 [[nodiscard]] double judged_time(FlightLog log);
