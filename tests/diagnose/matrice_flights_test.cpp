@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,19 @@ std::string learned(const test::TemporaryFolder& folder, const std::string& bare
   return spec;
 }
 
+/// The flight less every 40th row: the very same one is not taken twice.
+std::string once_more(const test::TemporaryFolder& folder, const std::string& flight) {
+  std::istringstream lines(test::file_text(flight));
+  std::string text;
+  std::size_t number = 0;
+  for (std::string line; std::getline(lines, line); ++number) {
+    if (number % 40 != 39) text += line + "\n";
+  }
+  const std::string path = folder.path() / "once-more.csv";
+  test::write_file(path, text);
+  return path;
+}
+
 }  // namespace
 
 TEST_CASE("a payload shows in a battery flight after one without has told of the motors") {
@@ -162,8 +176,9 @@ TEST_CASE("the mean power of flights with a known payload is what one without ha
   // Flight 273 flew at airspeeds up to 10 m/s, 269 up to 14.7 m/s. Each of the two is too short to
   // be judged alone, so it stands there twice: nothing is fitted to it.
   for (const int number : {268, 269}) {
-    const nlohmann::json held_out = diagnosed(
-        drone, {"--mass-g", "4180", "--power", *flight(number), "--power", *flight(number)});
+    const std::string again = once_more(folder, *flight(number));
+    const nlohmann::json held_out =
+        diagnosed(drone, {"--mass-g", "4180", "--power", *flight(number), "--power", again});
     const double ratio = held_out.at("further").at(0).at("base_mean_ratio");
     INFO(number << ": mean predicted over measured power " << ratio);
     CHECK(std::abs(ratio - 1) < 0.05);
