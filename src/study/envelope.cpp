@@ -133,12 +133,13 @@ std::optional<ReachEnd> greatest_reach(const Design& design, Reach reach) {
   }
   double bad = values[last];
   bisect(good, bad);
-  const DemandMargin missed = points(bad).worst;
+  const AreaPoints beyond = points(bad);
+  const DemandMargin& missed = beyond.worst;
   const bool drum_is_empty =
       missed.demand == Demand::tether_shape &&
       holds_all_cable(design.tether, points(good).in(missed.condition).tether_length);
-  const Design beyond = at_reach(design, reach, bad);
-  const Limit limit = missed_limit(beyond, points(bad).in(missed.condition), missed.demand);
+  const Limit limit =
+      missed_limit(at_reach(design, reach, bad), beyond.in(missed.condition), missed.demand);
   return ReachEnd{good, from, true, limit, missed.condition, drum_is_empty};
 }
 

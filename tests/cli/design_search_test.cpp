@@ -409,10 +409,9 @@ TEST_CASE("a mistyped study is refused with everything that is wrong") {
 }
 
 TEST_CASE("where motors are at the end of their curve, an envelope and a sweep say so alike") {
-  const std::vector<std::string> area{"--set", "supply.voltage_V=400", "--area-mm2", "1.5"};
-  std::vector<std::string> asked{"envelope", published, "--format", "json"};
-  asked.insert(asked.end(), area.begin(), area.end());
-  const json payload = json::parse(run_tethercalc(asked).out)["greatest"]["payload_g"];
+  const Ran envelope = run_tethercalc({"envelope", published, "--set", "supply.voltage_V=400",
+                                       "--area-mm2", "1.5", "--format", "json"});
+  const json payload = json::parse(envelope.out)["greatest"]["payload_g"];
   CHECK(payload["limited_by"] == "motor_thrust");
   const double too_much = 1710 + 1.001 * payload["value"].get<double>();
   const Ran sweep = run_tethercalc({"sweep", published, "--set", "supply.voltage_V=400", "--vary",
