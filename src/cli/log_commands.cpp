@@ -171,6 +171,9 @@ DiagnoseOptions with_both_halves(DiagnoseOptions options) {
 }
 
 int run_log(const std::string& file, const std::string& message, const Output& output) {
+  if (!message.empty() && output.format == Format::json) {
+    throw InputError("--format", "json is not what --csv exports; give one of them");
+  }
   const LogFile content(file);
   const AutopilotLog log(content.bytes(), file);
   if (!message.empty()) {
@@ -182,6 +185,12 @@ int run_log(const std::string& file, const std::string& message, const Output& o
       output, [&] { return log_text(summary, file, style_for(output)); },
       [&] { return log_json(summary, file); }, [&] { return log_csv(summary); });
   return done;
+}
+
+/// `printed` where --into has no name.
+void check_prints_spec(bool printed, const Output& output) {
+  if (!printed || output.format != Format::csv) return;
+  throw InputError("--format", "csv is not what --into prints, a spec in JSON; give --into a file");
 }
 
 int run_drag(const DragOptions& options, const Output& output) {
@@ -197,6 +206,7 @@ int run_drag(const DragOptions& options, const Output& output) {
                      "says where the spec with the learned drag goes; the one that it is learned "
                      "for is given by --spec SPEC");
   }
+  check_prints_spec(options.into && options.into_file.empty(), output);
   if (file && !options.into) {
     throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
   }
@@ -236,6 +246,7 @@ AnsweredDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   const std::optional<MissionTarget> target = mission_target(options);
+  check_prints_spec(options.into && options.into_file.empty(), output);
   const AnsweredDiagnosis told = diagnose_logs(options, read_spec(options.spec));
   if (options.into && options.into_file.empty()) {
     emit(output, spec_text(told.spec, options.spec.file, output.file));

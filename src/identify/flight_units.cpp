@@ -346,6 +346,12 @@ void check_flight_units(const Observations& flight, double gravity) {
   if (!found) return;  // too short to judge, which is told elsewhere
   const auto [correlation, slope, size] = *found;
   constexpr double level = 0.1;
+  constexpr double at_rest = 0.5;  // m/s: beside it an estimate's own drift is large
+  if (size < level && spread(flight.forward_speed) < at_rest &&
+      spread(flight.right_speed) < at_rest) {
+    throw UnsuitableFlight(
+        "the drone hardly moves and does not lean, as on the ground; is it in the air here?");
+  }
   if (size < level) {
     throw UnsuitableFlight(
         "the pitch is far too level for the logged accelerations; are the angles in radians?");

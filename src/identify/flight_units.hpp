@@ -58,9 +58,9 @@ inline constexpr double leans_to_speed_up = 0.5;
 ///
 /// Throws UnsuitableFlight where the pitch never moves, where the acceleration follows the pitch or
 /// the thrust with the wrong sign, or the pitch in another proportion than any drag leaves, where
-/// the pitch is too level for the accelerations, where leaning and acceleration agree only after
-/// velocities are exchanged or the yaw is counted otherwise, and where more than 8 m/s are kept
-/// nose-up on opposite headings, by wings.
+/// the pitch is too level for the accelerations, in flight or on the ground, where leaning and
+/// acceleration agree only after velocities are exchanged or the yaw is counted otherwise, and
+/// where more than 8 m/s are kept nose-up on opposite headings, by wings.
 void check_flight_units(const Observations& flight, double gravity);
 
 }  // namespace tethercalc

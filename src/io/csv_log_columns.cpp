@@ -305,4 +305,11 @@ void check_no_columns(std::span<const std::string> chosen, std::string_view file
                    fmt::format("names columns of a log in CSV; {} is an autopilot's", file));
 }
 
+void check_no_core(int core, std::string_view file) {
+  if (core == 0) return;
+  throw InputError("--core", fmt::format("chooses an estimate in an autopilot's log; {} is CSV and "
+                                         "holds one",
+                                         file));
+}
+
 }  // namespace tethercalc

@@ -400,6 +400,7 @@ FlightLogReading parse_flight_log(std::span<const std::byte> content, const std:
                                   const FlightLogOptions& options) {
   check_core(options.core);
   if (!looks_like_table(content)) return parse_flight_log(AutopilotLog(content, name), options);
+  check_no_core(options.core, name);
   return read_csv({reinterpret_cast<const char*>(content.data()), content.size()}, name, options);
 }
 

@@ -351,6 +351,7 @@ PowerLogReading power_of_table(std::string_view text, const std::string& name,
 PowerLogReading parse_power_log(std::span<const std::byte> content, const std::string& name,
                                 const PowerLogOptions& options) {
   if (!looks_like_table(content)) return parse_power_log(AutopilotLog(content, name), options);
+  check_no_core(options.core, name);
   return power_of_table({reinterpret_cast<const char*>(content.data()), content.size()}, name,
                         options);
 }

@@ -349,6 +349,8 @@ TEST_CASE("drag --into writes a spec: neither without one to learn for, nor over
   refused({"--spec", mine}, "give --into as well");
   refused({"--spec", mine, "--into", mine}, "is read; give another file");
   refused({"--spec", mine, "--into", log}, "is there and no .json file");
+  refused({"--spec", mine, "--into", "--format", "csv"}, "a spec in JSON");
+  refused({"--core", "1"}, "flight.csv is CSV and holds one");
   CHECK(file_text(mine) == file_text(published));
   CHECK(file_text(log) == file_text(example));
 }
@@ -689,6 +691,10 @@ TEST_CASE("log exports the messages of a name, and names the nearest for one tha
   std::getline(csv, first);
   CHECK(header == "TimeUS,C,Roll,Pitch,Yaw,VN,VE,VD");
   CHECK_THAT(first, Catch::StartsWith("5000000,0,-1.15,-2.63,57.3,-0.01886,0.00818,"));
+  const Ran in_json = run_tethercalc({"log", log, "--csv", "XKF1", "--format", "json"});
+  CHECK(in_json.exit_code == 2);
+  CHECK(in_json.out.empty());
+  CHECK_THAT(in_json.err, Contains("--format: json is not what --csv exports"));
   const Ran missing = run_tethercalc({"log", log, "--csv", "XKF"});
   CHECK(missing.exit_code == 2);
   CHECK(missing.out.empty());

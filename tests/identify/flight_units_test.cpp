@@ -96,6 +96,20 @@ TEST_CASE("a flight whose north and east or yaw mean something else is refused b
   }
 }
 
+TEST_CASE("a drone on the ground is asked whether it flies, one that flies for its angles' unit") {
+  test::Random random(test::run_seed());
+  FlightLog log = flown(random, {.yaw_rate = 0.1});
+  for (double& pitch : log.pitch) pitch *= unit::degree;
+  CHECK_THAT(refusal(log), Catch::Contains("are the angles in radians?"));
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    log.pitch[i] = log.roll[i] = 0.001 * random.uniform(-1, 1);
+    for (auto* velocity : {&log.north_velocity, &log.east_velocity}) {
+      (*velocity)[i] = 0.1 * random.uniform(-1, 1);
+    }
+  }
+  CHECK_THAT(refusal(log), Catch::Contains("is it in the air here?"));
+}
+
 TEST_CASE("a down velocity that is positive upwards is refused where the drone goes up and down") {
   test::Random random(test::run_seed());
   FlightLog log = flown(random, {.heave = 1});
