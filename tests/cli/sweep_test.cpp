@@ -159,14 +159,18 @@ TEST_CASE("every feasible row has every number") {
   REQUIRE(run.exit_code == 0);
   INFO("--seed " << run_seed());
   std::size_t feasible = 0;
-  for (const json& row : rows_of(run.out)) {
-    if (row["status"] != "optimal") continue;
+  for (const std::string& row : lines_of(run.out)) {
+    if (row.find("\"status\":\"optimal\"") == std::string::npos) continue;
     ++feasible;
-    for (const auto& [column, value] : row.items()) {
+    const std::string null = "\":null";
+    for (std::size_t end = row.find(null); end != std::string::npos;
+         end = row.find(null, end + 1)) {
+      const std::size_t quote = row.rfind('"', end - 1);
+      const std::string column = row.substr(quote + 1, end - quote - 1);
       // Neither of these is estimated.
       const bool may_lack =
           column == "reason" || column.ends_with("_percent") || column.ends_with("_factor");
-      if (!may_lack && value.is_null()) FAIL_CHECK(column << " missing in " << row);
+      if (!may_lack) FAIL_CHECK(column << " missing in " << row);
     }
   }
   CHECK(feasible > 1000);

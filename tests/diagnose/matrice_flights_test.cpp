@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "support/random.hpp"
 #include "support/reference_data.hpp"
 #include "support/run_program.hpp"
 #include "tethercalc/files/read_files.hpp"
@@ -142,13 +143,17 @@ TEST_CASE("a payload shows in a battery flight after one without has told of the
 }
 
 TEST_CASE("what a flight is told of does not hang on when its clock began") {
-  for (const int number : {268, 269, 273}) {
+  for (const int number : {273, 268, 269}) {
+    if (test::leave_rates_out() && number != 273) return;
     const auto file = flight(number);
     if (!file) return;
     const test::TemporaryFolder folder;
     const std::string spec = matrice(folder);
     std::vector<std::set<std::string>> told;
-    for (const double shift : {0.0, 1.0, 7.3, -13.37, 1000.0, 86400.123}) {
+    std::vector<double> shifts{0.0, 86400.123};
+    // Another clock makes the same code run: under a sanitizer one is enough.
+    if (!test::leave_rates_out()) shifts.insert(shifts.end(), {1.0, 7.3, -13.37, 1000.0});
+    for (const double shift : shifts) {
       const std::string shifted = (folder.path() / "shifted.csv").string();
       test::write_file(shifted, with_clock_ahead(*file, shift));
       std::set<std::string>& names = told.emplace_back();

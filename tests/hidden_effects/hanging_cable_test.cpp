@@ -96,7 +96,8 @@ TEST_CASE("a cable that hangs as the spec says yields no finding") {
 }
 
 TEST_CASE("drag, slack and pull of a hanging cable are told from one another and sized") {
-  const int logs = test::draws(4);
+  if (test::leave_rates_out()) return;
+  const int logs = 4;
   int told_of = 0, sized = 0, covered = 0;
   std::string told;
   for (const Hanging& hanging : hanging_effects()) {

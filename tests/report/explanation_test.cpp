@@ -1,6 +1,7 @@
 // The pages that explain codes: one for each code that can be printed, none beside, none empty.
 #include <catch2/catch.hpp>
 
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -68,6 +69,15 @@ TEST_CASE("each enumerator that answers name has a page under its own name") {
   }
 }
 
+/// Whether `name` stands there and does not go on.
+bool has_word(const std::string& text, const std::string& name) {
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const char next = text[at + name.size()];
+    if (next != '_' && !std::isalnum(static_cast<unsigned char>(next))) return true;
+  }
+  return false;
+}
+
 TEST_CASE("each warning and note is told somewhere in the sources") {
   std::string sources;
   const auto root = std::filesystem::path(TETHERCALC_SOURCE_DIR) / "src";
@@ -78,7 +88,7 @@ TEST_CASE("each warning and note is told somewhere in the sources") {
   CHECK(kinds.size() == codes_of(CodeGroup::warnings).size());
   for (const std::string& kind : kinds) {
     INFO(kind);
-    CHECK(std::regex_search(sources, std::regex("WarningKind::" + kind + "\\b")));
+    CHECK(has_word(sources, "WarningKind::" + kind));
   }
 }
 
