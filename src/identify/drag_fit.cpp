@@ -64,7 +64,11 @@ Samples to_samples(const Observations& flight, double gravity) {
   Samples samples{
       std::vector<Sample>(flight.size()), exact && shows_both_axes(flight, gravity), {}};
   const std::vector<double> drag = forward_drag_over_mass(flight);
-  if (samples.both_axes && turns(flight)) samples.wind_heading = mean_heading(flight);
+  // Seen along one axis alone, a wind across hardly differs from linear drag unless it comes ahead.
+  constexpr double quarter = 90 * unit::degree;
+  if (exact && (samples.both_axes ? turns(flight) : turns(flight, quarter))) {
+    samples.wind_heading = mean_heading(flight);
+  }
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Sample& s = samples.all[i];
     const double off = samples.wind_heading ? flight.yaw[i] - *samples.wind_heading : 0;
@@ -148,8 +152,9 @@ void demand_speed_spread(std::span<const Observations> flights) {
 // drag at V. Drag is linear in q and in the first two.
 constexpr double reference_speed = 10;  // m/s, amid the speeds that are flown
 
-/// Where parameters stand. Those of the forward axis come first, then what flights of both axes
-/// add: the side area, a crosswind and a roll trim for each of them.
+/// Where parameters stand. Those of the forward axis come first, then the side area where flights
+/// show both axes, a crosswind for each of these and of those that turn, and a roll trim for each
+/// of the former.
 struct Places {
   explicit Places(const std::vector<Samples>& flights) : size(shared + Index(flights.size())) {
     areas = {front, top};
@@ -157,15 +162,17 @@ struct Places {
       of_flight.push_back({front, top, linear, shared + Index(f)});
     }
     for (std::size_t f = 0; f < flights.size(); ++f) {
-      if (!flights[f].both_axes) continue;
-      if (areas.size() == 2) areas.push_back(size++);
-      for (const Index further : {areas[2], size, size + 1}) of_flight[f].push_back(further);
-      size += 2;
+      const bool both_axes = flights[f].both_axes;
+      if (both_axes && areas.size() == 2) areas.push_back(size++);
+      if (both_axes || flights[f].wind_heading) of_flight[f].push_back(size++);
+      if (!both_axes) continue;
+      of_flight[f].push_back(areas[2]);
+      of_flight[f].push_back(size++);
     }
   }
   Index size = 0;
   std::vector<Index> areas;
-  /// A_f, A_t, j, w and, of both axes, A_s, c and the trim.
+  /// A_f, A_t, j, w; c of a flight that turns; c, A_s and the trim of one of both axes.
   std::vector<std::vector<Index>> of_flight;
 };
 
@@ -211,14 +218,14 @@ Box box(const DragBounds& bounds, const Places& places) {
   out.lower(linear) = 0;
   out.upper(linear) = bounds.max_linear_speed / (reference_speed + bounds.max_linear_speed);
   for (const std::vector<Index>& own : places.of_flight) {
-    if (own.size() <= 4) continue;
+    if (own.size() <= 5) continue;
     out.lower(own[6]) = -largest_roll_trim;
     out.upper(own[6]) = largest_roll_trim;
   }
   return out;
 }
 
-/// A_f, A_t, j, w, A_s, c and the trim, as far as a flight has them; else neutral.
+/// A_f, A_t, j, w, c, A_s and the trim, as far as a flight has them; else neutral.
 using Local = Eigen::Matrix<double, 7, 1>;
 
 Local local(const VectorXd& x, const std::vector<Index>& places) {
@@ -242,7 +249,7 @@ struct Airspeed {
 inline Airspeed airspeed(const Sample& s, const Local& p) {
   const double c = s.ahead;
   const double h = s.right_of_heading;
-  return {s.forward.speed - p[3] * c - p[5] * h, s.right_speed - p[5] * c + p[3] * h};
+  return {s.forward.speed - p[3] * c - p[4] * h, s.right_speed - p[4] * c + p[3] * h};
 }
 
 inline Row forward_row(const Sample& s, double k, const Local& p) {
@@ -252,8 +259,8 @@ inline Row forward_row(const Sample& s, double k, const Local& p) {
   const double h = s.right_of_heading;
   const AirframeDragSlopes d =
       airframe_drag_slopes({p[0], p[1], p[2], 0}, 2 * k, u.ahead, u.aside, r.cosine, r.sine);
-  return {{d.by_front_area, d.by_top_area, d.by_linear_speed, d.by_across * h - d.by_along * c, 0,
-           -d.by_along * h - d.by_across * c, 0},
+  return {{d.by_front_area, d.by_top_area, d.by_linear_speed, d.by_across * h - d.by_along * c,
+           -d.by_along * h - d.by_across * c, 0, 0},
           r.observed - d.force};
 }
 
@@ -264,9 +271,9 @@ inline Row right_row(const Sample& s, double k, const Local& p) {
   const double c = s.ahead;
   const double h = s.right_of_heading;
   const AirframeDragSlopes d =
-      airframe_drag_slopes({p[4], p[1], p[2], 0}, 2 * k, u.aside, u.ahead, r.cosine, r.sine);
-  return {{0, d.by_top_area, d.by_linear_speed, d.by_along * h - d.by_across * c, d.by_front_area,
-           -d.by_along * c - d.by_across * h, s.lift},
+      airframe_drag_slopes({p[5], p[1], p[2], 0}, 2 * k, u.aside, u.ahead, r.cosine, r.sine);
+  return {{0, d.by_top_area, d.by_linear_speed, d.by_along * h - d.by_across * c,
+           -d.by_along * c - d.by_across * h, d.by_front_area, s.lift},
           r.observed - d.force - s.lift * p[6]};
 }
 
@@ -307,6 +314,8 @@ NormalEquations normal_equations(const std::vector<Samples>& flights, double k, 
     const Local p = local(x, own);
     if (flights[f].both_axes) {
       add(flights, f, k, own, p, std::integral_constant<int, 7>());
+    } else if (flights[f].wind_heading) {
+      add(flights, f, k, own, p, std::integral_constant<int, 5>());
     } else {
       add(flights, f, k, own, p, std::integral_constant<int, 4>());
     }
@@ -473,9 +482,9 @@ std::vector<std::string> parameter_names(const Places& places) {
   for (std::size_t f = 0; f < flights; ++f) {
     const std::vector<Index>& own = places.of_flight[f];
     name(own[3], of_flight("wind_m_s", f));
-    if (own.size() <= 4) continue;
-    name(own[4], "side_area_m2");
-    name(own[5], of_flight("crosswind_m_s", f));
+    if (own.size() > 4) name(own[4], of_flight("crosswind_m_s", f));
+    if (own.size() <= 5) continue;
+    name(own[5], "side_area_m2");
     name(own[6], of_flight("roll_trim_rad", f));
   }
   return names;

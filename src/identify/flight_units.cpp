@@ -283,10 +283,7 @@ double mean_heading(const Observations& flight) {
   return std::atan2(east, north);
 }
 
-bool turns(const Observations& flight) {
-  constexpr double apart = 0.35;  // rad: a third of a force across the one is along the other
-  return spread(flight.yaw) > apart;
-}
+bool turns(const Observations& flight, double apart) { return spread(flight.yaw) > apart; }
 
 bool shows_both_axes(const Observations& flight, double gravity) {
   // m/s: as of the forward speed, below which a fit takes drag and wind for each other.

@@ -40,8 +40,9 @@ inline constexpr double leans_to_speed_up = 0.5;
 /// rad in (−π, π], of the whole flight.
 [[nodiscard]] double mean_heading(const Observations& flight);
 
-/// Whether headings a good part of a turn apart are flown, each for some time.
-[[nodiscard]] bool turns(const Observations& flight);
+/// Whether headings a good part of a turn, of `apart` rad, are flown, each for some time. By
+/// default a third of a force across the one is along the other.
+[[nodiscard]] bool turns(const Observations& flight, double apart = 0.35);
 
 /// Whether the acceleration to the right tells of drag: it follows the roll, and the flight turns
 /// or is flown to the side, so that it holds more than the roll's own errors.

@@ -262,11 +262,12 @@ ordered_json drag_json(const DragIdentification& result, std::span<const Warning
   out["linear_m_s"] = parameter_json(fit.linear_speed());
   out["wind_m_s"] =
       json_list(fit.wind(), [](const FittedParameter& wind) { return parameter_json(wind); });
-  if (const FittedParameter* side = fit.find("side_area_m2")) {
-    out["side_area_m2"] = parameter_json(*side);
-    out["crosswind_m_s"] = own_json(fit, "crosswind_m_s", 1);
-    out["roll_trim_deg"] = own_json(fit, "roll_trim_rad", unit::degree);
-  }
+  const FittedParameter* const side = fit.find("side_area_m2");
+  const bool over_ground = std::ranges::any_of(
+      fit.wind_heading, [](const std::optional<double>& heading) { return heading.has_value(); });
+  if (side) out["side_area_m2"] = parameter_json(*side);
+  if (side || over_ground) out["crosswind_m_s"] = own_json(fit, "crosswind_m_s", 1);
+  if (side) out["roll_trim_deg"] = own_json(fit, "roll_trim_rad", unit::degree);
   out["rmse_m_s2"] = quality.rmse;
   out["mae_m_s2"] = quality.mae;
   out["r_squared"] = quality.r_squared;

@@ -404,6 +404,33 @@ TEST_CASE("what is left of the drag at the samples is the fit's own residual, ti
   CHECK(says(message_of([&] { (void)drag_at_samples(fit, {&first, 1}); }), "not those"));
 }
 
+TEST_CASE("without a roll a flight that turns tells drag and the wind over ground apart") {
+  const Truth truth;
+  Observations flight = turning_observations(truth, {}, test::run_seed(), 0);
+  flight.roll.assign(flight.size(), 0.0);
+  const DragFit fit = fit_one(flight);
+  const WindOverGround wind;
+  REQUIRE(fit.wind_heading[0].has_value());
+  const double heading = *fit.wind_heading[0];
+  CHECK(fit.find("side_area_m2") == nullptr);
+  CHECK(fit.front_area().estimate.value == Approx(truth.front_area).epsilon(1e-4));
+  CHECK(fit.top_area().estimate.value == Approx(truth.top_area).epsilon(1e-4));
+  CHECK(fit.linear_speed().estimate.value == Approx(truth.linear_speed).epsilon(1e-4));
+  CHECK(fit.wind()[0].estimate.value ==
+        Approx(wind.north * std::cos(heading) + wind.east * std::sin(heading)).margin(1e-4));
+  CHECK(fit.find("crosswind_m_s")->estimate.value ==
+        Approx(wind.east * std::cos(heading) - wind.north * std::sin(heading)).margin(1e-4));
+
+  // Of several flights each that turns has its own.
+  Observations straight = flight;
+  straight.yaw.assign(flight.size(), 0.3);
+  straight.kinematics = Kinematics::published;
+  const std::vector<Observations> both{flight, straight};
+  const DragFit joint = fit_drag(both, conditions);
+  CHECK(joint.find("crosswind_m_s", 0) != nullptr);
+  CHECK(joint.find("crosswind_m_s", 1) == nullptr);
+}
+
 TEST_CASE("where a flight turns, the drag at its samples is that of the wind over ground") {
   const std::uint64_t seed = test::run_seed();
   CAPTURE(seed);

@@ -84,12 +84,12 @@ struct FitQuality {
 /// The outcome of `fit_drag`.
 struct DragFit {
   DragFitConditions conditions;  ///< as given
-  /// rad in (−π, π], from north over east, one a flight: where one of both axes turns, its wind
-  /// blows over ground, along this mean heading and to its right. Empty where the wind is told by
-  /// the axes of the drone.
+  /// rad in (−π, π], from north over east, one a flight: where one turns, its wind blows over
+  /// ground, along this mean heading and to its right. Empty where the wind is told by the axes of
+  /// the drone.
   std::vector<std::optional<double>> wind_heading;
-  /// A_f, A_t, j, then one wind a flight; where flights show both axes then A_s, and for each of
-  /// them the crosswind and the roll's trim.
+  /// A_f, A_t, j, then one wind a flight; where flights show both axes then A_s, for each of them
+  /// and of those that turn the crosswind, and for each of the former the roll's trim.
   std::vector<FittedParameter> parameters;
   /// Covariance of the parameters (SI units, order of `parameters`), one matrix a flight, row after
   /// row: the part of the total that this flight's residuals cause. Zero for parameters at a bound.
@@ -136,8 +136,9 @@ struct DragFit {
 /// of their speeds to the right span 3 m/s, and there they speed up as they roll) are fitted in
 /// both, and give the side area A_s in place of the front area to the side, a crosswind (m/s,
 /// motion of the air to the right of the heading) and the roll's trim (rad, what it reads in level
-/// flight). Observations of the published kinematics are fitted as published: one axis, and the
-/// airspeed along it alone.
+/// flight). Of a flight that turns by 90° or more and shows one axis, as without a roll, the
+/// crosswind is fitted too: there it comes from ahead and from behind. Observations of the
+/// published kinematics are fitted as published: one axis, and the airspeed along it alone.
 ///
 /// The start is deterministic: for each flight the best of short descents, on a few of its samples,
 /// from winds all over their range. From there a damped Gauss–Newton iteration within the bounds
