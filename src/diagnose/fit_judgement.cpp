@@ -522,9 +522,40 @@ void clear_mimics(const Record& record, const Selection& found, const FitWithGro
   }
 }
 
+/// The sizes of a group that is freed in the fit, as far as no bound holds them.
+std::vector<SizeEstimate> sizes_in(const Record& record, const BlockFit& fit, std::size_t group) {
+  std::vector<SizeEstimate> estimates;
+  const std::vector<ModelParameter>& own = record.problem().groups[group].parameters;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (own[k].shape_only || !own[k].is_free()) continue;
+    SizeEstimate& size = estimates.emplace_back();
+    size.parameter = record.first_parameter(group) + k;
+    size.value = fit.values[size.parameter];
+    const auto column = std::ranges::find(fit.active, size.parameter);
+    if (column == fit.active.end()) continue;
+    size.standard_error =
+        own[k].scale * std::sqrt(jackknife_covariance(fit, {column - fit.active.begin()})(0, 0));
+  }
+  return estimates;
+}
+
+/// Takes each of `others` that reaches further from its neutral value.
+void reach_further(std::vector<SizeEstimate>& sizes, const std::vector<SizeEstimate>& others,
+                   const Record& record) {
+  const auto reach = [&record](const SizeEstimate& size) {
+    const double normal = 1.96;  // Student's factor is about that, and alike for both
+    return std::abs(size.value - record.parameters()[size.parameter].neutral) +
+           normal * size.standard_error;
+  };
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (others[k].standard_error > 0 && reach(others[k]) > reach(sizes[k])) sizes[k] = others[k];
+  }
+}
+
 }  // namespace
 
 std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
+                                        std::span<const BlockFit> alternatives,
                                         const Selection& found, const FitWithGroups& with) {
   Groups candidates;
   for (std::size_t g = 0; g < record.problem().groups.size(); ++g) {
@@ -550,6 +581,12 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
           static_cast<double>(candidate.sizes.size() * candidates.size()) *
           chances(record.problem().groups[g]);
       if (size.standard_error > 0) candidate.p_value = std::min(candidate.p_value, p);
+    }
+    for (const BlockFit& alternative : alternatives) {
+      reach_further(candidate.sizes,
+                    contains(alternative.freed.groups, g) ? sizes_in(record, alternative, g)
+                                                          : sizes_beside(record, alternative, g),
+                    record);
     }
     BlockFit freed = with({g}, FitUse::search);
     Gain gained = gain_between(fit, freed);

@@ -136,8 +136,10 @@ void add_place_error(const Record& record, const BlockFit& without, const BlockF
 using FitWithGroups = std::function<BlockFit(const Groups& more, FitUse use)>;
 
 /// What `fit` says of each candidate that is neither selected in `found`, nor aliased, nor a rival
-/// of one that is selected.
+/// of one that is selected. Its sizes are those that reach furthest beside `fit` or one of
+/// `alternatives`, which explain the record about as well: what one of them allows is not excluded.
 [[nodiscard]] std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fit,
+                                                      std::span<const BlockFit> alternatives,
                                                       const Selection& found,
                                                       const FitWithGroups& with);
 

@@ -580,7 +580,7 @@ class Search {
       const BlockFit without = fit(selected_without(g), complete.freed.unnamed, &complete);
       add_place_error(record_, without, complete, g, result.complete);
     }
-    result.open = judge_open(record_, complete, result, [&](const Groups& more, FitUse use) {
+    result.open = judge_open(record_, complete, {}, result, [&](const Groups& more, FitUse use) {
       Groups groups = selected_;
       groups.insert(groups.end(), more.begin(), more.end());
       return fit(groups, complete.freed.unnamed, &complete, use);

@@ -235,6 +235,9 @@ class SubsetSearch {
       result.length += name_price_ + 2 * std::log(chances(problem_.groups[g]));
       if (has_no_size(g, result.fit.values)) result.length += leap_alone;
     }
+    if (shapes.empty() && result.length < infinity) {
+      error_by_.emplace(named, result.fit.squared_error());
+    }
     if (named.empty() || shapes.empty()) return result;
     const double missed =
         missed_by_shapes *
@@ -477,6 +480,35 @@ class SubsetSearch {
     return model(without_group(best_.named, g), best_.shapes, &best_.fit, use);
   }
 
+  /// Other sets of at most one name more that explain the record about as well and need each of
+  /// theirs: two causes may be mimicked by two others, or by one, none of which mimics one of them
+  /// alone.
+  [[nodiscard]] std::vector<Model> other_sets() const {
+    std::vector<Model> sets;
+    if (best_.named.empty() || !best_.shapes.empty()) return sets;
+    const double worst = best_.fit.squared_error() + rival_excess;
+    std::vector<std::pair<double, Groups>> near;
+    for (const auto& [named, error] : error_by_) {
+      const bool other = !is_part(named, best_.named) && !is_part(best_.named, named);
+      if (other && named.size() <= best_.named.size() + 1 && error <= worst) {
+        near.emplace_back(error, named);
+      }
+    }
+    std::ranges::sort(near);
+    for (const auto& [error, named] : near) {
+      if (sets.size() == beam) break;
+      const auto is_needed = [&, &names = named](std::size_t g) {
+        return model(without_group(names, g), {}, &best_.fit).fit.squared_error() > worst;
+      };
+      if (std::ranges::all_of(named, is_needed)) sets.push_back(model(named, {}, &best_.fit));
+    }
+    return sets;
+  }
+
+  [[nodiscard]] static bool is_part(const Groups& part, const Groups& of) {
+    return std::ranges::includes(of, part);
+  }
+
   [[nodiscard]] Groups rivals(std::size_t g) const {
     const Groups rest = without_group(best_.named, g);
     const double alone = best_without(g).fit.squared_error();
@@ -492,6 +524,13 @@ class SubsetSearch {
     }
     Groups told{g};
     for (const std::size_t c : in_order_of_nearness(std::move(found))) told.push_back(c);
+    for (const Model& other : others_) {
+      // More names are told only where they earn their price.
+      if (contains(other.named, g) || other.length > best_.length + rival_excess) continue;
+      for (const std::size_t c : other.named) {
+        if (!contains(best_.named, c) && !contains(told, c)) told.push_back(c);
+      }
+    }
     Groups result;  // each with its twins, which every record shows told
     for (const std::size_t c : told) {
       if (c != g) result.push_back(c);
@@ -547,6 +586,7 @@ class SubsetSearch {
     Selection result = nothing_selected(record_, options_);
     result.aliased = aliased_;
     result.selected = selected();
+    others_ = other_sets();
     for (SelectedGroup& entry : result.selected) {
       entry.indistinguishable = rivals(entry.group);
       entry.p_value = chi_squared_tail(
@@ -554,11 +594,14 @@ class SubsetSearch {
           static_cast<double>(problem_.groups[entry.group].parameters.size()));
     }
     result.doubted = doubted_;
-    result.open = judge_open(record_, best_.fit, result, [this](const Groups& more, FitUse use) {
-      Groups named = best_.named;
-      for (const std::size_t g : more) named = with_group(named, g);
-      return model(named, best_.shapes, &best_.fit, use).fit;
-    });
+    std::vector<BlockFit> alternatives;
+    for (const Model& other : others_) alternatives.push_back(other.fit);
+    result.open = judge_open(record_, best_.fit, alternatives, result,
+                             [this](const Groups& more, FitUse use) {
+                               Groups named = best_.named;
+                               for (const std::size_t g : more) named = with_group(named, g);
+                               return model(named, best_.shapes, &best_.fit, use).fit;
+                             });
     for (Selection::Open& open : result.open) {
       open.suspected =
           open.suspected && !misfits(with_group(best_.named, open.group), open.freed.values);
@@ -589,6 +632,9 @@ class SubsetSearch {
   Model best_;
   std::vector<Selection::Aliased> aliased_;
   Groups doubted_;  ///< names that were left out although they gain what is asked
+  std::vector<Model> others_;
+  /// Squared errors of all sets of names that were fitted, but for those that cannot be.
+  mutable std::map<Groups, double> error_by_;
   mutable std::map<Groups, std::vector<double>> left_by_;  ///< of the readings, by sets of names
 };
 
