@@ -87,6 +87,17 @@ std::string shown_name(const CsvColumn& column) {
                                : fmt::format("{} ({})", column.name, shown_cell(column.header));
 }
 
+/// Throws where another character than the comma separates the names.
+void check_separator(std::string_view header, std::string_view file) {
+  if (header.find(',') != std::string_view::npos) return;
+  for (const auto& [separator, words] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
+    if (header.find(separator) == std::string_view::npos) continue;
+    throw InputError(
+        fmt::format("{}:1", file),
+        fmt::format("{} separate the cells; expected commas, and points in numbers", words));
+  }
+}
+
 /// For each cell of a row, which wanted column it fills, if any.
 using CellMeaning = std::vector<std::optional<std::size_t>>;
 
@@ -170,7 +181,9 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
                                 fmt::join(names_of(wanted), ",")));
     problems.throw_if_any();
   }
-  const CellMeaning meaning = read_header(take_line(text), file_name, wanted, others, hint);
+  const std::string_view header = take_line(text);
+  check_separator(header, file_name);
+  const CellMeaning meaning = read_header(header, file_name, wanted, others, hint);
 
   std::vector<std::vector<double>> columns(wanted.size());
   std::size_t line_number = 1;

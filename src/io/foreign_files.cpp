@@ -77,6 +77,9 @@ std::string foreign_kind(std::span<const std::byte> content) {
     return "is a video (AVI), not a log";
   }
   if (head.starts_with("\x1A\x45\xDF\xA3")) return "is a video (MKV or WebM), not a log";
+  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
+    return "is a text in UTF-16; save it as UTF-8";
+  }
   if (head.starts_with("\xFF\xD8\xFF")) return "is a JPEG picture, not a log";
   if (head.starts_with("\x89PNG")) return "is a PNG picture, not a log";
   if (head.starts_with("%PDF")) return "is a PDF document, not a log";

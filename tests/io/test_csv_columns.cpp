@@ -109,6 +109,14 @@ TEST_CASE("header problems name the column, and the closest known one") {
         "run.csv:1: column \"load_N\" appears twice");
 }
 
+TEST_CASE("other separators than commas are one problem") {
+  CHECK(problems_of("time_s;load_N\n0;1\n") ==
+        "run.csv:1: semicolons separate the cells; expected commas, and points in numbers");
+  CHECK(problems_of("time_s\tload_N\r\n0\t1\r\n") ==
+        "run.csv:1: tabs separate the cells; expected commas, and points in numbers");
+  CHECK(read("time_s,\tload_N\n0,1\n")[1].size() == 1);
+}
+
 TEST_CASE("files without a header or without rows are refused") {
   CHECK(problems_of("") ==
         "run.csv:1: the file is empty, expected the header time_s,load_N,note_V");
