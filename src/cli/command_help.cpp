@@ -7,7 +7,9 @@
 #include <array>
 
 #include "report/characters.hpp"
+#include "tethercalc/diagnose/catalogue.hpp"
 #include "tethercalc/io/library.hpp"
+#include "tethercalc/io/rule_books.hpp"
 #include "tethercalc/io/spec_fields.hpp"
 #include "tethercalc/report/explanation.hpp"
 #include "tethercalc/report/text_table.hpp"
@@ -64,6 +66,10 @@ std::vector<std::string> words_for(const OptionHelp& option,
   } else if (value.starts_with("MOTOR")) {
     words.insert(words.end(), {"all", "alike"});
     for (const MotorEntry& motor : library_motors()) words.push_back(motor.id);
+  } else if (value.starts_with("EFFECT")) {
+    for (const Effect& effect : effect_catalogue()) words.push_back(effect.id);
+  } else if (value == "BOOK") {
+    words = rule_book_ids();
   } else if (value == "[COMMAND]") {
     for (const CommandHelp& command : commands) words.push_back(command.name);
   } else if (value == "[CODE]") {

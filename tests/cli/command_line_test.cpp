@@ -47,6 +47,14 @@ std::string completed(const std::vector<std::string>& words) {
 
 }  // namespace
 
+TEST_CASE("names of effects and of books of rules are completed") {
+  CHECK_THAT(completed({"tethercalc", "diagnose", "x.json", "--base", "linear_"}),
+             Contains("\nlinear_drag\n"));
+  for (const char* command : {"rules", "report"}) {
+    CHECK(completed({"tethercalc", command, "x.json", "--rules", "eu"}) == "\neu-c3\n");
+  }
+}
+
 TEST_CASE("every command has help, wrapped between 60 and 100 columns") {
   const auto names = commands();
   REQUIRE(names.size() >= 18);
