@@ -506,7 +506,7 @@ class SubsetSearch {
   }
 
   [[nodiscard]] static bool is_part(const Groups& part, const Groups& of) {
-    return std::ranges::includes(of, part);
+    return std::includes(of.begin(), of.end(), part.begin(), part.end());
   }
 
   [[nodiscard]] Groups rivals(std::size_t g) const {
