@@ -346,8 +346,7 @@ void check_flight_units(const Observations& flight, double gravity) {
   constexpr double at_rest = 0.5;  // m/s: beside it an estimate's own drift is large
   if (size < level && spread(flight.forward_speed) < at_rest &&
       spread(flight.right_speed) < at_rest) {
-    throw UnsuitableFlight(
-        "the drone hardly moves and does not lean, as on the ground; is it in the air here?");
+    throw UnsuitableFlight("the drone hardly moves or leans; is it in the air here?");
   }
   if (size < level) {
     throw UnsuitableFlight(

@@ -307,9 +307,8 @@ void check_no_columns(std::span<const std::string> chosen, std::string_view file
 
 void check_no_core(int core, std::string_view file) {
   if (core == 0) return;
-  throw InputError("--core", fmt::format("chooses an estimate in an autopilot's log; {} is CSV and "
-                                         "holds one",
-                                         file));
+  throw InputError(std::string(file),
+                   "is CSV and holds one estimate: --core has no other to choose");
 }
 
 }  // namespace tethercalc

@@ -87,7 +87,7 @@ void check_wind_columns(LogTable& table, std::string_view file);
 /// Throws InputError, about `--columns`, where any are `chosen` of a log that is no CSV.
 void check_no_columns(std::span<const std::string> chosen, std::string_view file);
 
-/// Likewise about `--core`, where one other than the first is asked of a log that is CSV.
+/// Throws InputError where a core other than the first is asked of a log that is CSV.
 void check_no_core(int core, std::string_view file);
 
 }  // namespace tethercalc

@@ -59,16 +59,15 @@ std::string foreign_kind(std::span<const std::byte> content) {
   const char begin = first == std::string_view::npos ? '\0' : head[first];
 
   if (is_telemetry(content, time_size)) {
-    return "is a MAVLink telemetry log (.tlog), which holds what was sent to the ground and not "
-           "what "
-           "the autopilot logged; give the .bin or .ulg of the autopilot";
+    return "is a MAVLink telemetry log (.tlog), of what was sent to the ground; give the "
+           "autopilot's .bin or .ulg";
   }
   if (is_telemetry(content, 0)) {
-    return "is a stream of MAVLink packets (.rlog); give the .bin or .ulg of the autopilot";
+    return "is a stream of MAVLink packets (.rlog); give the autopilot's .bin or .ulg";
   }
   if (holds("H Product:Blackbox")) {
-    return "is a Betaflight or INAV blackbox log, which is not read; what it holds of speed and "
-           "attitude can be given as CSV";
+    return "is a Betaflight or INAV blackbox log, which is not read; give its speed and attitude "
+           "as CSV";
   }
   if (head.size() > 12 && head.substr(4, 4) == "ftyp") {
     return "is a video or picture (MP4, MOV or HEIF), not a log";
@@ -78,7 +77,7 @@ std::string foreign_kind(std::span<const std::byte> content) {
   }
   if (head.starts_with("\x1A\x45\xDF\xA3")) return "is a video (MKV or WebM), not a log";
   if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-    return "is a text in UTF-16; save it as UTF-8";
+    return "is UTF-16; save it as UTF-8";
   }
   if (head.starts_with("\xFF\xD8\xFF")) return "is a JPEG picture, not a log";
   if (head.starts_with("\x89PNG")) return "is a PNG picture, not a log";
@@ -95,12 +94,10 @@ std::string foreign_kind(std::span<const std::byte> content) {
     return "is compressed in a way that is not read; unpack it, or give .gz, .xz or .zip";
   }
   if (holds("<kml")) {
-    return "is a KML track, which holds places but no attitude; give the .bin or .ulg of the "
-           "autopilot";
+    return "is a KML track, without attitude; give the autopilot's .bin or .ulg";
   }
   if (holds("<gpx")) {
-    return "is a GPX track, which holds places but no attitude; give the .bin or .ulg of the "
-           "autopilot";
+    return "is a GPX track, without attitude; give the autopilot's .bin or .ulg";
   }
   if (!is_text(head.substr(0, 64))) return "";
   if (begin == '{' || begin == '[') return "is JSON, not a log";

@@ -350,7 +350,7 @@ TEST_CASE("drag --into writes a spec: neither without one to learn for, nor over
   refused({"--spec", mine, "--into", mine}, "is read; give another file");
   refused({"--spec", mine, "--into", log}, "is there and no .json file");
   refused({"--spec", mine, "--into", "--format", "csv"}, "a spec in JSON");
-  refused({"--core", "1"}, "flight.csv is CSV and holds one");
+  refused({"--core", "1"}, "flight.csv: is CSV and holds one estimate");
   CHECK(file_text(mine) == file_text(published));
   CHECK(file_text(log) == file_text(example));
 }

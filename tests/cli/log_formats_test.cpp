@@ -288,7 +288,7 @@ TEST_CASE("what is no log is named by what it is") {
            {"RIFF1234AVI LIST" + std::string(100, '\0'), "is a video (AVI)"},
            {"\x1A\x45\xDF\xA3" + std::string(100, '\1'), "is a video (MKV or WebM)"},
            {"\xFF\xD8\xFF\xE0" + std::string(100, '\0'), "is a JPEG picture"},
-           {std::string("\xFF\xFEt\0i\0m\0e\0", 10), "is a text in UTF-16; save it as UTF-8"},
+           {std::string("\xFF\xFEt\0i\0m\0e\0", 10), "is UTF-16; save it as UTF-8"},
            {"<?xml version=\"1.0\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">",
             "is a KML track"},
            {"{\"fileType\": \"Plan\"}", "is JSON"},
