@@ -52,7 +52,8 @@ const parts = {
   style: css,
   script,
 };
-const template = readFileSync(join(here, 'index.html'), 'utf8');
+// Indentation is for those who read the source.
+const template = readFileSync(join(here, 'index.html'), 'utf8').replaceAll(/\n\s+/g, '\n');
 const filled = (program) => template.replace(/\{\{(\w+)\}\}/g, (whole, name) => ({ ...parts, program })[name]);
 const wasm = readFileSync(options.program);
 const streams = streamsOf(wasm);

@@ -121,6 +121,18 @@ struct MissionTarget {
   Home home;
 };
 
+/// Whether --into has no name, so that the spec takes the answer's place.
+template <typename Options>
+bool prints_spec(const Options& options) {
+  return options.into && options.into_file.empty();
+}
+
+template <typename Options>
+void check_prints_spec(const Options& options, const Output& output) {
+  if (!prints_spec(options) || output.format != Format::csv) return;
+  throw InputError("--format", "csv is not what --into prints, a spec in JSON; give --into a file");
+}
+
 /// What the options say of it, checked before anything takes time; nothing where none is asked for.
 std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
   if (options.next_flight_file.empty()) {
@@ -133,7 +145,7 @@ std::optional<MissionTarget> mission_target(const DiagnoseOptions& options) {
     return std::nullopt;
   }
   MissionTarget target{mission_format(options.next_flight_file), {}};
-  if (options.into && options.into_file.empty()) {
+  if (prints_spec(options)) {
     throw InputError("--next-flight",
                      "goes with the diagnosis, which --into without a file "
                      "replaces; give --into a file");
@@ -187,12 +199,6 @@ int run_log(const std::string& file, const std::string& message, const Output& o
   return done;
 }
 
-/// `printed` where --into has no name.
-void check_prints_spec(bool printed, const Output& output) {
-  if (!printed || output.format != Format::csv) return;
-  throw InputError("--format", "csv is not what --into prints, a spec in JSON; give --into a file");
-}
-
 int run_drag(const DragOptions& options, const Output& output) {
   const std::optional<Autopilot> parameters = parameters_of(options.autopilot);
   if (parameters && (options.into || output.format != Format::table)) {
@@ -206,14 +212,14 @@ int run_drag(const DragOptions& options, const Output& output) {
                      "says where the spec with the learned drag goes; the one that it is learned "
                      "for is given by --spec SPEC");
   }
-  check_prints_spec(options.into && options.into_file.empty(), output);
+  check_prints_spec(options, output);
   if (file && !options.into) {
     throw InputError("--spec", "is what --into writes with its drag replaced; give --into as well");
   }
   const LearnedDrag learned = learn_drag(
       "drag", options.logs, file ? flown_as(options.flight, file->design) : options.flight);
   const DragIdentification& result = learned.study.identified;
-  if (options.into && options.into_file.empty()) {
+  if (prints_spec(options)) {
     remark_warnings("drag", drag_warnings(result.fit));
     emit(output, spec_text(spec_with_drag(*file, result.fit), options.spec.file, output.file));
     return done;
@@ -246,9 +252,9 @@ AnsweredDiagnosis diagnose_logs(const DiagnoseOptions& options, const DesignFile
 
 int run_diagnose(const DiagnoseOptions& options, const Output& output) {
   const std::optional<MissionTarget> target = mission_target(options);
-  check_prints_spec(options.into && options.into_file.empty(), output);
+  check_prints_spec(options, output);
   const AnsweredDiagnosis told = diagnose_logs(options, read_spec(options.spec));
-  if (options.into && options.into_file.empty()) {
+  if (prints_spec(options)) {
     emit(output, spec_text(told.spec, options.spec.file, output.file));
     return done;
   }

@@ -541,11 +541,11 @@ std::vector<SizeEstimate> sizes_in(const Record& record, const BlockFit& fit, st
 
 /// Takes each of `others` that reaches further from its neutral value.
 void reach_further(std::vector<SizeEstimate>& sizes, const std::vector<SizeEstimate>& others,
-                   const Record& record) {
-  const auto reach = [&record](const SizeEstimate& size) {
-    const double normal = 1.96;  // Student's factor is about that, and alike for both
+                   const Record& record, std::size_t group) {
+  const double student = student_factor(record, group);
+  const auto reach = [&record, student](const SizeEstimate& size) {
     return std::abs(size.value - record.parameters()[size.parameter].neutral) +
-           normal * size.standard_error;
+           student * size.standard_error;
   };
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     if (others[k].standard_error > 0 && reach(others[k]) > reach(sizes[k])) sizes[k] = others[k];
@@ -586,7 +586,7 @@ std::vector<Selection::Open> judge_open(const Record& record, const BlockFit& fi
       reach_further(candidate.sizes,
                     contains(alternative.freed.groups, g) ? sizes_in(record, alternative, g)
                                                           : sizes_beside(record, alternative, g),
-                    record);
+                    record, g);
     }
     BlockFit freed = with({g}, FitUse::search);
     Gain gained = gain_between(fit, freed);

@@ -480,6 +480,12 @@ class SubsetSearch {
     return model(without_group(best_.named, g), best_.shapes, &best_.fit, use);
   }
 
+  [[nodiscard]] double squared_error_of(const Groups& named) const {
+    const auto known = error_by_.find(named);
+    return known != error_by_.end() ? known->second
+                                    : model(named, {}, &best_.fit).fit.squared_error();
+  }
+
   /// Other sets of at most one name more that explain the record about as well and need each of
   /// theirs: two causes may be mimicked by two others, or by one, none of which mimics one of them
   /// alone.
@@ -498,7 +504,7 @@ class SubsetSearch {
     for (const auto& [error, named] : near) {
       if (sets.size() == beam) break;
       const auto is_needed = [&, &names = named](std::size_t g) {
-        return model(without_group(names, g), {}, &best_.fit).fit.squared_error() > worst;
+        return squared_error_of(without_group(names, g)) > worst;
       };
       if (std::ranges::all_of(named, is_needed)) sets.push_back(model(named, {}, &best_.fit));
     }
@@ -509,7 +515,8 @@ class SubsetSearch {
     return std::includes(of.begin(), of.end(), part.begin(), part.end());
   }
 
-  [[nodiscard]] Groups rivals(std::size_t g) const {
+  /// `others` as `other_sets` has them.
+  [[nodiscard]] Groups rivals(std::size_t g, const std::vector<Model>& others) const {
     const Groups rest = without_group(best_.named, g);
     const double alone = best_without(g).fit.squared_error();
     const double earned = alone - best_.fit.squared_error();
@@ -524,7 +531,7 @@ class SubsetSearch {
     }
     Groups told{g};
     for (const std::size_t c : in_order_of_nearness(std::move(found))) told.push_back(c);
-    for (const Model& other : others_) {
+    for (const Model& other : others) {
       // More names are told only where they earn their price.
       if (contains(other.named, g) || other.length > best_.length + rival_excess) continue;
       for (const std::size_t c : other.named) {
@@ -586,16 +593,16 @@ class SubsetSearch {
     Selection result = nothing_selected(record_, options_);
     result.aliased = aliased_;
     result.selected = selected();
-    others_ = other_sets();
+    std::vector<Model> others = other_sets();
     for (SelectedGroup& entry : result.selected) {
-      entry.indistinguishable = rivals(entry.group);
+      entry.indistinguishable = rivals(entry.group, others);
       entry.p_value = chi_squared_tail(
           best_without(entry.group).fit.squared_error() - best_.fit.squared_error(),
           static_cast<double>(problem_.groups[entry.group].parameters.size()));
     }
     result.doubted = doubted_;
     std::vector<BlockFit> alternatives;
-    for (const Model& other : others_) alternatives.push_back(other.fit);
+    for (Model& other : others) alternatives.push_back(std::move(other.fit));
     result.open = judge_open(record_, best_.fit, alternatives, result,
                              [this](const Groups& more, FitUse use) {
                                Groups named = best_.named;
@@ -632,7 +639,6 @@ class SubsetSearch {
   Model best_;
   std::vector<Selection::Aliased> aliased_;
   Groups doubted_;  ///< names that were left out although they gain what is asked
-  std::vector<Model> others_;
   /// Squared errors of all sets of names that were fitted, but for those that cannot be.
   mutable std::map<Groups, double> error_by_;
   mutable std::map<Groups, std::vector<double>> left_by_;  ///< of the readings, by sets of names

@@ -87,14 +87,9 @@ std::string shown_name(const CsvColumn& column) {
                                : fmt::format("{} ({})", column.name, shown_cell(column.header));
 }
 
-/// Throws where another character than the comma separates the names.
-void check_separator(std::string_view header, std::string_view file) {
-  if (header.find(',') == std::string_view::npos &&
-      header.find_first_of(";\t") != std::string_view::npos) {
-    throw InputError(
-        std::string(file),
-        "semicolons or tabs separate the cells; expected commas, and points in numbers");
-  }
+bool has_other_separators(std::string_view header) {
+  return header.find(',') == std::string_view::npos &&
+         header.find_first_of(";\t") != std::string_view::npos;
 }
 
 /// For each cell of a row, which wanted column it fills, if any.
@@ -181,7 +176,11 @@ std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::st
     problems.throw_if_any();
   }
   const std::string_view header = take_line(text);
-  check_separator(header, file_name);
+  if (has_other_separators(header)) {
+    problems.add(1,
+                 "semicolons or tabs separate the cells; expected commas, and points in numbers");
+    problems.throw_if_any();
+  }
   const CellMeaning meaning = read_header(header, file_name, wanted, others, hint);
 
   std::vector<std::vector<double>> columns(wanted.size());

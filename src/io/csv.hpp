@@ -42,9 +42,9 @@ enum class OtherCsvColumns {
 /// column is unknown the message about those that are known ends with `hint`.
 ///
 /// Throws InputError where semicolons or tabs stand for the commas; else with every problem of the
-/// file, each as "file:line": missing, unknown (with
-/// the closest wanted name) and repeated columns; rows of the wrong length; cells that are empty,
-/// not a number, not finite or out of range; no rows. Beyond 20 problems only their number is told.
+/// file, each as "file:line": missing, unknown (with the closest wanted name) and repeated columns;
+/// rows of the wrong length; cells that are empty, not a number, not finite or out of range; no
+/// rows. Beyond 20 problems only their number is told.
 std::vector<std::vector<double>> read_csv_columns(std::string_view text, std::string_view file_name,
                                                   std::span<const CsvColumn> wanted,
                                                   OtherCsvColumns others,

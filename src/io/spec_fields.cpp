@@ -24,9 +24,9 @@ namespace {
 constexpr FieldRange any_number{};
 constexpr FieldRange positive_fraction{0, 1, true, false};
 
-FieldRange between(double min, double max) { return {min, max, false, false}; }
-FieldRange above(double min, double max) { return {min, max, true, false}; }
-FieldRange inside(double min, double max) { return {min, max, true, true}; }
+constexpr FieldRange between(double min, double max) { return {min, max, false, false}; }
+constexpr FieldRange above(double min, double max) { return {min, max, true, false}; }
+constexpr FieldRange inside(double min, double max) { return {min, max, true, true}; }
 
 using enum FieldKind;
 
@@ -36,7 +36,7 @@ auto& at(Design& design) {
   return (design.*....*path);
 }
 
-const std::array all_spec_fields{
+constexpr std::array all_spec_fields{
     SpecField{"/$schema", text, "", any_number, "\"\"",
               "Path or address of the JSON Schema, by which editors check and complete the file."},
     SpecField{"/name", text, "", any_number, "\"\"",
@@ -313,11 +313,11 @@ const std::array all_spec_fields{
         at<&Design::requirements, &Requirements::strength_safety_factor>},
 };
 
-const SpecField id_field{"/id", text, "", any_number, "\"\"", "Name in the library."};
-const SpecField name_field{"/name", text, "", any_number, "\"\"", "What reports call it."};
-const SpecField source_field{"/source",  text,   "",
-                             any_number, "\"\"", "Where the numbers come from."};
-SpecField density_field(double& (*access)(Design&)) {
+constexpr SpecField id_field{"/id", text, "", any_number, "\"\"", "Name in the library."};
+constexpr SpecField name_field{"/name", text, "", any_number, "\"\"", "What reports call it."};
+constexpr SpecField source_field{"/source",  text,   "",
+                                 any_number, "\"\"", "Where the numbers come from."};
+constexpr SpecField density_field(double& (*access)(Design&)) {
   return {"/density_g_cm3",
           FieldKind::number,
           "g/cm³",
@@ -328,7 +328,7 @@ SpecField density_field(double& (*access)(Design&)) {
           access};
 }
 
-const std::array all_motor_fields{
+constexpr std::array all_motor_fields{
     id_field,
     name_field,
     source_field,
@@ -345,7 +345,7 @@ const std::array all_motor_fields{
     SpecField{"/points", motor_points, "", any_number, "",
               "Measured points of one motor with its propeller, two at least."}};
 
-const std::array all_motor_point_fields{
+constexpr std::array all_motor_point_fields{
     SpecField{"/throttle_percent", optional_number, "%", between(0, 100), "null",
               "Throttle; not used."},
     SpecField{"/thrust_g", number, "gram-force", above(0, 1e6), "", "Static thrust.",
@@ -355,7 +355,7 @@ const std::array all_motor_point_fields{
     SpecField{"/power_W", optional_number, "W", above(0, 1e6), "null",
               "Electrical input power; this or efficiency_g_per_W."}};
 
-const std::array all_conductor_fields{
+constexpr std::array all_conductor_fields{
     id_field, name_field, source_field,
     SpecField{"/resistivity_20C_ohm_mm2_per_m", number, "Ω·mm²/m", between(1e-3, 10), "",
               "Resistivity at 20 °C.", unit::ohm_square_millimetre_per_metre,
@@ -370,7 +370,7 @@ const std::array all_conductor_fields{
               unit::megapascal,
               at<&Design::tether, &Tether::conductor, &Conductor::tensile_strength>}};
 
-const std::array all_insulation_fields{
+constexpr std::array all_insulation_fields{
     id_field,
     name_field,
     source_field,
@@ -385,12 +385,12 @@ const std::array all_insulation_fields{
               "Breakdown strength of a short test.", unit::kilovolt_per_millimetre,
               at<&Design::tether, &Tether::insulation, &Insulation::breakdown_strength>}};
 
-const std::array all_efficiency_point_fields{
+constexpr std::array all_efficiency_point_fields{
     SpecField{"/output_W", number, "W", between(0, 1e6), "", "Output power."},
     SpecField{"/efficiency", number, "", positive_fraction, "",
               "Efficiency at that output power."}};
 
-const std::array all_converter_mass_fields{
+constexpr std::array all_converter_mass_fields{
     SpecField{"/rated_output_W", number, "W", above(0, 1e6), "", "Rated output."},
     SpecField{"/mass_g", number, "g", between(0, 1e6), "", "Mass of such a converter.",
               unit::gram}};

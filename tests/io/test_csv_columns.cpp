@@ -111,9 +111,9 @@ TEST_CASE("header problems name the column, and the closest known one") {
 
 TEST_CASE("other separators than commas are one problem") {
   CHECK(problems_of("time_s;load_N\n0;1\n") ==
-        "run.csv: semicolons or tabs separate the cells; expected commas, and points in numbers");
+        "run.csv:1: semicolons or tabs separate the cells; expected commas, and points in numbers");
   CHECK(problems_of("time_s\tload_N\r\n0\t1\r\n") ==
-        "run.csv: semicolons or tabs separate the cells; expected commas, and points in numbers");
+        "run.csv:1: semicolons or tabs separate the cells; expected commas, and points in numbers");
   CHECK(read("time_s,\tload_N\n0,1\n")[1].size() == 1);
 }
 
