@@ -253,6 +253,19 @@ std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log
   return resistance;
 }
 
+namespace {
+
+/// Tangent of the tilt that also accelerates `mass` kg as the drone was in sample `i`, where it
+/// would be `steady` without; `weight` is what the motors carry, N.
+double accelerated(double steady, const PowerLog& log, std::size_t i, double mass, double weight) {
+  const auto share = [&](const std::vector<double>& acceleration) {
+    return acceleration.empty() ? 0 : mass * acceleration[i] / weight;
+  };
+  return std::hypot(steady + share(log.acceleration_along), share(log.acceleration_across));
+}
+
+}  // namespace
+
 std::vector<double> motor_power(const PowerModel& model, const PowerLog& log, HangingLoads& loads) {
   std::optional<Design> freed;
   if (log.free_flight) freed = without_tether(model.design);
@@ -274,7 +287,8 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log, Ha
   double tan_pitch = 0;
   for (std::size_t i = 0; i < power.size(); ++i) {
     const bool dropped = model.dropped_mass != 0 && log.time[i] >= model.drop_time;
-    flown.set_mass(dropped ? lighter : mass);
+    const double flown_mass = dropped ? lighter : mass;
+    flown.set_mass(flown_mass);
     const SteadyFlight* hangs = flown.in(state_at(model, log, i));
     tan_pitch = hangs != nullptr ? flown.tan_pitch(tan_limit, tan_pitch) : infinity;
     if (!std::isfinite(tan_pitch)) {
@@ -285,7 +299,8 @@ std::vector<double> motor_power(const PowerModel& model, const PowerLog& log, Ha
     const SteadyFlight& steady = *hangs;
     const double weight = flown.weight();
     const double grown = 1 + model.motor_power_growth * (log.time[i] - log.time.front()) / duration;
-    const double thrust = steady.necessary_thrust(weight, tan_pitch);
+    const double thrust =
+        steady.necessary_thrust(weight, accelerated(tan_pitch, log, i, flown_mass, weight));
     power[i] = grown * steady.output_power(motor_curve_power(steady.motor(), thrust),
                                            steady.power_share(tan_pitch).value) +
                beside_motors;

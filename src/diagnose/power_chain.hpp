@@ -123,7 +123,9 @@ class FlownDesign {
 [[nodiscard]] std::vector<double> loop_resistance(const PowerModel& model, const PowerLog& log,
                                                   ChainMemory& memory);
 
-/// Power in W at the bus in steady flight at the height and airspeed of every sample of such a log.
+/// Power in W at the bus at the height and airspeed of every sample of such a log, in steady flight
+/// unless it tells accelerations; the thrust then also accelerates the drone's own mass, with the
+/// drag of steady flight.
 /// Above the motors' largest thrust their curve is continued straight, and the design's limit of
 /// the tilt does not count, so that the value stays finite: a log shows what was flown. NaN beyond
 /// a tilt of 80°. In free flight without tether, winch, converter and reserve battery, and with the

@@ -359,9 +359,9 @@ double share_in_the_air(const PowerLogModel& view) {
   return 1 - on_the_line / static_cast<double>(view.rows());
 }
 
-/// Speeding up, braking and gusts take power that no steady flight has, however long the log: 0.2 %
-/// of it in the mean of simulated flights, which two standard deviations are to hold. The change of
-/// the rows by one of them.
+/// Gusts, and what of speeding up no log tells, take power that no steady flight has, however long
+/// the log: 0.2 % of it in the mean of simulated flights, which two standard deviations are to
+/// hold. The change of the rows by one of them.
 std::vector<double> unsteady_power(const PowerLogModel& view) {
   constexpr double relative = 0.001;
   const PowerResiduals& residuals = view.residuals();

@@ -229,8 +229,9 @@ void align(const PowerModel& model, const std::vector<char>& usable, PowerLog& l
   }
   if (!power.empty() && (log.free_flight || !log.height.empty())) {
     shift(log.height.empty() ? "airspeed_m_s" : "height_m and airspeed_m_s",
-          {&PowerLog::height, &PowerLog::airspeed}, power,
-          [&](const PowerLog& l) { return motor_power(model, l, memory.loads); });
+          {&PowerLog::height, &PowerLog::airspeed, &PowerLog::acceleration_along,
+           &PowerLog::acceleration_across},
+          power, [&](const PowerLog& l) { return motor_power(model, l, memory.loads); });
   }
   if (has_supply && is_measured(Stage::tether, log)) {
     const std::vector<double> lost =
@@ -292,7 +293,7 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
   for (std::size_t c = 0; c < bad.size(); ++c) {
     const PowerChannel& channel = power_channels[c];
     std::vector<double>& x = clean.*channel.values;
-    if (x.empty()) continue;
+    if (x.empty() || channel.may_jump) continue;
     bad[c].assign(n, 0);
     const std::size_t stuck = mark_stuck(x, channel.may_rest, bad[c]);
     const std::size_t spikes = mark_spikes(x, bad[c]);
@@ -372,8 +373,17 @@ void average_fast_samples(ScreenedPowerLog& screened) {
     }
     values.resize(begins.size() - 1);
   };
+  std::vector<double> square(log.acceleration_across.size());
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    square[i] = std::pow(log.acceleration_along[i], 2) + std::pow(log.acceleration_across[i], 2);
+  }
+  average(square);
   average(log.time);
   for (const PowerChannel& channel : power_channels) average(log.*channel.values);
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    log.acceleration_across[i] =
+        std::sqrt(std::max(0.0, square[i] - std::pow(log.acceleration_along[i], 2)));
+  }
   usable = std::move(mean_usable);
 }
 

@@ -67,7 +67,11 @@ constexpr std::array all_columns{
     LogCsvColumn{"bus_voltage_V", "V", "At the motors' bus: the converter's output, or the battery",
                  is_ignored, is_taken},
     LogCsvColumn{"bus_current_A", "A", "Into the motors' bus", is_ignored, is_taken},
-    LogCsvColumn{"bus_power_W", "W", "Instead of these two: their product", is_ignored, is_taken}};
+    LogCsvColumn{"bus_power_W", "W", "Instead of these two: their product", is_ignored, is_taken},
+    LogCsvColumn{"acceleration_along_m_s2", "m/s²",
+                 "By which the airspeed grows; steady flight where absent", is_ignored, is_taken},
+    LogCsvColumn{"acceleration_across_m_s2", "m/s²", "Level, across the airspeed", is_ignored,
+                 is_taken}};
 
 constexpr std::array all_units{LogCsvUnit{"s", "min", 60},
                                LogCsvUnit{"s", "ms", 1e-3},

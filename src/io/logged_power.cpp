@@ -210,6 +210,29 @@ std::pair<Track, Warning> airspeed_in(const AutopilotLog& log, const FlightLog& 
                : ground_speed_note()};
 }
 
+// --- Acceleration ---
+
+/// By how much `speed` grows at `t`, m/s², in the mean over what the slowest estimators write
+/// twice in; NaN where samples are missing about there.
+double growth(const Track& speed, double t) {
+  constexpr double over = 0.4;  // s
+  return (value_at(speed, t + over / 2, longest_estimator_step) -
+          value_at(speed, t - over / 2, longest_estimator_step)) /
+         over;
+}
+
+/// Gives `log` its acceleration over ground, of which the airspeed's growth is the part along it:
+/// the wind is steady meanwhile. None where velocities are missing.
+void add_acceleration(const Track& north, const Track& east, const Track& airspeed, PowerLog& log) {
+  for (const double t : log.time) {
+    const double all = std::hypot(growth(north, t), growth(east, t));
+    const double along = std::clamp(growth(airspeed, t), -all, all);
+    const bool known = std::isfinite(all) && std::isfinite(along);
+    log.acceleration_along.push_back(known ? along : 0);
+    log.acceleration_across.push_back(known ? std::sqrt(all * all - along * along) : 0);
+  }
+}
+
 // --- What is flown ---
 
 /// From take-off to landing; from the first movement to the last where neither is told.
@@ -262,6 +285,8 @@ PowerLogReading logged_power(const AutopilotLog& log, const FlightLogReading& fl
     power.bus_voltage.push_back(bus.voltage[i]);
     power.bus_current.push_back(bus.current[i]);
   }
+  add_acceleration(track_of(flight.log.time, flight.log.north_velocity),
+                   track_of(flight.log.time, flight.log.east_velocity), airspeed, power);
   reading.source = fmt::format("{} and {}", fmt::join(names_of(batteries), " + "), flight.source);
   if (power.time.empty()) {
     fail_in(log.name(),
@@ -342,6 +367,13 @@ PowerLogReading power_of_table(std::string_view text, const std::string& name,
   reading.log.time = std::move(table["time_s"]);
   for (const PowerChannel& channel : power_channels) {
     reading.log.*channel.values = std::move(table[channel.name]);
+  }
+  PowerLog& log = reading.log;
+  const bool tells_acceleration =
+      !log.acceleration_along.empty() || !log.acceleration_across.empty();
+  if (table.has("vn_m_s") && table.has("ve_m_s") && !tells_acceleration) {
+    add_acceleration(track_of(log.time, table["vn_m_s"]), track_of(log.time, table["ve_m_s"]),
+                     track_of(log.time, log.airspeed), log);
   }
   return reading;
 }

@@ -114,6 +114,31 @@ TEST_CASE("a power effect at its neutral values changes no prediction, beyond it
   });
 }
 
+TEST_CASE("without drag a drone that accelerates draws what a heavier one does at rest") {
+  test::each_random(20, [](test::Random& random) {
+    Design design = test::published_design();
+    design.drone.drag.front_area = 0;
+    design.drone.drag.top_area = 0;
+    PowerLog log;
+    log.free_flight = true;
+    log.time = {0, 1};
+    log.airspeed = {0, random.uniform(0, 9)};
+    PowerLog accelerating = log;
+    const double along = random.uniform(-5, 5);
+    const double across = random.uniform(-5, 5);
+    accelerating.acceleration_along = {0, along};
+    accelerating.acceleration_across = {0, across};
+    const PowerModel light{.design = design};
+    PowerModel heavy = light;
+    const double gravity = design.flight.gravity;
+    heavy.design.drone.mass *= std::hypot(along, across, gravity) / gravity;
+    HangingLoads loads;
+    const std::vector<double> drawn = motor_power(light, accelerating, loads);
+    CHECK(drawn[0] == Approx(motor_power(light, log, loads)[0]).epsilon(1e-12));
+    CHECK(drawn[1] == Approx(motor_power(heavy, log, loads)[1]).epsilon(1e-9));
+  });
+}
+
 TEST_CASE("the drum warms as in the simulation with what a hanging cable leaves on it") {
   test::each_random(6, [](test::Random& random) {
     Design design = test::published_design();

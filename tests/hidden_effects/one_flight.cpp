@@ -33,7 +33,7 @@ DiagnosisQuestion one_flight_of(const HiddenDrone& hidden) {
   flight.tether_area = cable.drag_area * hidden.effects.tether_drag_factor;
   flight.wind = between(-1.5, 1.5);
   flight.crosswind = between(-0.5, 0.5);
-  flight.course_acceleration = 0.8;
+  flight.course_acceleration = hidden.acceleration;
   flight.steps_per_sample = 40;
   constexpr std::array<double, 3> speeds{3, 6, 9};
   for (int pass = 0; pass < hidden.passes; ++pass) {
@@ -54,6 +54,8 @@ DiagnosisQuestion one_flight_of(const HiddenDrone& hidden) {
     scenario.track.tilt.push_back(std::acos(std::min(1.0, 9.80665 / lift)));
   }
   question.power = LoggedPower{power_truth::as_power_log(power_truth::simulate(scenario))};
+  question.power->log.acceleration_along = std::move(flown.speeding_up);
+  question.power->log.acceleration_across = std::move(flown.turning_off);
   if (!hidden.whole_chain) question.power->log.drone_voltage.clear();
   return question;
 }

@@ -14,6 +14,7 @@ struct HiddenDrone {
   power_truth::HiddenEffects effects{};  ///< of the cable's load only what both logs can have
   double height = 15;                    ///< m, throughout
   int passes = 20;                       ///< there and back at 3 to 9 m/s, with pauses
+  double acceleration = 0.8;             ///< m/s², speeding up and braking
   bool whole_chain = false;              ///< else the motors' bus is all that was measured
   std::uint64_t seed = 1;
 };

@@ -170,6 +170,20 @@ TEST_CASE("the flight half alone never tells mass from drag, and says so") {
   CHECK(study.extended.drone.mass == question.design.drone.mass);
 }
 
+TEST_CASE("what it takes to speed up and to brake is not taken for hungrier motors") {
+  int told = 0;
+  const int flights = test::draws(4);
+  for (int i = 0; i < flights; ++i) {
+    HiddenDrone hidden;
+    hidden.acceleration = 4;
+    hidden.seed = flight_seed(950 + i);
+    const DiagnosisStudy study = study_diagnosis(truth::one_flight_of(hidden));
+    told += !study.power->findings.empty();
+  }
+  INFO("TETHERCALC_TEST_SEED=" << test::run_seed());
+  CHECK(told == 0);
+}
+
 TEST_CASE("of one flight both logs make one drone, with its mass and its drag") {
   HiddenDrone hidden;
   hidden.seed = flight_seed(700);

@@ -276,6 +276,8 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
   Lagging lagging_north{h.velocity_lag};
   Lagging lagging_east{h.velocity_lag};
   double airspeed_sum = 0;
+  double speeding_up_sum = 0;
+  double square_sum = 0;
   double lift_sum = 0;
   double next_turn = 40;
   double wanted_yaw = yaw;
@@ -407,11 +409,20 @@ FlightLog fly(const HiddenFlight& h, Flown* flown) {
     north += (speed * std::cos(yaw) - right * std::sin(yaw)) * step;
     east += (speed * std::sin(yaw) + right * std::cos(yaw)) * step;
     if (flown != nullptr) {
-      airspeed_sum += std::hypot(speed - along, both_axes ? drifting - across : 0);
+      const double aside = both_axes ? drifting - across : 0;
+      const double airspeed = std::hypot(speed - along, aside);
+      airspeed_sum += airspeed;
+      speeding_up_sum +=
+          (ahead_over_ground * (speed - along) + aside_over_ground * aside) / airspeed;
+      square_sum += ahead_over_ground * ahead_over_ground + aside_over_ground * aside_over_ground;
       lift_sum += (gravity - down_acceleration) / (std::cos(tilt) * std::cos(roll));
       constexpr std::size_t second = 100;
       if ((k + 1) % second == 0) {
         flown->airspeed.push_back(std::exchange(airspeed_sum, 0) / second);
+        flown->speeding_up.push_back(std::exchange(speeding_up_sum, 0) / second);
+        const double mean = flown->speeding_up.back();
+        flown->turning_off.push_back(
+            std::sqrt(std::max(0.0, std::exchange(square_sum, 0) / second - mean * mean)));
         flown->specific_lift.push_back(std::exchange(lift_sum, 0) / second);
       }
     }

@@ -113,6 +113,8 @@ struct HiddenFlight {
 /// What no log tells: one element for each second of a flight, the mean over it.
 struct Flown {
   std::vector<double> airspeed;       ///< m/s
+  std::vector<double> speeding_up;    ///< m/s², over ground, along the airspeed
+  std::vector<double> turning_off;    ///< m/s², the rest of its root mean square
   std::vector<double> specific_lift;  ///< m/s², thrust over mass
 };
 

@@ -102,6 +102,28 @@ TEST_CASE("power is read at the battery's times, from take-off to landing, heigh
   CHECK(says(reading, "no airspeed and no wind in the log: ground speed is taken as airspeed"));
 }
 
+TEST_CASE("the acceleration over ground is read along the airspeed and across it") {
+  DataFlashWriter log;
+  log.define(xkf1, "XKF1", "QBfffffff", "TimeUS,C,Roll,Pitch,Yaw,VN,VE,VD,PD");
+  log.define(bat, "BAT", "QBff", "TimeUS,Inst,Volt,Curr");
+  log.define(xkf2, "XKF2", "QBff", "TimeUS,C,VWN,VWE");
+  for (int i = 100; i < 1000; ++i) {
+    const double t = 0.1 * i;
+    // To the north at 2 m/s and ever faster by 0.1 m/s², in a wind of 3 m/s from the east.
+    log.add(xkf1, {us(t), std::uint64_t{0}, 0.0, -5.0, 90.0, 2 + 0.1 * (t - 10), 0.0, 0.0, -130.0});
+    log.add(xkf2, {us(t), std::uint64_t{0}, 0.0, -3.0});
+  }
+  add_battery(log, 0, 15.5, 20);
+  const PowerLog power = read(log).log;
+  REQUIRE(power.acceleration_along.size() == power.time.size());
+  const auto at = static_cast<std::size_t>(std::ranges::lower_bound(power.time, 30 - 1e-6) -
+                                           power.time.begin());
+  CHECK(power.airspeed[at] == Approx(5));  // 4 and 3
+  // Less what the chord over 0.4 s leaves out.
+  CHECK(power.acceleration_along[at] == Approx(0.1 * 4 / 5).epsilon(1e-3));
+  CHECK(power.acceleration_across[at] == Approx(0.1 * 3 / 5).epsilon(1e-3));
+}
+
 TEST_CASE("hundredths in a log of 2014 are read as volts and amperes") {
   DataFlashWriter log = flight();
   for (int i = 10; i < 300; ++i) {

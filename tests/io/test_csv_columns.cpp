@@ -241,6 +241,33 @@ TEST_CASE("one CSV serves both halves, each passing over the other's cells") {
   CHECK(power.airspeed == std::vector<double>{9});
 }
 
+TEST_CASE("a power log's acceleration is told, or that of its velocity over ground") {
+  const PowerLog told = power_of(
+      "time_s,height_m,airspeed_m_s,bus_voltage_V,bus_current_A,acceleration_along_m_s2,"
+      "acceleration_across_m_s2\n1,2,3,16,20,0.5,-0.25\n");
+  CHECK(told.acceleration_along == std::vector<double>{0.5});
+  CHECK(told.acceleration_across == std::vector<double>{-0.25});
+  // Speeding up by 1.5 m/s² to the north, and then round a circle at 6 m/s with 3 m/s² inward.
+  std::string text = "time_s,height_m,airspeed_m_s,vn_m_s,ve_m_s,bus_voltage_V,bus_current_A\n";
+  for (int i = 0; i <= 80; ++i) {
+    const double t = 0.1 * i;
+    const double speed = std::min(6.0, 1.5 * t);
+    const double course = std::max(0.0, 0.5 * (t - 4));
+    text += std::to_string(t) + ",2," + std::to_string(speed) + "," +
+            std::to_string(speed * std::cos(course)) + "," +
+            std::to_string(speed * std::sin(course)) + ",16,20\n";
+  }
+  const PowerLog made = power_of(text);
+  REQUIRE(made.acceleration_along.size() == 81);
+  CHECK(made.acceleration_along[20] == Approx(1.5).epsilon(1e-4));
+  CHECK(made.acceleration_across[20] == Approx(0).margin(1e-4));
+  CHECK(made.acceleration_along[60] == Approx(0).margin(1e-4));
+  // Of the chord over 0.4 s instead of the arc.
+  CHECK(made.acceleration_across[60] == Approx(3 * std::sin(0.1) / 0.1).epsilon(1e-4));
+  CHECK(power_of("time_s,height_m,airspeed_m_s,bus_voltage_V,bus_current_A\n1,2,3,16,20\n")
+            .acceleration_along.empty());
+}
+
 TEST_CASE("a misspelt column of a log is refused with the closest of either half") {
   CHECK_THROWS_WITH(
       power_of("time_s,height_m,airspeed_m_s,bus_voltage,bus_current_A\n1,2,3,4,5\n"),

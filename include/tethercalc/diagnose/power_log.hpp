@@ -26,7 +26,11 @@ struct PowerLog {
   std::vector<double> drone_voltage;          ///< V, optional
   std::vector<double> bus_voltage;            ///< V, optional
   std::vector<double> bus_current;            ///< A, optional
-  std::vector<double> bus_power{};  ///< W, optional: where only their product was measured
+  std::vector<double> bus_power{};           ///< W, optional: where only their product was measured
+  std::vector<double> acceleration_along{};  ///< m/s², of the airspeed, optional: else it is steady
+  /// m/s², level and across it, optional likewise. Of means over a time with it what the mean along
+  /// leaves out, so that the squares of both make the mean square.
+  std::vector<double> acceleration_across{};
   /// Flown from a battery without tether and converter, which is the bus. Its cable neither weighs
   /// nor drags; what the drone draws besides its motors comes out of the same battery.
   bool free_flight = false;
@@ -38,10 +42,11 @@ struct PowerChannel {
   std::vector<double> PowerLog::*values;  ///< where a log has it
   bool optional = false;                  ///< may be empty
   bool may_rest = true;                   ///< a steady reading is possible in flight
+  bool may_jump = false;                  ///< so is one that no other is near
 };
 
 /// The channels of a power log, described once: all but the time.
-inline constexpr std::array<PowerChannel, 9> power_channels{{
+inline constexpr std::array<PowerChannel, 11> power_channels{{
     {"height_m", &PowerLog::height, true},
     {"airspeed_m_s", &PowerLog::airspeed},
     {"ambient_temperature_C", &PowerLog::ambient_temperature_C, true},
@@ -51,6 +56,8 @@ inline constexpr std::array<PowerChannel, 9> power_channels{{
     {"bus_voltage_V", &PowerLog::bus_voltage, true},
     {"bus_current_A", &PowerLog::bus_current, true, false},
     {"bus_power_W", &PowerLog::bus_power, true, false},
+    {"acceleration_along_m_s2", &PowerLog::acceleration_along, true, true, true},
+    {"acceleration_across_m_s2", &PowerLog::acceleration_across, true, true, true},
 }};
 
 /// Power at the bus in W, a value a sample: as measured, or voltage times current; empty where the

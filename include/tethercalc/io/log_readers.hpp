@@ -107,7 +107,7 @@ struct PowerLogReading {
 /// bus_current_A` or, instead of these two, `bus_power_W`, in any order, named exactly so; columns
 /// of a flight log may stand beside them. Without `airspeed_m_s` it is made of the velocity over
 /// ground, `vn_m_s` and `ve_m_s`, and a measured wind; without one of those it is the speed over
-/// ground, and a note says so.
+/// ground, and a note says so. Accelerations are the columns' or, with velocities, made of those.
 ///
 /// From an autopilot's log: the bus is what its battery monitor measures (DataFlash BAT, BAT2,
 /// CURR, CURR2, ULog battery_status), at that monitor's times, from take-off to landing as
@@ -115,6 +115,7 @@ struct PowerLogReading {
 /// the voltage is their mean weighted by current, so that the power is the sum. Height is the
 /// estimator's, above take-off. The airspeed is measured (ARSP, airspeed), else the velocity over
 /// ground less the wind that the estimator guesses, else the speed over ground; a note says which.
+/// The acceleration is that over ground in the mean over 0.4 s, in a wind that is steady meanwhile.
 ///
 /// Throws InputError: what is neither; every problem of a CSV file, with its line; a log without
 /// flight, voltage or current, with several monitors and no choice, or of another vehicle.
