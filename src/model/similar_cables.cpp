@@ -134,8 +134,8 @@ std::optional<HangingSituation> normal_form(const HangingSituation& situation) {
 std::optional<HangingSituation> normal_surroundings(const HangingSituation& situation) {
   const MovingAir& air = situation.air;
   const double height = situation.height;
-  if (!(height > 0) || situation.axial_stiffness || situation.by_reynolds_number ||
-      air.wind.y != 0 || air.wind.z != 0 || air.drone_velocity != Vector3{}) {
+  if (!(height > 0) || situation.axial_stiffness || situation.cylinder || air.wind.y != 0 ||
+      air.wind.z != 0 || air.drone_velocity != Vector3{}) {
     return std::nullopt;
   }
   HangingSituation normal{.weight = {1, 0, 0}, .width = {0, 2}, .air = {}, .paid_out = {}};
