@@ -113,7 +113,7 @@ HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked aske
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   if (situation_.memory != nullptr) {
-    if (const auto known = situation_.memory->on_winch(situation_, std::exp(log_radius))) {
+    if (const auto known = situation_.memory->at_radius(situation_, std::exp(log_radius))) {
       return {CableOutcome::hangs, known->value, known->slope};
     }
   }
