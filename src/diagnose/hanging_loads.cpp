@@ -51,8 +51,8 @@ HangingLoads::ThirdAxis third_axis_of(const HangingSituation& situation) {
   // A wind over the height changes its shape as ln(height/roughness), a tenth an octave, and the
   // drag of a cylinder as little with the Reynolds number.
   if (!like_itself) return {ThirdAxis::height, 2};
-  return situation.by_reynolds_number ? HangingLoads::ThirdAxis{ThirdAxis::reynolds_number, 2}
-                                      : HangingLoads::ThirdAxis{};
+  return situation.cylinder ? HangingLoads::ThirdAxis{ThirdAxis::reynolds_number, 2}
+                            : HangingLoads::ThirdAxis{};
 }
 
 /// With drag over weight, it decides the Reynolds number's square.
@@ -100,7 +100,7 @@ HangingLoads::Family& HangingLoads::family_of(const HangingSituation& situation,
   alike.air.reference_height = 0;
   // Drag over weight has them, but where the Reynolds number follows the speed.
   const ThirdAxis third = third_axis_of(situation);
-  if (!situation.by_reynolds_number || third.of == ThirdAxis::reynolds_number) {
+  if (!situation.cylinder || third.of == ThirdAxis::reynolds_number) {
     alike.air.density = alike.drag_coefficient = 1;
   }
   for (Family& one : families_) {

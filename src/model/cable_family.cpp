@@ -3,23 +3,96 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <vector>
+
+#include "model/wind_profile.hpp"
 
 namespace tethercalc {
 namespace {
 
 /// Of squares in which not all cables hang: narrower ones along that border would be many.
 constexpr double narrowest_square = 1.0 / 32;
-/// Where a winch decides how much is paid out: octaves of drag over weight, and what last terms may
-/// be of the tension. Between radii such a load is a cubic, which misses by 1e-5.
-constexpr double widest_on_winch = 1;
-constexpr double little_on_winch = 1e-7;
 /// Of the share of the wind that no profile shapes: over a quarter of it forces bend as over an
 /// octave.
 constexpr double share_scale = 4;
 
+bool varies_with_radius(CableNumber number) {
+  return number == CableNumber::winch_tension || number == CableNumber::reynolds;
+}
+
+/// How wide squares are at most, in octaves, and what last terms may be of the tension.
+struct Fineness {
+  double ratio = widest_piece;
+  double number = widest_piece;
+  double little = little_of_tension;
+};
+
+/// Between radii a load is a cubic, which misses by 1e-5. By the Reynolds number and a profile's
+/// length forces bend little, and in light winds little by drag over weight, too: that pays where
+/// the general method solves each cable.
+Fineness fineness_of(CableNumber number) {
+  constexpr double little_by_radius = 1e-7;
+  switch (number) {
+    case CableNumber::winch_tension:
+      return {.ratio = 1, .little = little_by_radius};
+    case CableNumber::reynolds:
+      return {.ratio = 2, .number = 1, .little = little_by_radius};
+    case CableNumber::own_speed:
+      return {.ratio = 2, .number = 1};
+    case CableNumber::profile_under_one_wind:
+    case CableNumber::profile_under_drone:
+      return {.ratio = 2, .number = 2};
+    case CableNumber::slack:
+    case CableNumber::aside:
+      break;
+  }
+  return {};
+}
+
 double slack_of(const HangingSituation& normal) {
   return normal.paid_out.length.value_or(0) / std::hypot(1, normal.offset) - 1;
+}
+
+/// The same to its last digit for all cables that differ by rounding.
+double rounded(double x) {
+  constexpr double digits = 1e12;
+  return std::round(x * digits) / digits;
+}
+
+/// What gives a profile its length: the roughness or, under a power law, the station's height.
+double profile_length(const MovingAir& air) {
+  switch (air.profile) {
+    case WindProfile::uniform:
+      break;
+    case WindProfile::power_law:
+      return air.station_height;
+    case WindProfile::logarithmic:
+      return air.roughness_length;
+  }
+  return 0;
+}
+
+/// The wind at the reference height over that at one which is so many of the profile's lengths, but
+/// for a factor.
+double growth_to_reference(const MovingAir& air) {
+  const double lengths = air.reference_height / profile_length(air);
+  return air.profile == WindProfile::power_law ? std::pow(lengths, air.exponent)
+                                               : std::log(lengths);
+}
+
+/// The same profile under a drone so much lower or higher that its length over the height is
+/// `length`; the wind at the drone is as much, or follows the profile beside the drone's own
+/// airspeed.
+MovingAir under_other_height(const MovingAir& air, double length, bool one_wind) {
+  MovingAir other = air;
+  other.station_height = rounded(air.station_height / profile_length(air)) * length;
+  other.reference_height = other.station_height + 1;
+  if (air.profile == WindProfile::logarithmic) other.roughness_length = length;
+  if (one_wind && air.even_share > 0) {
+    const double wind_over_own =
+        (1 / air.even_share - 1) * growth_to_reference(other) / growth_to_reference(air);
+    other.even_share = rounded(1 / (1 + wind_over_own));
+  }
+  return other;
 }
 
 double number_in(const HangingSituation& normal, CableNumber number) {
@@ -30,37 +103,89 @@ double number_in(const HangingSituation& normal, CableNumber number) {
       return normal.offset;
     case CableNumber::own_speed:
       return normal.air.even_share;
+    case CableNumber::profile_under_one_wind:
+    case CableNumber::profile_under_drone:
+      return profile_length(normal.air);
     case CableNumber::winch_tension:
       return normal.paid_out.winch_tension.value_or(0);
+    case CableNumber::reynolds:
+      return normal.cylinder ? (*normal.cylinder)[0] : 0;
   }
   return 0;
 }
 
 HangingSituation with_number(HangingSituation normal, CableNumber number, double value) {
+  const double slack = number == CableNumber::slack ? value : rounded(slack_of(normal));
   switch (number) {
     case CableNumber::slack:
-      normal.paid_out.length = (1 + value) * std::hypot(1, normal.offset);
       break;
-    case CableNumber::aside: {
-      // The same to its last digit for all that are as slack.
-      constexpr double digits = 1e12;
-      const double slack = std::round(slack_of(normal) * digits) / digits;
+    case CableNumber::aside:
       normal.offset = value;
-      if (normal.paid_out.length) normal.paid_out.length = (1 + slack) * std::hypot(1, value);
       break;
-    }
     case CableNumber::own_speed:
-      normal.air.even_share = value;
+      // A drone that hovers has none in any wind.
+      if (normal.air.even_share > 0) normal.air.even_share = value;
+      break;
+    case CableNumber::profile_under_one_wind:
+    case CableNumber::profile_under_drone:
+      normal.air =
+          under_other_height(normal.air, value, number == CableNumber::profile_under_one_wind);
       break;
     case CableNumber::winch_tension:
       normal.paid_out.winch_tension = value;
       break;
+    case CableNumber::reynolds:
+      normal.cylinder = {value, 0};
+      break;
   }
+  if (normal.paid_out.length) normal.paid_out.length = (1 + slack) * std::hypot(1, normal.offset);
   return normal;
 }
 
+/// One cable for all that differ by the number: of a profile's lengths few are as much as a drone's
+/// height, up to which there would be no wind.
+HangingSituation without_number(const HangingSituation& normal, CableNumber number) {
+  constexpr double usual_length = 1e-3;
+  const bool of_profile =
+      number == CableNumber::profile_under_one_wind || number == CableNumber::profile_under_drone;
+  return with_number(normal, number, of_profile ? usual_length : 1);
+}
+
+/// The cable with the Reynolds number of the wind whose drag is `ratio` times the weight: without a
+/// cylinder's coefficient it is `bare` times that. The radius of the normal form is `ratio` as
+/// well; a hair more than that, it is no fold where those end, whatever is rounded.
+HangingSituation in_wind_of(HangingSituation cable, double ratio) {
+  if (!cable.cylinder) return cable;
+  constexpr double hair_more = 1 + 1e-12;
+  constexpr int enough = 20;  // of Newton's steps, which need about five
+  const double over_root = (*cable.cylinder)[0];
+  double bare = ratio;
+  for (int i = 0; i < enough; ++i) {
+    const double reynolds = over_root * std::sqrt(bare);
+    const CylinderDrag drag = cylinder_drag(reynolds);
+    const double growth = 1 + 0.5 * reynolds * drag.slope / drag.coefficient;
+    bare *= std::exp(-std::log(bare * drag.coefficient / ratio) / growth);
+  }
+  cable.cylinder = {over_root * std::sqrt(bare), 0};
+  cable.drag_coefficient = hair_more * bare / ratio;
+  return cable;
+}
+
 bool has_number(const HangingSituation& normal, CableNumber number) {
-  if (number == CableNumber::own_speed) return normal.air.profile != WindProfile::uniform;
+  constexpr double most_share = 2;  // which stands for more
+  const MovingAir& air = normal.air;
+  switch (number) {
+    case CableNumber::own_speed:
+      return air.profile != WindProfile::uniform;
+    case CableNumber::profile_under_one_wind:
+    case CableNumber::profile_under_drone:
+      return profile_length(air) > 0 && !is_still(air) && air.even_share < most_share;
+    case CableNumber::slack:
+    case CableNumber::aside:
+    case CableNumber::winch_tension:
+    case CableNumber::reynolds:
+      break;
+  }
   return number_in(normal, number) > 0;
 }
 
@@ -69,13 +194,17 @@ double place_of(const HangingSituation& normal, CableNumber number) {
   return number == CableNumber::own_speed ? share_scale * value : std::log2(value);
 }
 
-/// The series of the ratio, without its parts beyond, of which a square has a series each.
+/// Of a square's terms, each with a series of the ratio, that series where the terms have such
+/// weights, without its parts beyond.
 template <std::size_t Parts, std::size_t Terms>
-LoadSeries<Parts> unpacked(const std::array<double, Terms>& terms) {
+LoadSeries<Parts> weighed(const LoadSeries<Terms>& square,
+                          const std::array<double, load_degree + 1>& weights) {
   constexpr std::size_t all = Terms / (load_degree + 1);
   LoadSeries<Parts> series{};
-  for (std::size_t k = 0; k <= load_degree; ++k) {
-    std::copy_n(terms.begin() + static_cast<std::ptrdiff_t>(k * all), Parts, series[k].begin());
+  for (std::size_t j = 0; j <= load_degree; ++j) {
+    for (std::size_t k = 0; k <= load_degree; ++k) {
+      for (std::size_t i = 0; i < Parts; ++i) series[k][i] += weights[j] * square[j][k * all + i];
+    }
   }
   return series;
 }
@@ -87,52 +216,61 @@ HangingSituation CableFamily::cable_at(double place) const {
                      number_ == CableNumber::own_speed ? place / share_scale : std::exp2(place));
 }
 
-bool CableFamily::solve(const Bounds& bounds, LoadSeries<terms>& series, double& tension) const {
+CableFamily::Found CableFamily::solve(const Bounds& bounds, LoadSeries<terms>& series) const {
+  const double little = fineness_of(number_).little;
+  double tension = 0;
+  bool by_ratio = true;
   LoadSeries<terms> solved{};  // by place of the number, each a series of the ratio
-  CableSolver solver(most_steps_for_load);
+  // By the first place of the number each cable is solved from the one beside it, and from there on
+  // along the number, by which they differ least.
+  std::vector<CableSolver> solvers(load_degree + 1, CableSolver(most_steps_for_load));
   for (std::size_t i = 0; i <= load_degree; ++i) {
     const HangingSituation cable = cable_at(load_place(bounds.number, bounds.number_width, i));
+    if (i > 0 && cable == cable_at(load_place(bounds.number, bounds.number_width, i - 1))) {
+      solved[i] = solved[i - 1];
+      continue;
+    }
     const double first = first_ratio(cable);
     LoadSeries<parts> along{};
-    for (std::size_t k = 0; k <= load_degree; ++k) {
-      // To and fro: each cable is solved from one like it.
-      const std::size_t j = i % 2 == 0 ? k : load_degree - k;
-      LoadShares shares{};
+    for (std::size_t j = 0; j <= load_degree; ++j) {
+      if (i == 0 && j > 0) solvers[j] = solvers[j - 1];
+      LoadShares& shares = along[j];
       const double ratio = first * std::exp2(load_place(bounds.ratio, bounds.ratio_width, j));
-      if (solve_shares(cable, solver, ratio, shares) != CableOutcome::hangs) return false;
-      along[j] = shares;
+      if (solve_shares(in_wind_of(cable, ratio), solvers[j], ratio, shares) !=
+          CableOutcome::hangs) {
+        return Found::not_all_hang;
+      }
       tension = std::max(tension, shares[2]);
     }
     along = series_through(along);
+    // In narrow ones it matters more whether all hang: they are given up sooner where not.
+    const bool is_wide = bounds.ratio_width > narrowest_square;
+    by_ratio = by_ratio && is_converged(along, tension, little);
+    if (is_wide && !by_ratio) return Found::bends_by_ratio;
     for (std::size_t k = 0; k <= load_degree; ++k) {
       std::copy_n(along[k].begin(), parts,
                   solved[i].begin() + static_cast<std::ptrdiff_t>(k * parts));
     }
   }
   series = series_through(solved);
-  return true;
+  if (!by_ratio) return Found::bends_by_ratio;
+  return is_converged(series, tension, little) ? Found::smooth : Found::bends_by_number;
 }
 
 void CableFamily::make(Square& square, const Bounds& bounds) const {
   using Kind = Square::Kind;
   LoadSeries<terms> series{};
-  double tension = 0;
-  const bool hangs = solve(bounds, series, tension);
-  const double little = number_ == CableNumber::winch_tension ? little_on_winch : little_of_tension;
-  const auto converges_by_ratio = [&](const std::array<double, terms>& of_number) {
-    return is_converged(unpacked<parts>(of_number), tension, little);
-  };
-  const bool by_ratio = hangs && std::all_of(series.begin(), series.end(), converges_by_ratio);
-  const bool by_number = hangs && is_converged(series, tension, little);
-  if (by_ratio && by_number) {
+  const Found found = solve(bounds, series);
+  if (found == Found::smooth) {
     square.series = std::make_unique<LoadSeries<terms>>(series);
     square.kind = Kind::smooth;
     return;
   }
+  const bool hangs = found != Found::not_all_hang;
   // About the origin of the ratio cables may hang at no solved place, however like they are.
   const bool at_origin = bounds.ratio == 0 || bounds.ratio + bounds.ratio_width == 0;
   const bool ratio_wider = bounds.ratio_width >= bounds.number_width;
-  const bool ratio_first = hangs ? !by_ratio : at_origin || ratio_wider;
+  const bool ratio_first = hangs ? found == Found::bends_by_ratio : at_origin || ratio_wider;
   const bool ratio_halves =
       bounds.ratio_width > (hangs || at_origin ? narrowest_piece : narrowest_square);
   const bool number_halves = bounds.number_width > narrowest_square;
@@ -150,10 +288,10 @@ std::pair<CableFamily::Square*, CableFamily::Bounds> CableFamily::square_about(
   const auto number_of = [](double x, double width) {
     return static_cast<int>(std::floor(x / width));
   };
-  const double by_ratio = number_ == CableNumber::winch_tension ? widest_on_winch : widest_piece;
-  const std::pair which{number_of(octaves, by_ratio), number_of(place, widest_piece)};
+  const auto [by_ratio, by_number, little] = fineness_of(number_);
+  const std::pair which{number_of(octaves, by_ratio), number_of(place, by_number)};
   Square* square = &squares_[which];
-  Bounds bounds{by_ratio * which.first, by_ratio, widest_piece * which.second, widest_piece};
+  Bounds bounds{by_ratio * which.first, by_ratio, by_number * which.second, by_number};
   for (;;) {
     if (square->kind == Kind::unknown) make(*square, bounds);
     const bool halved = square->kind == Kind::halved_by_ratio;
@@ -178,8 +316,8 @@ CableMemory::Piece CableFamily::along_ratio(double from, double width, double pl
   if (square->kind != Square::Kind::smooth || bounds.ratio_width != width) {
     return CableMemory::Piece::not_known;
   }
-  const double y = 2 * (place - bounds.number) / bounds.number_width - 1;
-  series = unpacked<4>(value_at(*square->series, y));
+  const AtPlace by_number = polynomials_at(bounds.number, bounds.number_width, place);
+  series = weighed<4>(*square->series, by_number.value);
   return CableMemory::Piece::smooth;
 }
 
@@ -191,21 +329,16 @@ const CableFamily::Along& CableFamily::along_at(Square& square, const Bounds& bo
   Along& along = known->second;
   if (!is_new) return along;
   const AtPlace by_number = polynomials_at(bounds.number, bounds.number_width, place);
-  for (std::size_t j = 0; j <= load_degree; ++j) {
-    const LoadSeries<parts> term = unpacked<parts>((*square.series)[j]);
-    for (std::size_t k = 0; k <= load_degree; ++k) {
-      for (std::size_t i = 0; i < parts; ++i) {
-        along.value[k][i] += by_number.value[j] * term[k][i];
-        along.by_number[k][i] += by_number.slope[j] * term[k][i];
-      }
-    }
-  }
+  along.value = weighed<parts>(*square.series, by_number.value);
+  along.by_number = weighed<parts>(*square.series, by_number.slope);
   return along;
 }
 
 std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const {
   const double octaves = std::log2(ratio / first_ratio(one_));
   if (!(std::abs(octaves) < most_octaves) || !(std::abs(place) < most_octaves)) return std::nullopt;
+  const bool folded = octaves < 0 && slack_above_station(one_) > 0;
+  if (folded) return std::nullopt;  // sooner solved than looked up
   const auto& [square, bounds] = square_about(octaves, place);
   if (square->kind != Square::Kind::smooth) return std::nullopt;
   const Along& along = along_at(*square, bounds, place);
@@ -223,11 +356,18 @@ std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const
 
 const CableFamily* CableFamilies::family_of(const HangingSituation& normal) const {
   if (!has_number(normal, number_)) return nullptr;
-  HangingSituation one = with_number(normal, number_, 1);
+  HangingSituation one = without_number(normal, number_);
   one.memory = nullptr;
   constexpr std::size_t most_kept = 16;  // of designs that are told apart by one number: a few
-  if (families_.size() >= most_kept && !families_.contains(one)) families_.clear();
+  if (families_.size() >= most_kept && !families_.contains(one)) {
+    families_.clear();
+    asked_ = {};
+  }
   return &families_.try_emplace(one, one, number_).first->second;
+}
+
+double CableFamilies::widest() const {
+  return varies_with_radius(number_) ? widest_piece : fineness_of(number_).ratio;
 }
 
 CableMemory::Piece CableFamilies::along_ratio(const HangingSituation& normal, double from,
@@ -237,24 +377,71 @@ CableMemory::Piece CableFamilies::along_ratio(const HangingSituation& normal, do
                            : Piece::not_known;
 }
 
-std::optional<CableMemory::AtRadius> CableFamilies::on_winch(const HangingSituation& situation,
-                                                             double radius) const {
-  const std::optional<double> tension = situation.paid_out.winch_tension;
-  auto normal = tension && number_ == CableNumber::winch_tension ? normal_surroundings(situation)
-                                                                 : std::nullopt;
-  if (!normal) return std::nullopt;
+namespace {
+
+/// What varies with a conductor's radius, and how much its logarithm changes with the radius'.
+struct Varying {
+  double value = 0;
+  double growth = 0;
+};
+
+Varying winch_tension_at(const HangingSituation& situation, double radius) {
   const double weight = weight_at(situation, radius);
-  const DragOverWeight ratio = drag_over_weight(situation, radius);
-  normal->paid_out.winch_tension = *tension / (weight * situation.height);
-  const CableFamily* family = family_of(*normal);
-  const auto at =
-      family != nullptr ? family->at(ratio.value, place_of(*normal, number_)) : std::nullopt;
+  return {*situation.paid_out.winch_tension / (weight * situation.height),
+          -radius * weight_slope_at(situation, radius) / weight};
+}
+
+/// Drag over weight as `CableFamily` has it, and the number beside it.
+struct RatioAndNumber {
+  Varying ratio;
+  Varying number;
+};
+
+RatioAndNumber with_reynolds(const HangingSituation& situation, double radius,
+                             const Varying& bare_ratio) {
+  const MovingAir& air = situation.air;
+  const double diameter = *situation.cylinder_diameter(radius);
+  const double reynolds = diameter * air.density / air.viscosity * std::abs(air.wind.x);
+  const double growth = radius * (*situation.cylinder)[1] / diameter;
+  const CylinderDrag drag = cylinder_drag(reynolds);
+  return {{bare_ratio.value * drag.coefficient,
+           bare_ratio.growth + growth * reynolds * drag.slope / drag.coefficient},
+          {reynolds / std::sqrt(bare_ratio.value), growth - 0.5 * bare_ratio.growth}};
+}
+
+RatioAndNumber ratio_and_number(const HangingSituation& situation, double radius) {
+  const DragOverWeight drag = drag_over_weight(situation, radius);
+  const Varying ratio{drag.value, radius * drag.slope / drag.value};
+  return situation.cylinder ? with_reynolds(situation, radius, ratio)
+                            : RatioAndNumber{ratio, winch_tension_at(situation, radius)};
+}
+
+}  // namespace
+
+const CableFamily* CableFamilies::family_by_radius(const HangingSituation& situation) const {
+  for (const Asked& asked : asked_) {
+    if (asked.situation == situation) return asked.family;
+  }
+  const bool on_winch = number_ == CableNumber::winch_tension;
+  const bool has_one = varies_with_radius(number_) &&
+                       on_winch == situation.paid_out.winch_tension.has_value() &&
+                       on_winch != situation.cylinder.has_value();
+  const auto normal = has_one ? normal_but_for_radius(situation) : std::nullopt;
+  const CableFamily* family = normal ? family_of(*normal) : nullptr;
+  asked_ = {asked_[1], {situation, family}};
+  return family;
+}
+
+std::optional<CableMemory::AtRadius> CableFamilies::at_radius(const HangingSituation& situation,
+                                                              double radius) const {
+  const CableFamily* family = family_by_radius(situation);
+  if (family == nullptr) return std::nullopt;
+  const auto [ratio, number] = ratio_and_number(situation, radius);
+  const auto at = family->at(ratio.value, std::log2(number.value));
   if (!at) return std::nullopt;
-  const double ratio_grows = radius * ratio.slope / ratio.value;
-  const double tension_grows = -radius * weight_slope_at(situation, radius) / weight;
   AtRadius there{at->value, {}};
   for (std::size_t i = 0; i < there.slope.size(); ++i) {
-    there.slope[i] = at->by_ratio[i] * ratio_grows + at->by_number[i] * tension_grows;
+    there.slope[i] = at->by_ratio[i] * ratio.growth + at->by_number[i] * number.growth;
   }
   there.value.back() *= situation.height;
   there.slope.back() *= situation.height;
@@ -263,58 +450,64 @@ std::optional<CableMemory::AtRadius> CableFamilies::on_winch(const HangingSituat
 
 namespace {
 
-/// Of a cable in normal form, on a winch with whatever tension.
-std::optional<HangingSituation> normal_cable(const HangingSituation& situation) {
-  if (!situation.paid_out.winch_tension) return normal_form(situation);
-  auto normal = normal_surroundings(situation);
-  if (normal) normal->paid_out.winch_tension = 1;
-  return normal;
+/// Whether these cables in normal form differ by the number alone; some may have no speed of their
+/// own.
+bool tells_apart(CableNumber number, const std::set<HangingSituation>& cables) {
+  const auto is_of_radius = [&](const HangingSituation& normal, CableNumber n) {
+    return has_number(normal, n) == (n == number);
+  };
+  std::map<bool, HangingSituation> others;  // by whether the number is 0
+  for (const HangingSituation& normal : cables) {
+    if (!is_of_radius(normal, CableNumber::winch_tension) ||
+        !is_of_radius(normal, CableNumber::reynolds)) {
+      return false;
+    }
+    if (cables.size() == 1) return true;
+    if (!has_number(normal, number)) return false;
+    const HangingSituation other = without_number(normal, number);
+    const bool is_none = number_in(normal, number) == 0;
+    if (others.try_emplace(is_none, other).first->second != other) return false;
+  }
+  return true;
 }
 
-/// The numbers that differ between two cables in normal form.
-std::vector<CableNumber> numbers_apart(const HangingSituation& a, const HangingSituation& b) {
-  constexpr double rounding = 1e-9;
-  std::vector<CableNumber> apart;
-  // On a winch the tension over each conductor's weight.
-  if (a.paid_out.winch_tension) apart.push_back(CableNumber::winch_tension);
-  for (const CableNumber n : {CableNumber::slack, CableNumber::aside, CableNumber::own_speed}) {
-    if (n == CableNumber::slack && a.paid_out.winch_tension) continue;
-    const double one = number_in(a, n);
-    const double other = number_in(b, n);
-    if (std::abs(one - other) > rounding * std::abs(other)) apart.push_back(n);
-  }
-  return apart;
+/// Those that differ by more than rounding are told apart.
+HangingSituation as_slack(HangingSituation normal) {
+  if (normal.paid_out.length)
+    normal = with_number(normal, CableNumber::slack, rounded(slack_of(normal)));
+  return normal;
 }
 
 }  // namespace
 
 std::optional<CableNumber> told_apart_by(std::span<const Design> designs) {
-  std::map<Condition, HangingSituation> first;
-  std::map<Condition, std::set<HangingSituation>> cables;
-  std::optional<CableNumber> number;
+  std::map<Condition, std::set<HangingSituation>> cables;  // in normal form
+  std::map<Condition, std::set<HangingSituation>> solved;  // as each would be by itself
   for (const Design& design : designs) {
     if (design.tether.model == TetherModel::straight) continue;
     for (const Condition condition : {Condition::hover, Condition::forward}) {
       const HangingSituation situation = hanging_situation(design, flight_state(design, condition));
-      const auto normal = normal_cable(situation);
+      auto normal = normal_but_for_radius(situation);
       if (!normal) continue;
-      const HangingSituation& other = first.try_emplace(condition, *normal).first->second;
-      cables[condition].insert(normal->paid_out.winch_tension ? situation : *normal);
-      if (cables[condition].size() < 2) continue;
-      const std::vector<CableNumber> apart = numbers_apart(*normal, other);
-      if (apart.empty()) continue;
-      const bool only_that =
-          with_number(*normal, apart.front(), 1) == with_number(other, apart.front(), 1);
-      if (apart.size() > 1 || !only_that || number.value_or(apart.front()) != apart.front()) {
-        return std::nullopt;
-      }
-      number = apart.front();
+      normal = as_slack(*normal);
+      cables[condition].insert(*normal);
+      solved[condition].insert(normal_form(situation) ? *normal : situation);
     }
   }
   // Few cables that many designs have are solved sooner by themselves.
   const bool most_differ = std::ranges::any_of(
-      cables, [&](const auto& of) { return 2 * of.second.size() > designs.size(); });
-  return most_differ ? number : std::nullopt;
+      solved, [&](const auto& of) { return 2 * of.second.size() > designs.size(); });
+  if (!most_differ) return std::nullopt;
+  for (const CableNumber number :
+       {CableNumber::slack, CableNumber::aside, CableNumber::own_speed,
+        CableNumber::profile_under_one_wind, CableNumber::profile_under_drone,
+        CableNumber::winch_tension, CableNumber::reynolds}) {
+    if (std::ranges::all_of(cables,
+                            [&](const auto& of) { return tells_apart(number, of.second); })) {
+      return number;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace tethercalc

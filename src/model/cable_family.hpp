@@ -18,19 +18,29 @@ namespace tethercalc {
 
 /// The number that tells cables apart beside drag over weight.
 enum class CableNumber {
-  slack,          ///< length over the distance to the drone, less 1
-  aside,          ///< how far the drone stands aside, over its height
-  own_speed,      ///< share of the wind that no profile shapes, `MovingAir::even_share`
-  winch_tension,  ///< over weight times height
+  slack,      ///< length over the distance to the drone, less 1
+  aside,      ///< how far the drone stands aside, over its height
+  own_speed,  ///< share of the wind that no profile shapes, `MovingAir::even_share`
+  /// What gives the wind's profile its length over the height: the roughness or, under a power
+  /// law, the station's height, each in proportion to the other. `MovingAir::even_share` follows
+  /// for a wind that is the same at a height which stays, beside one airspeed of the drone's own.
+  profile_under_one_wind,
+  profile_under_drone,  ///< the same where that share stays, for a wind that is given at the drone
+  winch_tension,        ///< over weight times height
+  /// Reynolds number of one conductor over the root of drag over weight, both of all the wind and
+  /// this without the cylinder's coefficient: the wind's speed has no part in it.
+  reynolds,
 };
 
 /// In normal form, cables of every drag over weight and every value of the number.
 ///
 /// Over the logarithm of drag over weight, as in `SimilarCables`, and the number's scale forces are
 /// polynomials of degree 8 in both through 81 solved cables, on squares of a quarter of an octave
-/// or on halves of halves of those until what they miss is about 1e-9 of the tension; on a winch an
-/// octave of drag over weight, and 1e-7. A square is always the same, whatever was asked for
-/// before. Remembers what it solved; not for two threads at once.
+/// to two, as the number has them, or on halves of halves of those until what they miss is about
+/// 1e-9 of the tension. Where the number varies with the radius that is 1e-7: a cubic between radii
+/// then has the load. Of drag by the Reynolds number the ratio is that of the drag across all of
+/// the wind, its coefficient included. A square is always the same, whatever was asked for before.
+/// Remembers what it solved; not for two threads at once.
 class CableFamily {
  public:
   /// `one` is any cable of it.
@@ -75,8 +85,10 @@ class CableFamily {
   };
   [[nodiscard]] HangingSituation cable_at(double place) const;
   void make(Square& square, const Bounds& bounds) const;
-  /// Whether the cables of the square hang, and their series.
-  [[nodiscard]] bool solve(const Bounds& bounds, LoadSeries<terms>& series, double& tension) const;
+  /// What the cables of a square are, as far as they were solved.
+  enum class Found { smooth, bends_by_ratio, bends_by_number, not_all_hang };
+  /// The series of those that are smooth.
+  [[nodiscard]] Found solve(const Bounds& bounds, LoadSeries<terms>& series) const;
   /// The square about a point that is not halved, or by number alone down to this width by ratio.
   [[nodiscard]] std::pair<Square*, Bounds> square_about(double octaves, double place,
                                                         double narrowest = 0) const;
@@ -93,17 +105,26 @@ class CableFamily {
 class CableFamilies : public CableMemory {
  public:
   explicit CableFamilies(CableNumber number) : number_(number) {}
+  [[nodiscard]] double widest() const override;
   [[nodiscard]] Piece along_ratio(const HangingSituation& normal, double from, double width,
                                   LoadSeries<4>& series) const override;
-  [[nodiscard]] std::optional<AtRadius> on_winch(const HangingSituation& situation,
-                                                 double radius) const override;
+  [[nodiscard]] std::optional<AtRadius> at_radius(const HangingSituation& situation,
+                                                  double radius) const override;
 
  private:
   /// That of the cable; null where it has no such number.
   [[nodiscard]] const CableFamily* family_of(const HangingSituation& normal) const;
+  /// That of a cable whose number varies with the radius.
+  [[nodiscard]] const CableFamily* family_by_radius(const HangingSituation& situation) const;
 
   CableNumber number_;
   mutable std::map<HangingSituation, CableFamily> families_;
+  /// Of the last two situations, which a row asks for with many radii.
+  struct Asked {
+    HangingSituation situation;
+    const CableFamily* family = nullptr;
+  };
+  mutable std::array<Asked, 2> asked_;
 };
 
 /// The only number by which the solved tethers of these designs differ in hover and in forward

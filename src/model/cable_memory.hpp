@@ -30,6 +30,8 @@ class CableMemory {
   /// Of cables with this memory; they end with it.
   [[nodiscard]] KnownCables& known() const { return known_; }
 
+  /// Octaves of drag over weight that a piece spans at most; others are halves of halves of that.
+  [[nodiscard]] virtual double widest() const = 0;
   /// Whether forces over a piece of drag over weight are a series.
   enum class Piece { smooth, halved, too_sharp, not_known };
   /// Those of `normal` over the octaves from `from` to `from` + `width`, counted from
@@ -42,9 +44,10 @@ class CableMemory {
     LoadShares value{};
     LoadShares slope{};
   };
-  /// Those of a cable on a winch; nothing where they are not known.
-  [[nodiscard]] virtual std::optional<AtRadius> on_winch(const HangingSituation& situation,
-                                                         double radius) const = 0;
+  /// Those of a cable of which the radius decides more than drag over weight
+  /// (`normal_but_for_radius`); nothing where they are not known.
+  [[nodiscard]] virtual std::optional<AtRadius> at_radius(const HangingSituation& situation,
+                                                          double radius) const = 0;
 
  private:
   mutable KnownCables known_{64, {}, {}};  // a row has a few

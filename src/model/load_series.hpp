@@ -10,7 +10,7 @@
 namespace tethercalc {
 
 constexpr std::size_t load_degree = 8;
-/// Octaves that one series spans at most.
+/// Octaves that one series spans at most, where cables are solved soon.
 constexpr double widest_piece = 1.0 / 4;
 /// And at least: where loads are no series there, they are solved where they are asked for.
 constexpr double narrowest_piece = 1.0 / 1024;

@@ -19,15 +19,14 @@ double pressure_on(const HangingSituation& situation) {
          (wind.x * wind.x + wind.y * wind.y);
 }
 
-/// Cable beyond the height, over that; 0 for a drone aside or in motion.
+}  // namespace
+
 double slack_above_station(const HangingSituation& situation) {
   const bool rests = situation.air.drone_velocity == Vector3{};
   return situation.offset == 0 && rests && situation.paid_out.length
              ? *situation.paid_out.length / situation.height - 1
              : 0;
 }
-
-}  // namespace
 
 double weight_at(const HangingSituation& situation, double radius) {
   const auto& [w0, w1, w2] = situation.weight;
@@ -120,28 +119,43 @@ CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver
   return outcome;
 }
 
-std::optional<HangingSituation> normal_form(const HangingSituation& situation) {
+namespace {
+
+/// Whether what is paid out spans the distance and is there; a winch may pay it out.
+bool reaches(const HangingSituation& situation) {
+  if (situation.paid_out.winch_tension) return true;
   const double length = situation.paid_out.length.value_or(0);
-  if (!(length > std::hypot(situation.height, situation.offset)) ||
-      length > situation.cable_there_is) {
-    return std::nullopt;
-  }
-  auto normal = normal_surroundings(situation);
-  if (normal) normal->paid_out.length = length / situation.height;
-  return normal;
+  return length > std::hypot(situation.height, situation.offset) &&
+         length <= situation.cable_there_is;
 }
 
-std::optional<HangingSituation> normal_surroundings(const HangingSituation& situation) {
+}  // namespace
+
+std::optional<HangingSituation> normal_form(const HangingSituation& situation) {
+  if (situation.paid_out.winch_tension || situation.cylinder) return std::nullopt;
+  return normal_but_for_radius(situation);
+}
+
+std::optional<HangingSituation> normal_but_for_radius(const HangingSituation& situation) {
   const MovingAir& air = situation.air;
   const double height = situation.height;
-  if (!(height > 0) || situation.axial_stiffness || situation.by_reynolds_number ||
-      air.wind.y != 0 || air.wind.z != 0 || air.drone_velocity != Vector3{}) {
+  if (!(height > 0) || !reaches(situation) || situation.axial_stiffness || air.wind.y != 0 ||
+      air.wind.z != 0 || air.drone_velocity != Vector3{}) {
     return std::nullopt;
   }
   HangingSituation normal{.weight = {1, 0, 0}, .width = {0, 2}, .air = {}, .paid_out = {}};
   normal.memory = situation.memory;
   normal.height = 1;
   normal.offset = situation.offset / height;
+  if (situation.paid_out.length) {
+    normal.paid_out.length = *situation.paid_out.length / height;
+  } else {
+    normal.paid_out.winch_tension = 1;
+  }
+  if (situation.cylinder) {
+    normal.cylinder = {1, 0};
+    normal.air.viscosity = 1;
+  }
   normal.air.density = 1;
   normal.air.wind.x = air.wind.x > 0 ? 1 : -1;
   normal.air.profile = air.profile;
@@ -183,7 +197,10 @@ double first_ratio(const HangingSituation& normal) {
 }
 
 SimilarCables::SimilarCables(const HangingSituation& normal)
-    : normal_(normal), first_(first_ratio(normal)), folds_(slack_above_station(normal) > 0) {}
+    : normal_(normal),
+      first_(first_ratio(normal)),
+      widest_(normal.memory != nullptr ? normal.memory->widest() : widest_piece),
+      folds_(slack_above_station(normal) > 0) {}
 
 std::optional<SimilarCables::At> SimilarCables::at(double ratio) const {
   if (ratio == 0) {
@@ -192,7 +209,7 @@ std::optional<SimilarCables::At> SimilarCables::at(double ratio) const {
   }
   const double octaves = std::log2(ratio / first_);
   if (!(std::abs(octaves) < most_octaves) || (folds_ && octaves < 0)) return solved_at(ratio);
-  double width = widest_piece;
+  double width = widest_;
   double from = width * std::floor(octaves / width);
   Piece* piece = &pieces_[static_cast<int>(from / width)];
   for (;;) {

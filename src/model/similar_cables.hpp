@@ -21,6 +21,9 @@ using LoadShares = std::array<double, 6>;
 /// Else 1.
 [[nodiscard]] double first_ratio(const HangingSituation& normal);
 
+/// Cable beyond the height, over that; 0 for a drone aside or in motion.
+[[nodiscard]] double slack_above_station(const HangingSituation& situation);
+
 /// Of a solver whose loads are remembered.
 constexpr int most_steps_for_load = 8000;
 /// Of a logarithm: half of the solver's digits for a slope, and no more error than its square.
@@ -49,11 +52,11 @@ CableOutcome solve_shares(const HangingSituation& situation, CableSolver& solver
 /// the wind, densities and, but for a profile, heights.
 ///
 /// Over the logarithm of drag over weight they are polynomials of degree 8 through as many solved
-/// cables (Chebyshev's points) on a quarter of an octave, or on halves of halves of it until what
-/// they miss is about 1e-9 of the tension. Where wind and weight balance along the chord forces
-/// turn by x·ln x: in the last 1/1024 of an octave about that the cable is solved where it is asked
-/// for. A piece is always the same, whatever was asked for before. Remembers what it solved; not
-/// for two threads at once.
+/// cables (Chebyshev's points) on a quarter of an octave (a memory may have wider pieces), or on
+/// halves of halves of it until what they miss is about 1e-9 of the tension. Where wind and weight
+/// balance along the chord forces turn by x·ln x: in the last 1/1024 of an octave about that the
+/// cable is solved where it is asked for. A piece is always the same, whatever was asked for
+/// before. Remembers what it solved; not for two threads at once.
 class SimilarCables {
  public:
   /// Those that hang like `situation`; null where more than drag over weight tells them apart. One
@@ -89,6 +92,7 @@ class SimilarCables {
 
   HangingSituation normal_;
   double first_;                         ///< drag over weight where octaves begin
+  double widest_;                        ///< octaves of a piece
   bool folds_;                           ///< below that the cable is a fold
   mutable std::map<int, Piece> pieces_;  ///< the widest, by their number from there
   mutable std::optional<At> still_;      ///< without wind
@@ -98,8 +102,10 @@ class SimilarCables {
 /// nothing where more than that decides how its cable hangs.
 [[nodiscard]] std::optional<HangingSituation> normal_form(const HangingSituation& situation);
 
-/// The same but for what is paid out, which may be a winch's.
-[[nodiscard]] std::optional<HangingSituation> normal_surroundings(
+/// The same also where the conductor's radius decides one thing more: of a winch its tension over
+/// weight times height, of drag by the Reynolds number that number in the wind at its reference
+/// height. Each is given as 1.
+[[nodiscard]] std::optional<HangingSituation> normal_but_for_radius(
     const HangingSituation& situation);
 
 /// Drag over weight with conductors of `radius`, and its derivative by that.

@@ -98,8 +98,8 @@ double log_radius_at(long place) {
 std::optional<double> HangingSituation::cylinder_diameter(double radius) const {
   // Metal of no thickness without a wall has the drag of the thinnest wire.
   constexpr double thinnest = 1e-6;
-  if (!by_reynolds_number) return std::nullopt;
-  return std::max(insulated_width(radius, wall), thinnest);
+  if (!cylinder) return std::nullopt;
+  return std::max((*cylinder)[0] + (*cylinder)[1] * radius, thinnest);
 }
 
 HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked asked)
@@ -113,7 +113,7 @@ HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked aske
 
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   if (situation_.memory != nullptr) {
-    if (const auto known = situation_.memory->on_winch(situation_, std::exp(log_radius))) {
+    if (const auto known = situation_.memory->at_radius(situation_, std::exp(log_radius))) {
       return {CableOutcome::hangs, known->value, known->slope};
     }
   }
@@ -354,12 +354,12 @@ PaidOut paid_out_to(const Tether& tether, double height, double offset) {
 HangingSituation hanging_situation(const Tether& tether, double wall, const FlightState& state,
                                    const Flight& flight) {
   const StraightTether metre(tether, wall, {.deployed = 1}, flight.air_density, flight.gravity);
+  const std::array cylinder{insulated_width(0, wall), 2.0};
   return {.weight = {flight.gravity * metre.mass_0_, flight.gravity * metre.mass_1_,
                      flight.gravity * metre.mass_2_},
           .width = {4 * tether.projection_factor * metre.width_, 4 * tether.projection_factor},
           .drag_coefficient = vibrating_drag_coefficient(tether),
-          .by_reynolds_number = tether.drag_by_reynolds_number,
-          .wall = wall,
+          .cylinder = tether.drag_by_reynolds_number ? std::optional(cylinder) : std::nullopt,
           .air = air_about(state, flight),
           .paid_out = paid_out_to(tether, state.deployed, flight.horizontal_offset),
           .cable_there_is = cable_there_is(state),

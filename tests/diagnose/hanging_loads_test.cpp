@@ -52,14 +52,13 @@ TEST_CASE("loads of a log's hanging tether are those of the solver to 1e-4 of th
         s.air.roughness_length = 0.3;
         break;
       case 4:
-        s.by_reynolds_number = true;
-        s.wall = 7e-4;
+        s.cylinder = {1.4e-3, 2};
         break;
       default:
         break;
     }
     INFO(static_cast<int>(s.air.profile)
-         << ", " << s.air.station_height << ", Reynolds " << s.by_reynolds_number << ", "
+         << ", " << s.air.station_height << ", Reynolds " << s.cylinder.has_value() << ", "
          << s.height << " m, " << s.air.wind.x << " m/s, " << s.paid_out.length.value_or(0)
          << " m");
     const HangingLoad::Parts exact = solved(s, radius);

@@ -166,9 +166,18 @@ TEST_CASE("with cables of other slacks, places or winds a load is the solver's t
     HangingSituation s = drawn_plain_situation(random);
     const bool profile = s.air.profile != WindProfile::uniform;
     if (profile && random.chance(0.5)) s.air.even_share = random.uniform(0, 1.5);
+    if (profile && random.chance(0.5)) {
+      s.air.station_height = random.uniform(0.01, 0.3) * s.height;
+      s.air.reference_height = s.height + s.air.station_height;
+    }
+    const bool has_length =
+        s.air.profile == WindProfile::logarithmic || (profile && s.air.station_height > 0);
     const CableNumber place =
         random.chance(0.5) && s.offset > 0 ? CableNumber::aside : CableNumber::slack;
-    const CableNumber number = s.air.even_share > 0 ? CableNumber::own_speed : place;
+    const CableNumber share = s.air.even_share > 0 ? CableNumber::own_speed : place;
+    const CableNumber by_length =
+        random.chance(0.5) ? CableNumber::profile_under_one_wind : CableNumber::profile_under_drone;
+    const CableNumber number = has_length && random.chance(0.5) ? by_length : share;
     const CableFamilies families(number);
     s.memory = &families;
     const double radius = random.magnitude(1e-4, 2e-3);
@@ -180,7 +189,9 @@ TEST_CASE("with cables of other slacks, places or winds a load is the solver's t
   });
 }
 
-TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of its tension") {
+TEST_CASE(
+    "with cables of other winches or Reynolds numbers a load is what it is without, to 1e-5 of its "
+    "tension") {
   int hangs = 0;
   int far_off = 0;
   int disagree = 0;
@@ -189,11 +200,16 @@ TEST_CASE("with cables of other winches a load is what it is without, to 1e-5 of
     HangingSituation s = drawn_situation(random);
     s.axial_stiffness.reset();
     s.air.drone_velocity = {};
-    s.paid_out = {.length = {},
-                  .winch_tension = std::hypot(s.height, s.offset) * random.uniform(0.3, 1.5)};
+    const double distance = std::hypot(s.height, s.offset);
+    s.paid_out = {.length = {}, .winch_tension = distance * random.uniform(0.3, 1.5)};
+    const bool by_reynolds = random.chance(0.5);
+    if (by_reynolds) {
+      s.cylinder = {random.uniform(5e-4, 3e-3), 2};
+      s.paid_out = {.length = distance * (1 + random.magnitude(2e-3, 0.2)), .winch_tension = {}};
+    }
     const double radius = random.magnitude(1e-4, 2e-3);
     const HangingLoad::Parts alone = HangingLoad(s).at(radius).value;
-    const CableFamilies families(CableNumber::winch_tension);
+    const CableFamilies families(by_reynolds ? CableNumber::reynolds : CableNumber::winch_tension);
     s.memory = &families;
     const HangingLoad::Parts shared = HangingLoad(s).at(radius).value;
     if ((alone.down < INFINITY) != (shared.down < INFINITY)) ++disagree;
@@ -239,6 +255,17 @@ TEST_CASE("a winch's cable reaches where no more is paid out than there is") {
   CHECK(wrong <= std::max(1, hangs / 30));  // where a winch hardly holds its cable
 }
 
+/// Of the widest piece about so many octaves of drag over weight that is not halved.
+CableMemory::Piece piece_about(const CableMemory& memory, const HangingSituation& normal,
+                               double octaves) {
+  LoadSeries<4> series{};
+  CableMemory::Piece piece = CableMemory::Piece::halved;
+  for (double width = memory.widest(); piece == CableMemory::Piece::halved; width /= 2) {
+    piece = memory.along_ratio(normal, width * std::floor(octaves / width), width, series);
+  }
+  return piece;
+}
+
 TEST_CASE("cables that differ by one number are remembered by it") {
   HangingSituation s{.weight = {0.05, 50, 3e5}, .width = {1e-3, 3}, .air = {}, .paid_out = {}};
   s.height = 30;
@@ -249,16 +276,27 @@ TEST_CASE("cables that differ by one number are remembered by it") {
   s.air.even_share = 0.4;
   s.paid_out.length = 1.04 * std::hypot(30, 6);
   const HangingSituation normal = *normal_form(s);
-  LoadSeries<4> series{};
   for (const CableNumber n : {CableNumber::slack, CableNumber::aside, CableNumber::own_speed}) {
     const CableFamilies families(n);
-    CHECK(families.along_ratio(normal, 3, 0.25, series) == CableMemory::Piece::smooth);
+    CHECK(piece_about(families, normal, 3) == CableMemory::Piece::smooth);
   }
-  const CableFamilies families(CableNumber::winch_tension);
-  CHECK(families.along_ratio(normal, 3, 0.25, series) == CableMemory::Piece::not_known);
-  CHECK_FALSE(families.on_winch(s, 5e-4).has_value());
+  const CableFamilies lengths(CableNumber::profile_under_drone);
+  CHECK(piece_about(lengths, normal, 3) == CableMemory::Piece::not_known);
+  s.air.station_height = 2;
+  CHECK(piece_about(lengths, *normal_form(s), 3) == CableMemory::Piece::smooth);
+  const CableFamilies winches(CableNumber::winch_tension);
+  const CableFamilies speeds(CableNumber::reynolds);
+  CHECK(piece_about(winches, normal, 3) == CableMemory::Piece::not_known);
+  CHECK_FALSE(winches.at_radius(s, 5e-4).has_value());
+  CHECK_FALSE(speeds.at_radius(s, 5e-4).has_value());
+  s.cylinder = {1e-3, 2};
+  CHECK(speeds.at_radius(s, 5e-4).has_value());
+  CHECK_FALSE(winches.at_radius(s, 5e-4).has_value());
   s.paid_out = {.length = {}, .winch_tension = 20};
-  CHECK(families.on_winch(s, 5e-4).has_value());
+  CHECK_FALSE(speeds.at_radius(s, 5e-4).has_value());
+  CHECK_FALSE(winches.at_radius(s, 5e-4).has_value());
+  s.cylinder.reset();
+  CHECK(winches.at_radius(s, 5e-4).has_value());
 }
 
 TEST_CASE("a number is told that tells the cables of designs apart, where it is the only one") {
@@ -280,6 +318,25 @@ TEST_CASE("a number is told that tells the cables of designs apart, where it is 
   CHECK(told(winch) == CableNumber::winch_tension);
   CHECK(told([&](Design& d, double x) { profile(d), wind(d, x); }) == CableNumber::own_speed);
   CHECK(told([&](Design& d, double x) { slack(d, x), wind(d, x); }) == CableNumber::slack);
+  const auto logarithmic = [](Design& d) { d.flight.wind_profile = WindProfile::logarithmic; };
+  const auto aloft = [&](Design& d, double x) {
+    logarithmic(d), height(d, x);
+    d.flight.headwind = 3;
+  };
+  CHECK(told(aloft) == CableNumber::profile_under_drone);
+  CHECK(told([&](Design& d, double x) {
+          aloft(d, x);
+          d.flight.wind_reference_height = 10;
+        }) == CableNumber::profile_under_one_wind);
+  CHECK(told([&](Design& d, double x) {
+          aloft(d, x), profile(d);
+          d.flight.station_height = 4;
+        }) == CableNumber::profile_under_drone);
+  const auto reynolds = [](Design& d) { d.tether.drag_by_reynolds_number = true; };
+  CHECK(told([&](Design& d, double x) { reynolds(d), wind(d, x); }) == CableNumber::reynolds);
+  CHECK(told([&](Design& d, double x) { reynolds(d), height(d, x); }) == CableNumber::reynolds);
+  CHECK(told([&](Design& d, double x) { reynolds(d), slack(d, x); }) == std::nullopt);
+  CHECK(told([&](Design& d, double x) { reynolds(d), winch(d, x); }) == std::nullopt);
   // Drag over weight alone, or nothing.
   CHECK(told(wind) == std::nullopt);
   CHECK(told(height) == std::nullopt);

@@ -50,11 +50,29 @@ TEST_CASE("rows that share cables of other slacks, places or winches say what ea
     double lo;
     double hi;
     void (*apply)(Design&, double);
+    void (*base)(Design&) = [](Design&) {};
   };
-  const Swept all[]{{"slack", 0.01, 0.05, [](Design& d, double x) { d.tether.slack = x; }},
+  const auto slack = [](Design& d, double x) { d.tether.slack = x; };
+  const auto wind = [](Design& d, double x) { d.flight.headwind = x; };
+  const auto length = [](Design& d, double x) { d.tether.length = x; };
+  const auto by_reynolds_number = [](Design& d) {
+    d.tether.drag_by_reynolds_number = true;
+    d.tether.slack = 0.03;
+  };
+  const Swept all[]{{"slack", 0.01, 0.05, slack},
                     {"aside", 2, 9, [](Design& d, double x) { d.flight.horizontal_offset = x; }},
                     {"winch", 8, 14, [](Design& d, double x) { d.tether.winch_pull = x; }},
-                    {"wind", 0, 3, [](Design& d, double x) { d.flight.headwind = x; }}};
+                    {"wind with drag by the Reynolds number", 0, 6, wind, by_reynolds_number},
+                    {"length with drag by the Reynolds number", 15, 35, length, by_reynolds_number},
+                    {"length in a wind over grass", 15, 35, length,
+                     [](Design& d) {
+                       d.flight.wind_profile = WindProfile::logarithmic;
+                       d.flight.wind_reference_height = 10;
+                       d.flight.headwind = 3;
+                       d.tether.slack = 0.02;
+                     }},
+                    {"wind by a power law", 0, 3, wind,
+                     [](Design& d) { d.flight.wind_profile = WindProfile::power_law; }}};
   const std::size_t step_between = test::leave_rates_out() ? std::size(all) - 1 : 1;
   for (std::size_t k = 0; k < std::size(all); k += step_between) {
     const Swept& swept = all[k];
@@ -62,7 +80,7 @@ TEST_CASE("rows that share cables of other slacks, places or winches say what ea
     Design base = test::published_design();
     base.tether.model = TetherModel::solved;
     base.requirements.thrust_headroom = 1.3;
-    if (swept.apply == all[3].apply) base.flight.wind_profile = WindProfile::power_law;
+    swept.base(base);
     const std::int64_t rows = 500;
     const auto lo = static_cast<std::int64_t>(std::lround(1e6 * swept.lo));
     const auto step = static_cast<std::int64_t>(std::lround(1e6 * (swept.hi - swept.lo))) / rows;

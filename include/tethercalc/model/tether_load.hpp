@@ -133,13 +133,13 @@ class StraightTether {
 
 /// All that decides how a tether hangs, but for its conductor's radius r.
 struct HangingSituation {
-  std::array<double, 3> weight{};   ///< N/m: weight[0] + weight[1]·r + weight[2]·r²
-  std::array<double, 2> width{};    ///< m across the wind: width[0] + width[1]·r
-  double drag_coefficient = 1;      ///< of that width
-  bool by_reynolds_number = false;  ///< whether it is times `cylinder_drag` of one conductor
-  double wall = 0;                  ///< m of its insulation
-  MovingAir air;                    ///< x points from the station to where the drone stands aside
-  PaidOut paid_out;                 ///< how much cable is out
+  std::array<double, 3> weight{};  ///< N/m: weight[0] + weight[1]·r + weight[2]·r²
+  std::array<double, 2> width{};   ///< m across the wind: width[0] + width[1]·r
+  double drag_coefficient = 1;     ///< of that width
+  /// Set, that is times `cylinder_drag` of one conductor, cylinder[0] + cylinder[1]·r m wide.
+  std::optional<std::array<double, 2>> cylinder{};
+  MovingAir air;     ///< x points from the station to where the drone stands aside
+  PaidOut paid_out;  ///< how much cable is out
   double cable_there_is = std::numeric_limits<double>::infinity();  ///< m, on the drum included
   std::optional<double> axial_stiffness{};                          ///< N, EA
   double offset = 0;                                                ///< m aside
