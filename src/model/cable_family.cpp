@@ -473,8 +473,9 @@ bool tells_apart(CableNumber number, const std::set<HangingSituation>& cables) {
 
 /// Those that differ by more than rounding are told apart.
 HangingSituation as_slack(HangingSituation normal) {
-  if (normal.paid_out.length)
+  if (normal.paid_out.length) {
     normal = with_number(normal, CableNumber::slack, rounded(slack_of(normal)));
+  }
   return normal;
 }
 
