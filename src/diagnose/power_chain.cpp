@@ -92,7 +92,9 @@ void append_flight(PowerLog& all, const PowerLog& flight) {
     return;
   }
   for (const PowerChannel& channel : power_channels) {
-    if ((all.*channel.values).empty() == (flight.*channel.values).empty()) continue;
+    if ((all.*channel.values).empty() == (flight.*channel.values).empty() || channel.of_motion) {
+      continue;
+    }
     throw std::invalid_argument(
         fmt::format("{} {}, unlike the log before: flights that are judged together need the same "
                     "channels",
@@ -100,11 +102,15 @@ void append_flight(PowerLog& all, const PowerLog& flight) {
   }
   constexpr double apart = 5;  // s, more than any step within a log
   const double later = all.time.back() + apart - flight.time.front();
+  const std::size_t before = all.time.size();
   for (const double time : flight.time) all.time.push_back(time + later);
   for (const PowerChannel& channel : power_channels) {
     auto& values = all.*channel.values;
     const auto& further = flight.*channel.values;
+    if (values.empty() && further.empty()) continue;
+    values.resize(before);
     values.insert(values.end(), further.begin(), further.end());
+    values.resize(all.time.size());
   }
 }
 

@@ -293,7 +293,7 @@ ScreenedPowerLog screen_power_log(const PowerModel& model, const PowerLog& log) 
   for (std::size_t c = 0; c < bad.size(); ++c) {
     const PowerChannel& channel = power_channels[c];
     std::vector<double>& x = clean.*channel.values;
-    if (x.empty() || channel.may_jump) continue;
+    if (x.empty() || channel.of_motion) continue;
     bad[c].assign(n, 0);
     const std::size_t stuck = mark_stuck(x, channel.may_rest, bad[c]);
     const std::size_t spikes = mark_spikes(x, bad[c]);
@@ -373,9 +373,14 @@ void average_fast_samples(ScreenedPowerLog& screened) {
     }
     values.resize(begins.size() - 1);
   };
-  std::vector<double> square(log.acceleration_across.size());
-  for (std::size_t i = 0; i < square.size(); ++i) {
-    square[i] = std::pow(log.acceleration_along[i], 2) + std::pow(log.acceleration_across[i], 2);
+  std::vector<double> square;
+  if (!log.acceleration_along.empty() || !log.acceleration_across.empty()) {
+    log.acceleration_along.resize(usable.size());
+    log.acceleration_across.resize(usable.size());
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+      square.push_back(std::pow(log.acceleration_along[i], 2) +
+                       std::pow(log.acceleration_across[i], 2));
+    }
   }
   average(square);
   average(log.time);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/power_chain.hpp"
+#include "diagnose/power_screening.hpp"
 #include "model/constants.hpp"
 #include "support/random.hpp"
 #include "support/random_designs.hpp"
@@ -137,6 +138,48 @@ TEST_CASE("without drag a drone that accelerates draws what a heavier one does a
     CHECK(drawn[0] == Approx(motor_power(light, log, loads)[0]).epsilon(1e-12));
     CHECK(drawn[1] == Approx(motor_power(heavy, log, loads)[1]).epsilon(1e-9));
   });
+}
+
+TEST_CASE("means over a second keep the mean square of the acceleration, whichever part is told") {
+  PowerLog log;
+  log.free_flight = true;
+  for (int i = 0; i < 40; ++i) {
+    log.time.push_back(0.25 * i);
+    log.airspeed.push_back(3);
+    log.bus_power.push_back(300);
+  }
+  const std::vector<double> to_and_fro{4, -4, 2, 2};
+  const auto averaged = [&](std::vector<double> PowerLog::*part) {
+    ScreenedPowerLog screened{log, {{Stage::motors, std::vector<char>(40, 1)}}, {}};
+    for (std::size_t i = 0; i < 40; ++i) (screened.log.*part).push_back(to_and_fro[i % 4]);
+    average_fast_samples(screened);
+    return screened.log;
+  };
+  const PowerLog along = averaged(&PowerLog::acceleration_along);
+  REQUIRE(along.time.size() == 10);
+  CHECK(along.acceleration_along[3] == Approx(1));
+  CHECK(along.acceleration_across[3] == Approx(3));  // 40/4 less 1, and its root
+  const PowerLog across = averaged(&PowerLog::acceleration_across);
+  CHECK(across.acceleration_along[3] == 0);
+  CHECK(across.acceleration_across[3] == Approx(std::sqrt(10)));
+}
+
+TEST_CASE("of flights judged together one that tells no acceleration was steady") {
+  PowerLog told;
+  told.free_flight = true;
+  told.time = {0, 1};
+  told.airspeed = {3, 4};
+  told.bus_power = {300, 310};
+  told.acceleration_along = {1, 2};
+  PowerLog untold = told;
+  untold.acceleration_along.clear();
+  PowerLog first = told;
+  append_flight(first, untold);
+  CHECK(first.acceleration_along == std::vector<double>{1, 2, 0, 0});
+  PowerLog last = untold;
+  append_flight(last, told);
+  CHECK(last.acceleration_along == std::vector<double>{0, 0, 1, 2});
+  CHECK(last.acceleration_across.empty());
 }
 
 TEST_CASE("the drum warms as in the simulation with what a hanging cable leaves on it") {

@@ -42,7 +42,7 @@ struct PowerChannel {
   std::vector<double> PowerLog::*values;  ///< where a log has it
   bool optional = false;                  ///< may be empty
   bool may_rest = true;                   ///< a steady reading is possible in flight
-  bool may_jump = false;                  ///< so is one that no other is near
+  bool of_motion = false;  ///< how the drone was flown, no instrument's reading; 0 where absent
 };
 
 /// The channels of a power log, described once: all but the time.
@@ -76,7 +76,8 @@ inline constexpr std::array<PowerChannel, 11> power_channels{{
 void check_flies_free(const PowerLog& log);
 
 /// Puts a further free flight of the same drone behind those of `all`, its time counted on from
-/// there. Throws std::invalid_argument where it has other channels than they have.
+/// there. Throws std::invalid_argument where it has other channels than they have, but for those of
+/// the motion.
 void append_flight(PowerLog& all, const PowerLog& flight);
 
 }  // namespace tethercalc
