@@ -4,16 +4,27 @@
 #include <cmath>
 #include <set>
 
+#include "model/planar_cable.hpp"
 #include "model/wind_profile.hpp"
 
 namespace tethercalc {
 namespace {
 
-/// Of squares in which not all cables hang: narrower ones along that border would be many.
+/// Of squares in which not all cables hang: narrower ones along that border would be many. Where
+/// that is known, cables about it are told apart by it instead.
 constexpr double narrowest_square = 1.0 / 32;
+constexpr double narrowest_above_least = 1.0 / 4;
+/// Of the root of a tension's logarithm over the least: over half of it forces bend as over an
+/// octave. Cables are solved from there on; those yet nearer are what the series come to before it.
+constexpr double root_scale = 2;
+constexpr double first_place_above_least = 0.05;
 /// Of the share of the wind that no profile shapes: over a quarter of it forces bend as over an
 /// octave.
 constexpr double share_scale = 4;
+
+bool hangs_in_even_wind(const HangingSituation& cable) {
+  return cable.air.profile == WindProfile::uniform;
+}
 
 bool varies_with_radius(CableNumber number) {
   return number == CableNumber::winch_tension || number == CableNumber::reynolds;
@@ -33,6 +44,7 @@ Fineness fineness_of(CableNumber number) {
   constexpr double little_by_radius = 1e-7;
   switch (number) {
     case CableNumber::winch_tension:
+    case CableNumber::winch_over_least:
       return {.ratio = 1, .little = little_by_radius};
     case CableNumber::reynolds:
       return {.ratio = 2, .number = 1, .little = little_by_radius};
@@ -107,6 +119,7 @@ double number_in(const HangingSituation& normal, CableNumber number) {
     case CableNumber::profile_under_drone:
       return profile_length(normal.air);
     case CableNumber::winch_tension:
+    case CableNumber::winch_over_least:
       return normal.paid_out.winch_tension.value_or(0);
     case CableNumber::reynolds:
       return normal.cylinder ? (*normal.cylinder)[0] : 0;
@@ -132,6 +145,7 @@ HangingSituation with_number(HangingSituation normal, CableNumber number, double
           under_other_height(normal.air, value, number == CableNumber::profile_under_one_wind);
       break;
     case CableNumber::winch_tension:
+    case CableNumber::winch_over_least:
       normal.paid_out.winch_tension = value;
       break;
     case CableNumber::reynolds:
@@ -171,6 +185,10 @@ HangingSituation in_wind_of(HangingSituation cable, double ratio) {
   return cable;
 }
 
+double ratio_at(const HangingSituation& cable, double octaves) {
+  return first_ratio(cable) * std::exp2(octaves);
+}
+
 bool has_number(const HangingSituation& normal, CableNumber number) {
   constexpr double most_share = 2;  // which stands for more
   const MovingAir& air = normal.air;
@@ -183,6 +201,7 @@ bool has_number(const HangingSituation& normal, CableNumber number) {
     case CableNumber::slack:
     case CableNumber::aside:
     case CableNumber::winch_tension:
+    case CableNumber::winch_over_least:
     case CableNumber::reynolds:
       break;
   }
@@ -211,9 +230,65 @@ LoadSeries<Parts> weighed(const LoadSeries<Terms>& square,
 
 }  // namespace
 
-HangingSituation CableFamily::cable_at(double place) const {
-  return with_number(one_, number_,
-                     number_ == CableNumber::own_speed ? place / share_scale : std::exp2(place));
+std::optional<double> LeastWinchTension::solved_at(double octaves) const {
+  return least_winch_tension({.weight = 1,
+                              .drag = one_.air.wind.x * first_ratio(one_) * std::exp2(octaves),
+                              .aside = one_.offset,
+                              .height = 1});
+}
+
+void LeastWinchTension::make(Piece& piece, double from, double width) const {
+  LoadSeries<1> logarithm{};
+  bool is_known = true;
+  for (std::size_t j = 0; j <= load_degree && is_known; ++j) {
+    const auto least = solved_at(load_place(from, width, j));
+    is_known = least.has_value();
+    if (is_known) logarithm[j][0] = std::log(*least);
+  }
+  logarithm = series_through(logarithm);
+  if (is_known && is_converged(logarithm, 1)) {
+    const LoadSeries<1> slope = slope_of(logarithm, width);
+    for (std::size_t k = 0; k <= load_degree; ++k) {
+      piece.value_and_slope[k] = {logarithm[k][0], slope[k][0]};
+    }
+    piece.kind = Piece::Kind::smooth;
+  } else if (width > narrowest_piece) {
+    piece.halves = std::make_unique<std::array<Piece, 2>>();
+    piece.kind = Piece::Kind::halved;
+  } else {
+    piece.kind = Piece::Kind::given_up;
+  }
+}
+
+std::optional<LeastWinchTension::At> LeastWinchTension::at(double octaves) const {
+  double from = std::floor(octaves);
+  double width = 1;
+  Piece* piece = &pieces_[static_cast<int>(from)];
+  for (;;) {
+    if (piece->kind == Piece::Kind::unknown) make(*piece, from, width);
+    if (piece->kind == Piece::Kind::given_up) return std::nullopt;
+    if (piece->kind == Piece::Kind::smooth) break;
+    width /= 2;
+    const bool upper = octaves >= from + width;
+    if (upper) from += width;
+    piece = &(*piece->halves)[upper ? 1 : 0];
+  }
+  const auto [value, slope] = value_at(piece->value_and_slope, 2 * (octaves - from) / width - 1);
+  return At{value, slope};
+}
+
+std::optional<HangingSituation> CableFamily::cable_at(double place, double octaves) const {
+  double number = std::exp2(place);
+  if (number_ == CableNumber::own_speed) {
+    number = place / share_scale;
+  } else if (number_ == CableNumber::winch_over_least) {
+    const auto least = least_tension_.at(octaves);
+    if (!least) return std::nullopt;
+    const double root = (place + first_place_above_least) / root_scale;
+    number = std::exp(least->value + root * root);
+  }
+  const HangingSituation cable = with_number(one_, number_, number);
+  return in_wind_of(cable, ratio_at(cable, octaves));
 }
 
 CableFamily::Found CableFamily::solve(const Bounds& bounds, LoadSeries<terms>& series) const {
@@ -225,19 +300,22 @@ CableFamily::Found CableFamily::solve(const Bounds& bounds, LoadSeries<terms>& s
   // along the number, by which they differ least.
   std::vector<CableSolver> solvers(load_degree + 1, CableSolver(most_steps_for_load));
   for (std::size_t i = 0; i <= load_degree; ++i) {
-    const HangingSituation cable = cable_at(load_place(bounds.number, bounds.number_width, i));
-    if (i > 0 && cable == cable_at(load_place(bounds.number, bounds.number_width, i - 1))) {
+    const auto cable = [&](std::size_t of_number, std::size_t of_ratio) {
+      return cable_at(load_place(bounds.number, bounds.number_width, of_number),
+                      load_place(bounds.ratio, bounds.ratio_width, of_ratio));
+    };
+    if (i > 0 && cable(i, 0) == cable(i - 1, 0)) {
       solved[i] = solved[i - 1];
       continue;
     }
-    const double first = first_ratio(cable);
     LoadSeries<parts> along{};
     for (std::size_t j = 0; j <= load_degree; ++j) {
       if (i == 0 && j > 0) solvers[j] = solvers[j - 1];
       LoadShares& shares = along[j];
-      const double ratio = first * std::exp2(load_place(bounds.ratio, bounds.ratio_width, j));
-      if (solve_shares(in_wind_of(cable, ratio), solvers[j], ratio, shares) !=
-          CableOutcome::hangs) {
+      const auto one = cable(i, j);
+      if (!one) return Found::not_all_hang;
+      const double ratio = ratio_at(*one, load_place(bounds.ratio, bounds.ratio_width, j));
+      if (solve_shares(*one, solvers[j], ratio, shares) != CableOutcome::hangs) {
         return Found::not_all_hang;
       }
       tension = std::max(tension, shares[2]);
@@ -271,9 +349,10 @@ void CableFamily::make(Square& square, const Bounds& bounds) const {
   const bool at_origin = bounds.ratio == 0 || bounds.ratio + bounds.ratio_width == 0;
   const bool ratio_wider = bounds.ratio_width >= bounds.number_width;
   const bool ratio_first = hangs ? found == Found::bends_by_ratio : at_origin || ratio_wider;
-  const bool ratio_halves =
-      bounds.ratio_width > (hangs || at_origin ? narrowest_piece : narrowest_square);
-  const bool number_halves = bounds.number_width > narrowest_square;
+  const bool knows_least = number_ == CableNumber::winch_tension && hangs_in_even_wind(one_);
+  const double narrowest = knows_least ? narrowest_above_least : narrowest_square;
+  const bool ratio_halves = bounds.ratio_width > (hangs || at_origin ? narrowest_piece : narrowest);
+  const bool number_halves = bounds.number_width > narrowest;
   if (ratio_first ? !ratio_halves : !number_halves) {
     square.kind = Kind::given_up;
     return;
@@ -289,7 +368,9 @@ std::pair<CableFamily::Square*, CableFamily::Bounds> CableFamily::square_about(
     return static_cast<int>(std::floor(x / width));
   };
   const auto [by_ratio, by_number, little] = fineness_of(number_);
-  const std::pair which{number_of(octaves, by_ratio), number_of(place, by_number)};
+  const bool before_first = number_ == CableNumber::winch_over_least && place < 0;
+  const std::pair which{number_of(octaves, by_ratio),
+                        before_first ? 0 : number_of(place, by_number)};
   Square* square = &squares_[which];
   Bounds bounds{by_ratio * which.first, by_ratio, by_number * which.second, by_number};
   for (;;) {
@@ -334,11 +415,34 @@ const CableFamily::Along& CableFamily::along_at(Square& square, const Bounds& bo
   return along;
 }
 
-std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const {
+std::optional<CableFamily::At> CableFamily::at(double ratio, double number) const {
   const double octaves = std::log2(ratio / first_ratio(one_));
-  if (!(std::abs(octaves) < most_octaves) || !(std::abs(place) < most_octaves)) return std::nullopt;
+  if (!(std::abs(octaves) < most_octaves)) return std::nullopt;
   const bool folded = octaves < 0 && slack_above_station(one_) > 0;
   if (folded) return std::nullopt;  // sooner solved than looked up
+  return number_ == CableNumber::winch_over_least ? above_least(octaves, number)
+                                                  : at_place(octaves, std::log2(number));
+}
+
+std::optional<CableFamily::At> CableFamily::above_least(double octaves, double tension) const {
+  const auto least = least_tension_.at(octaves);
+  if (!least) return std::nullopt;
+  const double beyond = std::log(tension) - least->value;
+  if (beyond < 0) return At{.hangs = false};
+  const double root = std::sqrt(beyond);
+  auto at = at_place(octaves, root_scale * root - first_place_above_least);
+  if (!at) return std::nullopt;
+  constexpr double least_root = 1e-8;  // where slopes are without end
+  const double place_by_tension = root_scale * std::numbers::ln2 / (2 * std::max(root, least_root));
+  for (std::size_t i = 0; i < parts; ++i) {
+    at->by_number[i] *= place_by_tension;
+    at->by_ratio[i] -= least->slope * at->by_number[i];
+  }
+  return at;
+}
+
+std::optional<CableFamily::At> CableFamily::at_place(double octaves, double place) const {
+  if (!(std::abs(place) < most_octaves)) return std::nullopt;
   const auto& [square, bounds] = square_about(octaves, place);
   if (square->kind != Square::Kind::smooth) return std::nullopt;
   const Along& along = along_at(*square, bounds, place);
@@ -354,7 +458,7 @@ std::optional<CableFamily::At> CableFamily::at(double ratio, double place) const
   return at;
 }
 
-const CableFamily* CableFamilies::family_of(const HangingSituation& normal) const {
+const CableFamilies::Family* CableFamilies::family_of(const HangingSituation& normal) const {
   if (!has_number(normal, number_)) return nullptr;
   HangingSituation one = without_number(normal, number_);
   one.memory = nullptr;
@@ -363,7 +467,12 @@ const CableFamily* CableFamilies::family_of(const HangingSituation& normal) cons
     families_.clear();
     asked_ = {};
   }
-  return &families_.try_emplace(one, one, number_).first->second;
+  const auto [known, is_new] = families_.try_emplace(one, Family{CableFamily(one, number_), {}});
+  Family& family = known->second;
+  if (is_new && number_ == CableNumber::winch_tension && hangs_in_even_wind(one)) {
+    family.near_least.emplace(one, CableNumber::winch_over_least);
+  }
+  return &family;
 }
 
 double CableFamilies::widest() const {
@@ -372,8 +481,8 @@ double CableFamilies::widest() const {
 
 CableMemory::Piece CableFamilies::along_ratio(const HangingSituation& normal, double from,
                                               double width, LoadSeries<4>& series) const {
-  const CableFamily* family = family_of(normal);
-  return family != nullptr ? family->along_ratio(from, width, place_of(normal, number_), series)
+  const Family* family = family_of(normal);
+  return family != nullptr ? family->all.along_ratio(from, width, place_of(normal, number_), series)
                            : Piece::not_known;
 }
 
@@ -418,7 +527,8 @@ RatioAndNumber ratio_and_number(const HangingSituation& situation, double radius
 
 }  // namespace
 
-const CableFamily* CableFamilies::family_by_radius(const HangingSituation& situation) const {
+const CableFamilies::Family* CableFamilies::family_by_radius(
+    const HangingSituation& situation) const {
   for (const Asked& asked : asked_) {
     if (asked.situation == situation) return asked.family;
   }
@@ -427,19 +537,20 @@ const CableFamily* CableFamilies::family_by_radius(const HangingSituation& situa
                        on_winch == situation.paid_out.winch_tension.has_value() &&
                        on_winch != situation.cylinder.has_value();
   const auto normal = has_one ? normal_but_for_radius(situation) : std::nullopt;
-  const CableFamily* family = normal ? family_of(*normal) : nullptr;
+  const Family* family = normal ? family_of(*normal) : nullptr;
   asked_ = {asked_[1], {situation, family}};
   return family;
 }
 
 std::optional<CableMemory::AtRadius> CableFamilies::at_radius(const HangingSituation& situation,
                                                               double radius) const {
-  const CableFamily* family = family_by_radius(situation);
+  const Family* family = family_by_radius(situation);
   if (family == nullptr) return std::nullopt;
   const auto [ratio, number] = ratio_and_number(situation, radius);
-  const auto at = family->at(ratio.value, std::log2(number.value));
+  auto at = family->all.at(ratio.value, number.value);
+  if (!at && family->near_least) at = family->near_least->at(ratio.value, number.value);
   if (!at) return std::nullopt;
-  AtRadius there{at->value, {}};
+  AtRadius there{at->hangs, at->value, {}};
   for (std::size_t i = 0; i < there.slope.size(); ++i) {
     there.slope[i] = at->by_ratio[i] * ratio.growth + at->by_number[i] * number.growth;
   }

@@ -27,9 +27,44 @@ enum class CableNumber {
   profile_under_one_wind,
   profile_under_drone,  ///< the same where that share stays, for a wind that is given at the drone
   winch_tension,        ///< over weight times height
+  /// The same over the least that holds such a cable in an even wind. In the root of its logarithm
+  /// forces are smooth down to there, where by the tension itself they turn without end.
+  winch_over_least,
   /// Reynolds number of one conductor over the root of drag over weight, both of all the wind and
   /// this without the cylinder's coefficient: the wind's speed has no part in it.
   reynolds,
+};
+
+/// Of cables in normal form on a winch in an even wind: the least tension that holds them up, by
+/// octaves of drag over weight from `first_ratio`. Not for two threads at once.
+class LeastWinchTension {
+ public:
+  /// `one` is any of these cables.
+  explicit LeastWinchTension(const HangingSituation& one) : one_(one) {}
+
+  /// Natural logarithms: of the tension over weight times height, and its slope by that of the
+  /// ratio.
+  struct At {
+    double value = 0;
+    double slope = 0;
+  };
+  /// To about 1e-9. Nothing where there is none, or it turns sharply: about where a straight cable
+  /// leads to the drone, which any tension holds.
+  [[nodiscard]] std::optional<At> at(double octaves) const;
+
+  /// The tension itself, computed anew.
+  [[nodiscard]] std::optional<double> solved_at(double octaves) const;
+
+ private:
+  struct Piece {
+    enum class Kind { unknown, smooth, halved, given_up } kind = Kind::unknown;
+    LoadSeries<2> value_and_slope{};
+    std::unique_ptr<std::array<Piece, 2>> halves{};
+  };
+  void make(Piece& piece, double from, double width) const;
+
+  HangingSituation one_;
+  mutable std::map<int, Piece> pieces_;  ///< by octave
 };
 
 /// In normal form, cables of every drag over weight and every value of the number.
@@ -44,7 +79,8 @@ enum class CableNumber {
 class CableFamily {
  public:
   /// `one` is any cable of it.
-  CableFamily(const HangingSituation& one, CableNumber number) : one_(one), number_(number) {}
+  CableFamily(const HangingSituation& one, CableNumber number)
+      : one_(one), number_(number), least_tension_(one) {}
 
   /// As `CableMemory` has them, where the number has its `place`: its logarithm to base 2, but of
   /// the share, which may be 0, four times that.
@@ -53,12 +89,14 @@ class CableFamily {
 
   /// Shares of a load, and their slopes by the natural logarithms of ratio and number.
   struct At {
+    bool hangs = true;  ///< else no such cable does
     LoadShares value{};
     LoadShares by_ratio{};
     LoadShares by_number{};
   };
-  /// Nothing where forces are too sharp, or no cable hangs, about there.
-  [[nodiscard]] std::optional<At> at(double drag_over_weight, double place) const;
+  /// Nothing where forces are too sharp, or no cable hangs, about there. Of `winch_over_least` the
+  /// number is the winch's tension over weight times height.
+  [[nodiscard]] std::optional<At> at(double drag_over_weight, double number) const;
 
  private:
   static constexpr std::size_t parts = std::tuple_size_v<LoadShares>;
@@ -83,7 +121,10 @@ class CableFamily {
     double number = 0;
     double number_width = 0;
   };
-  [[nodiscard]] HangingSituation cable_at(double place) const;
+  /// The radius is the ratio, at so many octaves; nothing where no tension is the least.
+  [[nodiscard]] std::optional<HangingSituation> cable_at(double place, double octaves) const;
+  [[nodiscard]] std::optional<At> at_place(double octaves, double place) const;
+  [[nodiscard]] std::optional<At> above_least(double octaves, double tension) const;
   void make(Square& square, const Bounds& bounds) const;
   /// What the cables of a square are, as far as they were solved.
   enum class Found { smooth, bends_by_ratio, bends_by_number, not_all_hang };
@@ -98,6 +139,7 @@ class CableFamily {
 
   HangingSituation one_;
   CableNumber number_;
+  LeastWinchTension least_tension_;                        ///< of `winch_over_least`
   mutable std::map<std::pair<int, int>, Square> squares_;  ///< the widest, by their numbers
 };
 
@@ -112,17 +154,22 @@ class CableFamilies : public CableMemory {
                                                   double radius) const override;
 
  private:
+  /// A family, and of cables on a winch in an even wind that near their least tension.
+  struct Family {
+    CableFamily all;
+    std::optional<CableFamily> near_least{};
+  };
   /// That of the cable; null where it has no such number.
-  [[nodiscard]] const CableFamily* family_of(const HangingSituation& normal) const;
+  [[nodiscard]] const Family* family_of(const HangingSituation& normal) const;
   /// That of a cable whose number varies with the radius.
-  [[nodiscard]] const CableFamily* family_by_radius(const HangingSituation& situation) const;
+  [[nodiscard]] const Family* family_by_radius(const HangingSituation& situation) const;
 
   CableNumber number_;
-  mutable std::map<HangingSituation, CableFamily> families_;
+  mutable std::map<HangingSituation, Family> families_;
   /// Of the last two situations, which a row asks for with many radii.
   struct Asked {
     HangingSituation situation;
-    const CableFamily* family = nullptr;
+    const Family* family = nullptr;
   };
   mutable std::array<Asked, 2> asked_;
 };

@@ -41,6 +41,7 @@ class CableMemory {
 
   /// Shares of a load, with the length in m, and their slopes by the logarithm of the radius.
   struct AtRadius {
+    bool hangs = true;  ///< else no cable with this radius does
     LoadShares value{};
     LoadShares slope{};
   };

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "tethercalc/model/catenary.hpp"
@@ -294,6 +296,36 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted, double
   return std::nullopt;
 }
 
+/// Where ln of the way aside is greatest, and its slope there by ln of the tension at the winch.
+struct Farthest {
+  double v = 0;
+  double value = 0;
+  double by_tension = 0;
+};
+/// By bisection and secants of the slope: to 1e-6 of v, by which the value changes by the square.
+std::optional<Farthest> farthest_aside(const OnWinch& cable) {
+  constexpr double step = 0.5;
+  constexpr int enough_bits = 20;
+  const auto slope = [&](double v) { return cable.aside(v).slope; };
+  double rising = -step;
+  while (!(slope(rising) > 0)) {
+    rising -= step;
+    if (rising < -straight_beyond) return std::nullopt;
+  }
+  std::uintmax_t most_calls = 60;
+  const auto [from, to] = boost::math::tools::toms748_solve(
+      slope, rising, rising + step, boost::math::tools::eps_tolerance<double>(enough_bits),
+      most_calls);
+  const OnWinch::Aside here = cable.aside(0.5 * (from + to));
+  const PlanarCable& plane = cable.plane.cable();
+  const double end = cable.v_at_drone(here.v);
+  const double way = std::exp(here.value) / cable.least_tension(here.v);
+  const double rise_by_tension = -2 / cable.plane.m() * plane.weight * plane.height /
+                                 (cable.tension + plane.weight * plane.height);
+  return Farthest{here.v, here.value,
+                  1 + cable.plane.change(end).aside * rise_by_tension / (2 * end * way)};
+}
+
 // A known length.
 
 /// Of the cable under the load that it would have along its chord, which is a catenary across that.
@@ -395,6 +427,13 @@ std::optional<EndsInPlane> ends_of_length(const Plane& plane, double beside, dou
 
 /// Down to there both methods agree to 1e-8; the general one finds few lighter cables.
 constexpr double least_weight_to_drag = 1e-4;
+constexpr double most_rise = 800;  // of v², whose exponential is a number
+
+/// Whether the drone stands where a straight cable ends.
+bool is_in_line(const Seen& seen) {
+  constexpr double least_aside = 1e-9;
+  return seen.beside < least_aside * seen.plane.cable().height;
+}
 
 }  // namespace
 
@@ -403,8 +442,6 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
   constexpr double least_height = 1e-9;  // of the way aside
   // Of the load: below, rounding leaves 1e-9 of the directions.
   constexpr double most_tension = 1e5;
-  constexpr double most_rise = 800;  // of v², whose exponential is a number
-  constexpr double least_aside = 1e-9;
   const double load = std::hypot(cable.weight, cable.drag) * std::hypot(cable.aside, cable.height);
   if (!(cable.height > least_height * std::abs(cable.aside)) ||
       !(cable.weight > least_weight_to_drag * std::abs(cable.drag)) ||
@@ -414,9 +451,8 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
   const Seen seen(cable);
   const OnWinch winched(seen.plane, tension);
   if (!(winched.rise < most_rise)) return std::nullopt;
-  const bool in_line = seen.beside < least_aside * cable.height;
   std::optional<AtWinch> at_winch;
-  if (in_line) {
+  if (is_in_line(seen)) {
     at_winch = {true, straight_beyond};
   } else {
     const double wanted = std::log(seen.beside);
@@ -428,6 +464,28 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
   const EndsInPlane v{at_winch->v, winched.v_at_drone(at_winch->v)};
   return shape_of(seen.plane, v, seen.plane.between(v.station, v.drone),
                   winched.least_tension(v.station), seen.mirrored);
+}
+
+std::optional<double> least_winch_tension(const PlanarCable& cable) {
+  constexpr int most_steps = 60;
+  constexpr double little = 1e-11;
+  constexpr double longest_step = 1.5;  // of Newton's method
+  const Seen seen(cable);
+  if (!(cable.weight > least_weight_to_drag * std::abs(cable.drag)) || is_in_line(seen)) {
+    return std::nullopt;
+  }
+  double log_tension = std::log(cable.weight * cable.height);
+  for (int i = 0; i < most_steps; ++i) {
+    const OnWinch winched(seen.plane, std::exp(log_tension));
+    if (!(winched.rise < most_rise)) return std::nullopt;
+    const auto farthest = farthest_aside(winched);
+    if (!farthest) return std::nullopt;
+    const double step = (std::log(seen.beside) - farthest->value) / farthest->by_tension;
+    if (!std::isfinite(step)) return std::nullopt;
+    log_tension += std::clamp(step, -longest_step, longest_step);
+    if (std::abs(step) < little) return std::exp(log_tension);
+  }
+  return std::nullopt;
 }
 
 std::optional<PlanarShape> of_length(const PlanarCable& cable, double length,

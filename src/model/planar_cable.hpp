@@ -51,6 +51,10 @@ struct PlanarShape {
 [[nodiscard]] std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tension,
                                                        const std::optional<PlanarEnds>& near = {});
 
+/// The tension at the station below which a winch does not hold it; its compliance is 0. Nothing
+/// also where any tension holds it, that has no such bound, or `held_by_winch` has no answer.
+[[nodiscard]] std::optional<double> least_winch_tension(const PlanarCable& cable);
+
 /// The one that is that long; its compliance is 0. Nothing also where it hardly reaches.
 [[nodiscard]] std::optional<PlanarShape> of_length(const PlanarCable& cable, double length,
                                                    const std::optional<PlanarEnds>& near = {});

@@ -84,6 +84,11 @@ constexpr double stride = 0.25 * std::numbers::ln2;
 /// sharply, by a part of it.
 constexpr long places_per_stride = 1024;
 constexpr long closest_places = 16;
+constexpr long places_for_end = 4;
+/// Of what a cubic has beyond a parabola: it misses by about a two-hundredth of that, and by up to
+/// a tenth where a winch soon holds the cable no more.
+constexpr double little_bend = 2e-3;
+constexpr double little_bend_on_winch = 2e-4;
 constexpr double thickest_solved = 1;  // m
 const double log_thinnest = std::log(thinnest_solved);
 constexpr double log_thickest = 0;
@@ -114,7 +119,8 @@ HangingLoad::HangingLoad(const HangingSituation& situation, ConductorsAsked aske
 HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   if (situation_.memory != nullptr) {
     if (const auto known = situation_.memory->at_radius(situation_, std::exp(log_radius))) {
-      return {CableOutcome::hangs, known->value, known->slope};
+      return {known->hangs ? CableOutcome::hangs : CableOutcome::tension_too_low, known->value,
+              known->slope};
     }
   }
   // Each from nothing, so that an answer does not depend on what was asked before.
@@ -122,13 +128,21 @@ HangingLoad::Node HangingLoad::solved_node(double log_radius) const {
   Node node;
   node.outcome = solve_shares(situation_, solver, std::exp(log_radius), node.value);
   if (node.outcome != CableOutcome::hangs) return node;
-  Values above{};
-  Values below{};
-  node.outcome = solve_shares(situation_, solver, std::exp(log_radius + slope_step), above);
-  if (node.outcome != CableOutcome::hangs) return node;
-  node.outcome = solve_shares(situation_, solver, std::exp(log_radius - slope_step), below);
-  for (std::size_t i = 0; i < part_count; ++i) {
-    node.slope[i] = (above[i] - below[i]) / (2 * slope_step);
+  // Where a winch soon holds no more slopes turn sharply: they are those of what is closer by.
+  constexpr double close_by = 3e-7;
+  constexpr double much = 1e-2;
+  for (const double step : {slope_step, close_by}) {
+    Values above{};
+    Values below{};
+    const bool is_last =
+        solve_shares(situation_, solver, std::exp(log_radius + step), above) != CableOutcome::hangs;
+    if (is_last) above = node.value;
+    node.outcome = solve_shares(situation_, solver, std::exp(log_radius - step), below);
+    for (std::size_t i = 0; i < part_count; ++i) {
+      node.slope[i] = (above[i] - below[i]) / (is_last ? step : 2 * step);
+    }
+    const double turn = above.back() + below.back() - 2 * node.value.back();
+    if (!(std::abs(turn) > much * std::abs(above.back() - below.back()))) break;
   }
   return node;
 }
@@ -139,22 +153,38 @@ const HangingLoad::Node& HangingLoad::node(long place) const {
   return nodes_.emplace(place, solved_node(log_radius_at(place))).first->second;
 }
 
-bool HangingLoad::bends_much(const Node& a, const Node& b, double width) {
-  // Of a parabola the mean slope is that of the ends; beyond it is the third derivative times
-  // width³/12. With this little of it the cubic misses by about 1e-5.
-  constexpr double little = 2e-3;
-  const double tension = std::max(a.value[2], b.value[2]);
-  for (std::size_t i = 0; i < part_count; ++i) {
-    const bool is_length = i + 1 == part_count;
-    const double mean_slope = 0.5 * (a.slope[i] + b.slope[i]);
-    const double bend = std::abs(b.value[i] - a.value[i] - width * mean_slope);
-    if (bend > little * (is_length ? a.value[i] : tension)) return true;
-  }
-  return false;
+namespace {
+
+/// How far values leave the parabola of which these are the slopes, by `apart`. It has the mean
+/// slope of its ends; beyond it is the third derivative times apart³/12.
+double bend_of(double rise, double slope_a, double slope_b, double apart) {
+  return std::abs(rise - 0.5 * apart * (slope_a + slope_b));
 }
 
-std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
+}  // namespace
+
+double HangingLoad::bend_between(const Node& a, const Node& b, double width, bool by_length) {
+  const double longer = b.value.back() - a.value.back();
+  if (by_length && !(a.slope.back() > 0 && b.slope.back() > 0 && longer > 0)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double apart = by_length ? longer : width;
+  const double per_a = by_length ? 1 / a.slope.back() : 1;
+  const double per_b = by_length ? 1 / b.slope.back() : 1;
+  const double tension = std::max(a.value[2], b.value[2]);
+  double most = bend_of(width, per_a, per_b, apart);
+  for (std::size_t i = 0; i < part_count; ++i) {
+    const bool is_length = i + 1 == part_count;
+    const double bend =
+        bend_of(b.value[i] - a.value[i], per_a * a.slope[i], per_b * b.slope[i], apart);
+    most = std::max(most, bend / (is_length ? a.value[i] : tension));
+  }
+  return most;
+}
+
+std::optional<HangingLoad::Places> HangingLoad::places_about(double x) const {
   constexpr int most_strides = 4;
+  const double enough = situation_.paid_out.winch_tension ? little_bend_on_winch : little_bend;
   const auto outcome = [this](long place) { return node(place).outcome; };
   // Away from places at which nothing was found.
   const auto away_from = [&](long place, long step) {
@@ -168,13 +198,19 @@ std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
   long hi = away_from(first + places_per_stride, places_per_stride);
   const bool at_the_thin_end = x < log_thinnest + most_strides * stride;
   if (outcome(lo) != CableOutcome::hangs) {
-    if (at_the_thin_end && outcome(hi) == CableOutcome::hangs) return {{hi, hi}};
+    if (at_the_thin_end && outcome(hi) == CableOutcome::hangs) return Places{hi, hi};
     return std::nullopt;
   }
   long hangs = lo;
   while (outcome(hi) != CableOutcome::hangs) {  // towards where it ceases to hang
     const long middle = hangs + (hi - hangs) / 2;
-    if (middle == hangs) return std::nullopt;
+    if (middle == hangs) {
+      const long before = hangs - places_for_end;
+      const bool leads_on =
+          outcome(before) == CableOutcome::hangs &&
+          bend_between(node(before), node(hangs), log_radius_at(places_for_end), true) < enough;
+      return leads_on ? std::optional(Places{before, hangs, true, true}) : std::nullopt;
+    }
     if (x < log_radius_at(middle)) {
       hi = middle;
     } else {
@@ -182,25 +218,35 @@ std::optional<std::array<long, 2>> HangingLoad::places_about(double x) const {
       if (outcome(hangs) != CableOutcome::hangs) return std::nullopt;
     }
   }
-  while (hi - hangs > closest_places &&
-         bends_much(node(hangs), node(hi), log_radius_at(hi - hangs))) {
+  for (;;) {
+    const double width = log_radius_at(hi - hangs);
+    const double bend = bend_between(node(hangs), node(hi), width, false);
+    // By the length, if the winch decides it, loads are smooth to the end.
+    const bool by_length =
+        bend > enough && bend_between(node(hangs), node(hi), width, true) < enough;
     const long middle = hangs + (hi - hangs) / 2;
-    if (outcome(middle) != CableOutcome::hangs) break;
+    if (by_length || bend <= enough || hi - hangs <= closest_places ||
+        outcome(middle) != CableOutcome::hangs) {
+      return Places{hangs, hi, by_length};
+    }
     (x < log_radius_at(middle) ? hi : hangs) = middle;
   }
-  return {{hangs, hi}};
 }
 
 std::optional<HangingLoad::Stretch> HangingLoad::stretch_about(double x) const {
-  Stretch& known = whole_strides_[static_cast<std::size_t>(std::floor(x / stride) - first_stride)];
-  if (known.lo) return known;
+  Stretch& known = stretches_[static_cast<std::size_t>(std::floor(x / stride) - first_stride)];
+  if (known.begin <= x && x < known.end) return known;
   const auto places = places_about(x);
   if (!places) return std::nullopt;
-  const auto [lo, hi] = *places;
+  const auto [lo, hi, by_length, is_beyond] = *places;
   const double from = log_radius_at(lo);
-  const Stretch stretch{&node(lo), &node(hi), from, lo == hi ? 1 : log_radius_at(hi) - from};
-  if (hi - lo == places_per_stride) known = stretch;
-  return stretch;
+  const double to = log_radius_at(hi);
+  known = {&node(lo), &node(hi), from, lo == hi ? 1 : to - from, by_length, from, to};
+  if (is_beyond) {
+    known.begin = to;
+    known.end = log_radius_at(hi + 1);
+  }
+  return known;
 }
 
 std::optional<HangingLoad::Shares> HangingLoad::solved_alone(double radius) const {
@@ -225,30 +271,74 @@ std::optional<HangingLoad::Shares> HangingLoad::of_similar_cables(double radius)
   return shares;
 }
 
+namespace {
+
+/// What Hermite's cubic from 0 over a width of 1 has of its rise and of the slopes at its ends.
+struct CubicAt {
+  double rise = 0;
+  double slope_a = 0;
+  double slope_b = 0;
+  [[nodiscard]] double of(const CubicAt& cubic) const {
+    return rise * cubic.rise + slope_a * cubic.slope_a + slope_b * cubic.slope_b;
+  }
+};
+CubicAt cubic_at(double t) { return {t * t * (3 - 2 * t), t * (1 - t) * (1 - t), t * t * (t - 1)}; }
+CubicAt cubic_slope_at(double t) {
+  return {6 * t * (1 - t), (1 - t) * (1 - 3 * t), t * (3 * t - 2)};
+}
+
+/// Where such a cubic rises through `wanted` from t = 0, or a little beyond 1, by Newton's method;
+/// nothing where it does not come that far.
+std::optional<double> reaches(const CubicAt& cubic, double wanted) {
+  constexpr int most_steps = 60;
+  constexpr double last = 2.5;
+  constexpr double digits = 1e-12;
+  double t = std::clamp(wanted / cubic.rise, 0.0, 1.0);
+  for (int i = 0; i < most_steps; ++i) {
+    const double slope = cubic_slope_at(t).of(cubic);
+    if (!(slope > 0)) return std::nullopt;
+    const double next = std::max(0.0, t + (wanted - cubic_at(t).of(cubic)) / slope);
+    if (next > last) return std::nullopt;
+    if (std::abs(next - t) < digits) return next;
+    t = next;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<HangingLoad::Shares> HangingLoad::between_nodes(double radius) const {
   const double x = std::clamp(std::log(radius), log_thinnest, log_thickest);
   const auto stretch = stretch_about(x);
   if (!stretch) return std::nullopt;
-  const auto& [lo, hi, from, width] = *stretch;
+  const auto& [lo, hi, from, width, by_length, begin, end] = *stretch;
   const Node& a = *lo;
   const Node& b = *hi;
   const bool one_place = lo == hi;  // its forces over the cable's own load hold for thinner ones
-  const double t = one_place ? 0 : (x - from) / width;
-  // Hermite's cubic, and its slope by r.
-  const double b1 = t * t * (3 - 2 * t);
-  const double sa = t * (1 - t) * (1 - t) * width;
-  const double sb = t * t * (t - 1) * width;
-  const double by_radius = 1 / radius;
-  const double b1_slope = 6 * t * (1 - t) / width * by_radius;
-  const double sa_slope = (1 - t) * (1 - 3 * t) * by_radius;
-  const double sb_slope = t * (3 * t - 2) * by_radius;
+  // Nodes are 1 apart by t; their slopes are by the logarithm of the radius.
+  double t = one_place ? 0 : (x - from) / width;
+  double per_a = width;
+  double per_b = width;
+  double t_slope = 1 / width;
+  if (by_length) {
+    const double longer = b.value.back() - a.value.back();
+    per_a = longer / a.slope.back();
+    per_b = longer / b.slope.back();
+    const CubicAt logarithm{width, per_a, per_b};
+    const auto reached = reaches(logarithm, x - from);
+    if (!reached) return std::nullopt;
+    t = *reached;
+    t_slope = 1 / cubic_slope_at(t).of(logarithm);
+  }
   const bool moves = !one_place && x > log_thinnest && x < log_thickest;
+  const CubicAt value = cubic_at(t);
+  const CubicAt slope = cubic_slope_at(t);
+  const double by_radius = moves ? t_slope / radius : 0;
   Shares shares;
   for (std::size_t i = 0; i < part_count; ++i) {
-    const double rise = b.value[i] - a.value[i];
-    shares.value[i] = a.value[i] + b1 * rise + sa * a.slope[i] + sb * b.slope[i];
-    if (!moves) continue;
-    shares.slope[i] = b1_slope * rise + sa_slope * a.slope[i] + sb_slope * b.slope[i];
+    const CubicAt part{b.value[i] - a.value[i], per_a * a.slope[i], per_b * b.slope[i]};
+    shares.value[i] = a.value[i] + value.of(part);
+    shares.slope[i] = by_radius * slope.of(part);
   }
   return shares;
 }

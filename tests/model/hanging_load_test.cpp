@@ -230,6 +230,65 @@ TEST_CASE(
   CHECK(disagree <= 1);
 }
 
+namespace {
+
+bool winch_holds(const HangingSituation& s, double radius) {
+  CableSolver solver;
+  return solver.solve(cable_at(s, radius), s.air, s.paid_out, {s.offset, 0, s.height}) ==
+         CableOutcome::hangs;
+}
+
+/// The thickest conductor that the winch holds up, in an even wind; nothing where that is none or
+/// all up to 5 mm.
+std::optional<double> thickest_held(const HangingSituation& s) {
+  double held = 2e-4;
+  double not_held = 5e-3;
+  if (!winch_holds(s, held) || winch_holds(s, not_held)) return std::nullopt;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = std::sqrt(held * not_held);
+    (winch_holds(s, middle) ? held : not_held) = middle;
+  }
+  return held;
+}
+
+}  // namespace
+
+TEST_CASE("the load on a winch is the solver's up to the thickest conductor that it holds") {
+  int ends = 0;
+  each_random(test::draws(120), [&](Random& random) {
+    HangingSituation s = drawn_situation(random);
+    s.axial_stiffness.reset();
+    s.air.profile = WindProfile::uniform;
+    s.air.drone_velocity = {};
+    s.paid_out = {.length = {},
+                  .winch_tension = std::hypot(s.height, s.offset) * random.uniform(0.1, 0.8)};
+    const auto thickest = thickest_held(s);
+    if (!thickest) return;
+    ++ends;
+    const CableFamilies families(CableNumber::winch_tension);
+    const double thinner_by = random.magnitude(1e-5, 0.3);
+    const double radius = *thickest * std::exp(-thinner_by);
+    CableSolver solver;
+    REQUIRE(solver.solve(cable_at(s, radius), s.air, s.paid_out, {s.offset, 0, s.height}) ==
+            CableOutcome::hangs);
+    const HangingCable exact = solver.result();
+    for (const bool remembered : {false, true}) {
+      s.memory = remembered ? &families : nullptr;
+      const HangingLoad::Parts found = HangingLoad(s).at(radius).value;
+      const double error = std::max({std::abs(found.along + exact.on_drone.x),
+                                     std::abs(found.down + exact.on_drone.z),
+                                     std::abs(found.tension_at_drone - exact.tension_at_drone)}) /
+                           exact.tension_at_drone;
+      INFO("thinner by " << thinner_by << ", remembered " << remembered);
+      // Forces turn with the root of what is left, which a cubic by the length leads on into.
+      CHECK(error < (thinner_by < 1e-3 ? 2e-4 : 2e-5));
+      CHECK(found.length == Approx(exact.length).epsilon(thinner_by < 1e-3 ? 2e-4 : 2e-5));
+      CHECK(HangingLoad(s).at(1.001 * *thickest).value.down == INFINITY);
+    }
+  });
+  CHECK(ends > test::draws(120) / 8);
+}
+
 TEST_CASE("a winch's cable reaches where no more is paid out than there is") {
   int hangs = 0;
   int wrong = 0;
@@ -297,6 +356,12 @@ TEST_CASE("cables that differ by one number are remembered by it") {
   CHECK_FALSE(winches.at_radius(s, 5e-4).has_value());
   s.cylinder.reset();
   CHECK(winches.at_radius(s, 5e-4).has_value());
+  // In an even wind it is known, too, that a winch does not hold a cable.
+  s.air.profile = WindProfile::uniform;
+  s.paid_out.winch_tension = 0.1;
+  const auto too_weak = winches.at_radius(s, 5e-4);
+  REQUIRE(too_weak.has_value());
+  CHECK_FALSE(too_weak->hangs);
 }
 
 TEST_CASE("a number is told that tells the cables of designs apart, where it is the only one") {

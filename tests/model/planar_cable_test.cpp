@@ -208,6 +208,30 @@ TEST_CASE("a winch holds no cable in a plane where no angle at it leads as far a
   });
 }
 
+TEST_CASE("a winch holds a cable in a plane from its least tension on, and with less it does not") {
+  int bounded = 0;
+  each_random(test::draws(200), [&bounded](Random& random) {
+    OnWinch winched = drawn_on_winch(random);
+    winched.cable.compliance = 0;
+    const auto least = least_winch_tension(winched.cable);
+    if (!least) return;
+    ++bounded;
+    constexpr double little = 1e-7;  // to which ways aside are integrated
+    winched.tension = *least * (1 + little);
+    const auto above = hung(winched);
+    winched.tension = *least * (1 - little);
+    const auto below = hung(winched);
+    if (!above || !below) return;  // far beyond the load, or next to none of it
+    CHECK(above->hangs);
+    CHECK_FALSE(below->hangs);
+  });
+  CHECK(bounded > test::draws(200) * 3 / 4);
+}
+
+TEST_CASE("any tension holds a cable in a plane whose drone stands where a straight one ends") {
+  CHECK_FALSE(least_winch_tension({.weight = 1, .drag = 0, .aside = 0, .height = 10}));
+}
+
 TEST_CASE("a cable in a plane hangs tauter and shorter the harder its winch pulls") {
   each_random(test::draws(100), [](Random& random) {
     OnWinch winched = drawn_on_winch(random);

@@ -62,6 +62,8 @@ TEST_CASE("rows that share cables of other slacks, places or winches say what ea
   const Swept all[]{{"slack", 0.01, 0.05, slack},
                     {"aside", 2, 9, [](Design& d, double x) { d.flight.horizontal_offset = x; }},
                     {"winch", 8, 14, [](Design& d, double x) { d.tether.winch_pull = x; }},
+                    {"wind on a winch that holds few conductors up", 4, 6, wind,
+                     [](Design& d) { d.tether.winch_pull = 3; }},
                     {"wind with drag by the Reynolds number", 0, 6, wind, by_reynolds_number},
                     {"length with drag by the Reynolds number", 15, 35, length, by_reynolds_number},
                     {"length in a wind over grass", 15, 35, length,

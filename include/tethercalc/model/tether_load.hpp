@@ -265,17 +265,29 @@ class HangingLoad {
   [[nodiscard]] std::optional<Shares> between_nodes(double radius) const;
   [[nodiscard]] Node solved_node(double log_radius) const;
   [[nodiscard]] const Node& node(long place) const;
-  /// Whether forces between two places that are `width` apart in ln r are no cubic.
-  [[nodiscard]] static bool bends_much(const Node& a, const Node& b, double width);
+  /// How far shares between two places that are `width` apart in ln r leave a parabola of it, of
+  /// the tension or the length. Or by the length that a winch pays out, with ln r itself; infinite
+  /// where that does not grow.
+  [[nodiscard]] static double bend_between(const Node& a, const Node& b, double width,
+                                           bool by_length);
   /// Two places about `log_radius` at which the cable hangs, and nothing is known against it
   /// between them; nothing where it does not.
-  [[nodiscard]] std::optional<std::array<long, 2>> places_about(double log_radius) const;
+  struct Places {
+    long lo = 0;
+    long hi = 0;
+    bool by_length = false;  ///< shares are cubics of the length
+    bool is_beyond = false;  ///< `log_radius` is the next place's after `hi` or before
+  };
+  [[nodiscard]] std::optional<Places> places_about(double log_radius) const;
   /// Radii between two solved cables, or one cable that stands for thinner ones.
   struct Stretch {
     const Node* lo = nullptr;
     const Node* hi = nullptr;
-    double from = 0;   ///< ln r
-    double width = 1;  ///< in ln r
+    double from = 0;         ///< ln r
+    double width = 1;        ///< in ln r
+    bool by_length = false;  ///< as of `Places`
+    double begin = 0;        ///< ln r, for which it stands
+    double end = 0;          ///< and up to which
   };
   [[nodiscard]] std::optional<Stretch> stretch_about(double log_radius) const;
 
@@ -284,7 +296,7 @@ class HangingLoad {
   std::shared_ptr<const SimilarCables> similar_;  ///< null where more decides how it hangs
   ConductorsAsked asked_;
   mutable std::unordered_map<long, Node> nodes_;
-  mutable std::array<Stretch, 68> whole_strides_{};  ///< from the thinnest, once they are known
+  mutable std::array<Stretch, 68> stretches_{};  ///< the last of each stride, from the thinnest
   /// Of the last radii that were asked for, each at a place that its digits decide.
   struct Known {
     double radius = std::numeric_limits<double>::quiet_NaN();
