@@ -35,7 +35,8 @@ std::size_t most_in_use = 0;
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Seen inline, GCC 12 takes free for another allocator's.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   void* const memory = std::malloc(size);
   if (memory == nullptr) throw std::bad_alloc();
   in_use += malloc_usable_size(memory);
@@ -43,7 +44,7 @@ void* operator new(std::size_t size) {
   return memory;
 }
 
-void operator delete(void* memory) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
   in_use -= malloc_usable_size(memory);
   std::free(memory);
 }
