@@ -261,18 +261,9 @@ void LeastWinchTension::make(Piece& piece, double from, double width) const {
 }
 
 std::optional<LeastWinchTension::At> LeastWinchTension::at(double octaves) const {
-  double from = std::floor(octaves);
-  double width = 1;
-  Piece* piece = &pieces_[static_cast<int>(from)];
-  for (;;) {
-    if (piece->kind == Piece::Kind::unknown) make(*piece, from, width);
-    if (piece->kind == Piece::Kind::given_up) return std::nullopt;
-    if (piece->kind == Piece::Kind::smooth) break;
-    width /= 2;
-    const bool upper = octaves >= from + width;
-    if (upper) from += width;
-    piece = &(*piece->halves)[upper ? 1 : 0];
-  }
+  const auto [piece, from, width] =
+      piece_about(pieces_, octaves, 1, [this](Piece& p, double f, double w) { make(p, f, w); });
+  if (piece->kind == Piece::Kind::given_up) return std::nullopt;
   const auto [value, slope] = value_at(piece->value_and_slope, 2 * (octaves - from) / width - 1);
   return At{value, slope};
 }

@@ -52,9 +52,6 @@ class LeastWinchTension {
   /// leads to the drone, which any tension holds.
   [[nodiscard]] std::optional<At> at(double octaves) const;
 
-  /// The tension itself, computed anew.
-  [[nodiscard]] std::optional<double> solved_at(double octaves) const;
-
  private:
   struct Piece {
     enum class Kind { unknown, smooth, halved, given_up } kind = Kind::unknown;
@@ -62,6 +59,8 @@ class LeastWinchTension {
     std::unique_ptr<std::array<Piece, 2>> halves{};
   };
   void make(Piece& piece, double from, double width) const;
+  /// The tension itself.
+  [[nodiscard]] std::optional<double> solved_at(double octaves) const;
 
   HangingSituation one_;
   mutable std::map<int, Piece> pieces_;  ///< by octave

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 
 namespace tethercalc {
@@ -108,6 +109,32 @@ inline AtPlace polynomials_at(double from, double width, double place) {
     last = next;
   }
   return at;
+}
+
+/// A part of a range, and where it lies.
+template <class Piece>
+struct PieceAbout {
+  Piece* piece = nullptr;
+  double from = 0;
+  double width = 0;
+};
+
+/// The piece about a place that has no `halves`. The `widest` are kept by their numbers; `make`
+/// makes one of which the kind is unknown.
+template <class Piece, class Make>
+PieceAbout<Piece> piece_about(std::map<int, Piece>& pieces, double place, double widest,
+                              const Make& make) {
+  double width = widest;
+  double from = width * std::floor(place / width);
+  Piece* piece = &pieces[static_cast<int>(from / width)];
+  for (;;) {
+    if (piece->kind == Piece::Kind::unknown) make(*piece, from, width);
+    if (!piece->halves) return {piece, from, width};
+    width /= 2;
+    const bool upper = place >= from + width;
+    if (upper) from += width;
+    piece = &(*piece->halves)[upper ? 1 : 0];
+  }
 }
 
 /// Its value at x, by Clenshaw's recurrence.

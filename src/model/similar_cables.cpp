@@ -209,18 +209,10 @@ std::optional<SimilarCables::At> SimilarCables::at(double ratio) const {
   }
   const double octaves = std::log2(ratio / first_);
   if (!(std::abs(octaves) < most_octaves) || (folds_ && octaves < 0)) return solved_at(ratio);
-  double width = widest_;
-  double from = width * std::floor(octaves / width);
-  Piece* piece = &pieces_[static_cast<int>(from / width)];
-  for (;;) {
-    if (piece->kind == Piece::Kind::unknown) make(*piece, from, width);
-    if (piece->kind == Piece::Kind::smooth) return on(*piece, (octaves - from) / width);
-    if (piece->kind == Piece::Kind::solved_where_asked) return solved_at(ratio);
-    width /= 2;
-    const bool upper = octaves >= from + width;
-    if (upper) from += width;
-    piece = &(*piece->halves)[upper ? 1 : 0];
-  }
+  const auto [piece, from, width] = piece_about(
+      pieces_, octaves, widest_, [this](Piece& p, double f, double w) { make(p, f, w); });
+  if (piece->kind == Piece::Kind::solved_where_asked) return solved_at(ratio);
+  return on(*piece, (octaves - from) / width);
 }
 
 std::optional<SimilarCables::At> SimilarCables::solved_at(double ratio) const {
