@@ -143,11 +143,19 @@ double farthest_aside(const OnWinch& winched) {
   const double balanced =
       std::acos(-2 * cable.drag / (cable.weight + std::hypot(cable.weight, 2 * cable.drag)));
   constexpr int angles = 200;
+  constexpr double spacing = std::numbers::pi / angles;
   double farthest = -1e9;
-  for (int i = 1; i < angles; ++i) {
-    const double angle = balanced - std::numbers::pi * i / angles;
-    farthest = std::max(farthest, aside_at_height(winched, angle));
-  }
+  double best = balanced;
+  const auto try_angle = [&](double angle) {
+    const double aside = aside_at_height(winched, angle);
+    if (aside <= farthest) return;
+    farthest = aside;
+    best = angle;
+  };
+  for (int i = 1; i < angles; ++i) try_angle(balanced - i * spacing);
+  // Of a cable that the wind carries the way has a sharp peak.
+  const double about = best;
+  for (int i = -9; i <= 9; ++i) try_angle(std::min(about + i * spacing / 10, balanced));
   return farthest;
 }
 
