@@ -22,16 +22,8 @@ void act(FlightPrediction& prediction, std::span<const EffectValues> effects, Fl
 /// the damping of a small drone at 20 m/s and T = 5 s: 2^16/16! is 3e-9.
 constexpr int picard_iterations = 16;
 
-/// For expressions that take two samples at a time.
-Eigen::Map<const Series> array(const std::vector<double>& x) {
-  return {x.data(), static_cast<Index>(x.size())};
-}
-Eigen::Map<Series> array(std::vector<double>& x) {
-  return {x.data(), static_cast<Index>(x.size())};
-}
-
 void set_cosines(const std::vector<double>& tangent, std::vector<double>& cosine) {
-  array(cosine) = (1 + array(tangent).square()).sqrt().inverse();
+  as_series(cosine) = (1 + as_series(tangent).square()).sqrt().inverse();
 }
 
 /// The effects of a phase with their values, and numbers beside them.
@@ -266,15 +258,16 @@ void predict_acceleration(FlightPrediction& p, const FlightBase& base,
   meet_air(p, base, effects);
 
   const FlightRecord& record = p.record;
-  array(p.lift) =
-      record.gravity - base.vertical_acceleration_gain * array(record.down_acceleration);
+  as_series(p.lift) =
+      record.gravity - base.vertical_acceleration_gain * as_series(record.down_acceleration);
   p.drag = p.law_drag;
   p.side_drag = p.law_side_drag;
   act(p, effects, FlightPhase::force);
 
-  array(p.acceleration) = array(p.lift) * array(p.thrust.tan_tilt) - array(p.drag) / record.mass;
-  array(p.side_acceleration) =
-      array(p.lift) * array(p.thrust.sideward) - array(p.side_drag) / record.mass;
+  as_series(p.acceleration) =
+      as_series(p.lift) * as_series(p.thrust.tan_tilt) - as_series(p.drag) / record.mass;
+  as_series(p.side_acceleration) =
+      as_series(p.lift) * as_series(p.thrust.sideward) - as_series(p.side_drag) / record.mass;
   act(p, effects, FlightPhase::reading);
 }
 

@@ -13,9 +13,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Series = Eigen::ArrayXd;
 
-/// For arithmetic.
-[[nodiscard]] inline Series as_series(const std::vector<double>& x) {
-  return Series::Map(x.data(), static_cast<Index>(x.size()));
+/// For arithmetic; refers to the vector.
+[[nodiscard]] inline Eigen::Map<const Series> as_series(const std::vector<double>& x) {
+  return {x.data(), static_cast<Index>(x.size())};
+}
+[[nodiscard]] inline Eigen::Map<Series> as_series(std::vector<double>& x) {
+  return {x.data(), static_cast<Index>(x.size())};
 }
 
 /// A matrix or some of its neighbouring rows and columns; of other expressions a copy.

@@ -111,13 +111,12 @@ class Prices {
  private:
   void add_limit(std::size_t i) {
     const UserLimit& limit = problem_.limits[i];
-    const double scale = std::max(std::abs(limit.bound), 1e-3);
     const double value = quantity_of(answer_.best, limit.quantity);
-    if (std::abs(value - limit.bound) > binding * scale) return;
+    if (std::abs(value - limit.bound) > binding * limit.scale()) return;
     DesignProblem changed = problem_;
     ShadowPrice price{Priced::limit};
     price.name = limit.name;
-    price.step = limit.sign * 0.01 * scale;
+    price.step = limit.sign * 0.01 * limit.scale();
     changed.limits[i].bound += price.step;
     add(std::move(price), changed);
   }

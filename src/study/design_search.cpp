@@ -33,9 +33,9 @@ void fill_violations(const Candidate& candidate, const std::vector<UserLimit>& l
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const UserLimit& limit = limits[i];
     const double value = exists ? quantity_of(candidate, limit.quantity) : nan;
-    const double scale = std::max(std::abs(limit.bound), 1e-3);
     // Shifted by the tolerance, so that what counts as kept is kept to the last digit.
-    const double violation = limit.sign * (value - limit.bound) / scale + constraint_tolerance;
+    const double violation =
+        limit.sign * (value - limit.bound) / limit.scale() + constraint_tolerance;
     violations[fixed_demands + i] = std::isfinite(violation) ? violation : 1.0;
   }
 }

@@ -2,7 +2,9 @@
 // something would change.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,6 +43,10 @@ struct UserLimit {
   CandidateQuantity quantity;  ///< what is bounded
   double bound = 0;            ///< in the unit of the quantity
   int sign = 1;                ///< 1: at most the bound, −1: at least
+
+  /// What a miss is measured against, in the unit of the quantity: the bound, or next to 0 some
+  /// number.
+  [[nodiscard]] double scale() const { return std::max(std::abs(bound), 1e-3); }
 };
 
 /// What is searched.
