@@ -59,7 +59,7 @@ const wasm = readFileSync(options.program);
 const streams = streamsOf(wasm);
 if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
 // Which length of a match ends the search for a longer one packs best is chance: the shortest of some.
-const pages = Array.from({ length: 17 }, (_, k) => filled(packed(streams, 72 + 12 * k)))
+const pages = Array.from({ length: 34 }, (_, k) => filled(packed(streams, 72 + 6 * k)))
   .map((page) => ({ page, zipped: gzipSync(page, { level: 9 }).length }));
 const { page, zipped } = pages.reduce((a, b) => (b.zipped < a.zipped ? b : a));
 mkdirSync(dirname(options.output), { recursive: true });
