@@ -408,18 +408,16 @@ void choose_places(Record& record, const BlockFit& fit, std::size_t group) {
       most = gain;
     };
     for (const double place : places) consider(place);
-    if (own[k].fitted) {
-      record.start_at(parameter, best);
-      continue;
+    if (!own[k].fitted) {
+      // Where noise has much memory a moment shows in the one sample at which it falls.
+      constexpr int parts = 32;
+      const double part =
+          (places.back() - places.front()) / static_cast<double>(places.size() * parts);
+      const double middle = best;
+      for (int i = -parts; i <= parts; ++i) consider(middle + i * part);
+      const double nearest = best;
+      for (const double beside : {-part / 2, part / 2}) consider(nearest + beside);
     }
-    // Where noise has much memory a moment shows in the one sample at which it falls.
-    constexpr int parts = 32;
-    const double part =
-        (places.back() - places.front()) / static_cast<double>(places.size() * parts);
-    const double middle = best;
-    for (int i = -parts; i <= parts; ++i) consider(middle + i * part);
-    const double nearest = best;
-    for (const double beside : {-part / 2, part / 2}) consider(nearest + beside);
     record.start_at(parameter, best);
   }
 }

@@ -22,8 +22,9 @@ constexpr double first_place_above_least = 0.05;
 /// octave.
 constexpr double share_scale = 4;
 
-bool hangs_in_even_wind(const HangingSituation& cable) {
-  return cable.air.profile == WindProfile::uniform;
+/// Whether the least tension that holds such cables is known, in an even wind.
+bool knows_least_tension(const HangingSituation& one, CableNumber number) {
+  return number == CableNumber::winch_tension && one.air.profile == WindProfile::uniform;
 }
 
 bool varies_with_radius(CableNumber number) {
@@ -340,8 +341,8 @@ void CableFamily::make(Square& square, const Bounds& bounds) const {
   const bool at_origin = bounds.ratio == 0 || bounds.ratio + bounds.ratio_width == 0;
   const bool ratio_wider = bounds.ratio_width >= bounds.number_width;
   const bool ratio_first = hangs ? found == Found::bends_by_ratio : at_origin || ratio_wider;
-  const bool knows_least = number_ == CableNumber::winch_tension && hangs_in_even_wind(one_);
-  const double narrowest = knows_least ? narrowest_above_least : narrowest_square;
+  const double narrowest =
+      knows_least_tension(one_, number_) ? narrowest_above_least : narrowest_square;
   const bool ratio_halves = bounds.ratio_width > (hangs || at_origin ? narrowest_piece : narrowest);
   const bool number_halves = bounds.number_width > narrowest;
   if (ratio_first ? !ratio_halves : !number_halves) {
@@ -460,7 +461,7 @@ const CableFamilies::Family* CableFamilies::family_of(const HangingSituation& no
   }
   const auto [known, is_new] = families_.try_emplace(one, Family{CableFamily(one, number_), {}});
   Family& family = known->second;
-  if (is_new && number_ == CableNumber::winch_tension && hangs_in_even_wind(one)) {
+  if (is_new && knows_least_tension(one, number_)) {
     family.near_least.emplace(one, CableNumber::winch_over_least);
   }
   return &family;

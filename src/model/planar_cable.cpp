@@ -298,7 +298,6 @@ std::optional<AtWinch> taut_at_winch(const OnWinch& cable, double wanted, double
 
 /// Where ln of the way aside is greatest, and its slope there by ln of the tension at the winch.
 struct Farthest {
-  double v = 0;
   double value = 0;
   double by_tension = 0;
 };
@@ -322,7 +321,7 @@ std::optional<Farthest> farthest_aside(const OnWinch& cable) {
   const double way = std::exp(here.value) / cable.least_tension(here.v);
   const double rise_by_tension = -2 / cable.plane.m() * plane.weight * plane.height /
                                  (cable.tension + plane.weight * plane.height);
-  return Farthest{here.v, here.value,
+  return Farthest{here.value,
                   1 + cable.plane.change(end).aside * rise_by_tension / (2 * end * way)};
 }
 
@@ -426,7 +425,10 @@ std::optional<EndsInPlane> ends_of_length(const Plane& plane, double beside, dou
 }
 
 /// Down to there both methods agree to 1e-8; the general one finds few lighter cables.
-constexpr double least_weight_to_drag = 1e-4;
+bool outweighs_the_wind(const PlanarCable& cable) {
+  constexpr double least_weight_to_drag = 1e-4;
+  return cable.weight > least_weight_to_drag * std::abs(cable.drag);
+}
 constexpr double most_rise = 800;  // of v², whose exponential is a number
 
 /// Whether the drone stands where a straight cable ends.
@@ -443,8 +445,7 @@ std::optional<PlanarShape> held_by_winch(const PlanarCable& cable, double tensio
   // Of the load: below, rounding leaves 1e-9 of the directions.
   constexpr double most_tension = 1e5;
   const double load = std::hypot(cable.weight, cable.drag) * std::hypot(cable.aside, cable.height);
-  if (!(cable.height > least_height * std::abs(cable.aside)) ||
-      !(cable.weight > least_weight_to_drag * std::abs(cable.drag)) ||
+  if (!(cable.height > least_height * std::abs(cable.aside)) || !outweighs_the_wind(cable) ||
       !(tension * (1 + cable.compliance * tension) < most_tension * load)) {
     return std::nullopt;
   }
@@ -471,9 +472,7 @@ std::optional<double> least_winch_tension(const PlanarCable& cable) {
   constexpr double little = 1e-11;
   constexpr double longest_step = 1.5;  // of Newton's method
   const Seen seen(cable);
-  if (!(cable.weight > least_weight_to_drag * std::abs(cable.drag)) || is_in_line(seen)) {
-    return std::nullopt;
-  }
+  if (!outweighs_the_wind(cable) || is_in_line(seen)) return std::nullopt;
   double log_tension = std::log(cable.weight * cable.height);
   for (int i = 0; i < most_steps; ++i) {
     const OnWinch winched(seen.plane, std::exp(log_tension));
@@ -490,7 +489,7 @@ std::optional<double> least_winch_tension(const PlanarCable& cable) {
 
 std::optional<PlanarShape> of_length(const PlanarCable& cable, double length,
                                      const std::optional<PlanarEnds>& near) {
-  if (!(cable.weight > least_weight_to_drag * std::abs(cable.drag))) return std::nullopt;
+  if (!outweighs_the_wind(cable)) return std::nullopt;
   const Seen seen(cable);
   std::optional<EndsInPlane> v;
   if (near)

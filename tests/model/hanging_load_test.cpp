@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <optional>
 
 #include "model/cable_family.hpp"
 #include "support/random.hpp"
@@ -133,6 +134,13 @@ double folding_wind(const HangingSituation& s, double radius) {
 }
 
 /// Of the greatest tension.
+double error_of(const HangingLoad::Parts& found, const HangingCable& exact) {
+  return std::max({std::abs(found.along + exact.on_drone.x),
+                   std::abs(found.down + exact.on_drone.z),
+                   std::abs(found.tension_at_drone - exact.tension_at_drone),
+                   std::abs(found.tension_at_ground - exact.tension_at_station)}) /
+         std::max(exact.tension_at_drone, exact.tension_at_station);
+}
 double error_of_load(const HangingSituation& s, double radius) {
   const HangingLoad::Parts found = HangingLoad(s).at(radius).value;
   CableSolver solver;
@@ -140,11 +148,7 @@ double error_of_load(const HangingSituation& s, double radius) {
           CableOutcome::hangs);
   const HangingCable exact = solver.result();
   CHECK(found.length == *s.paid_out.length);
-  return std::max({std::abs(found.along + exact.on_drone.x),
-                   std::abs(found.down + exact.on_drone.z),
-                   std::abs(found.tension_at_drone - exact.tension_at_drone),
-                   std::abs(found.tension_at_ground - exact.tension_at_station)}) /
-         std::max(exact.tension_at_drone, exact.tension_at_station);
+  return error_of(found, exact);
 }
 
 }  // namespace
@@ -275,15 +279,11 @@ TEST_CASE("the load on a winch is the solver's up to the thickest conductor that
     for (const bool remembered : {false, true}) {
       s.memory = remembered ? &families : nullptr;
       const HangingLoad::Parts found = HangingLoad(s).at(radius).value;
-      const double error = std::max({std::abs(found.along + exact.on_drone.x),
-                                     std::abs(found.down + exact.on_drone.z),
-                                     std::abs(found.tension_at_drone - exact.tension_at_drone)}) /
-                           exact.tension_at_drone;
       INFO("thinner by " << thinner_by << ", remembered " << remembered);
       // Forces turn with the root of what is left, which a cubic by the length leads on into. Seen
       // of 1,800: 3e-4 next to the end, else 3e-5.
       const double most = thinner_by < 1e-3 ? 1e-3 : 1e-4;
-      CHECK(error < most);
+      CHECK(error_of(found, exact) < most);
       CHECK(found.length == Approx(exact.length).epsilon(most));
       CHECK(HangingLoad(s).at(1.001 * *thickest).value.down == INFINITY);
     }

@@ -278,7 +278,7 @@ class HangingLoad {
     long lo = 0;
     long hi = 0;
     bool by_length = false;  ///< shares are cubics of the length
-    bool is_beyond = false;  ///< `log_radius` is the next place's after `hi` or before
+    bool is_beyond = false;  ///< `log_radius` lies between `hi` and the place after it
   };
   [[nodiscard]] std::optional<Places> places_about(double log_radius) const;
   /// Radii between two solved cables, or one cable that stands for thinner ones.
