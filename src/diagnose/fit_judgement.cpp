@@ -409,12 +409,16 @@ void choose_places(Record& record, const BlockFit& fit, std::size_t group) {
     };
     for (const double place : places) consider(place);
     if (!own[k].fitted) {
-      // Where noise has much memory a moment shows in the one sample at which it falls.
+      // A gain over moments is rough: a stage's rows are means over seconds, and where noise has
+      // much memory a step shows in the one row in which it falls. So the best of a neighbourhood
+      // may be the way to a better one.
       constexpr int parts = 32;
       const double part =
           (places.back() - places.front()) / static_cast<double>(places.size() * parts);
-      const double middle = best;
-      for (int i = -parts; i <= parts; ++i) consider(middle + i * part);
+      for (double middle = infinity; middle != best;) {
+        middle = best;
+        for (int i = -parts; i <= parts; ++i) consider(middle + i * part);
+      }
       const double nearest = best;
       for (const double beside : {-part / 2, part / 2}) consider(nearest + beside);
     }

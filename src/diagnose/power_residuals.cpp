@@ -402,12 +402,15 @@ void PowerResiduals::estimate_noise(const PowerModel& base, PowerStage& stage, s
   }
   const MatrixXd shapes = smooth_shapes(log, stage.stage, bus_power_);
   std::vector<double> noise = without_shapes(shapes, raw, stage.usable);
-  // Spikes that the channels alone do not show; after them the shapes fit better.
+  // Spikes that the channels alone do not show; after them the shapes fit better. What no shape
+  // follows and lasts, as about the moment of a leap, is none.
   for (int pass = 0; pass < 2; ++pass) {
-    const double deviation = robust_deviation(noise, stage.usable);
     constexpr double outlying = 5;
+    constexpr std::size_t half = 7;
+    const double most = outlying * robust_deviation(noise, stage.usable);
+    const std::vector<double> alone = distance_from_neighbours(noise, half);
     for (std::size_t i = 0; i < n; ++i) {
-      if (std::abs(noise[i]) > outlying * deviation) stage.usable[i] = 0;
+      if (std::min(std::abs(noise[i]), alone[i]) > most) stage.usable[i] = 0;
     }
     noise = without_shapes(shapes, raw, stage.usable);
   }

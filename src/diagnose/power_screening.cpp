@@ -52,15 +52,7 @@ std::size_t mark_stuck(const std::vector<double>& x, bool may_rest, std::vector<
 std::size_t mark_spikes(const std::vector<double>& x, std::vector<char>& bad) {
   constexpr std::size_t half = 3;
   constexpr double limit = 8;
-  if (x.size() <= 2 * half) return 0;
-  std::vector<double> deviation(x.size(), 0);
-  std::vector<double> window;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::size_t begin = std::min(i < half ? 0 : i - half, x.size() - 2 * half - 1);
-    window.assign(x.begin() + static_cast<std::ptrdiff_t>(begin),
-                  x.begin() + static_cast<std::ptrdiff_t>(begin + 2 * half + 1));
-    deviation[i] = std::abs(x[i] - median(window));
-  }
+  const std::vector<double> deviation = distance_from_neighbours(x, half);
   // Zeros stem from the sample being its own median, one in seven, and from ramps.
   std::vector<double> nonzero;
   std::copy_if(deviation.begin(), deviation.end(), std::back_inserter(nonzero),

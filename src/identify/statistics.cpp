@@ -37,6 +37,18 @@ double lagged_product(const VectorXd& x, Index lag) {
 
 }  // namespace
 
+std::vector<double> distance_from_neighbours(const std::vector<double>& series, std::size_t half) {
+  const std::size_t size = 2 * half + 1;
+  std::vector<double> distance(series.size(), 0);
+  if (series.size() < size) return distance;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const std::size_t begin = std::min(i < half ? 0 : i - half, series.size() - size);
+    const auto first = series.begin() + static_cast<std::ptrdiff_t>(begin);
+    distance[i] = std::abs(series[i] - median({first, first + static_cast<std::ptrdiff_t>(size)}));
+  }
+  return distance;
+}
+
 double student_quantile(double degrees, double p) {
   // By the tail, which is there anyhow: Boost's own inverse is 20 kB of the page's program.
   const double beyond = std::min(p, 1 - p);

@@ -34,6 +34,11 @@ inline constexpr double mad_to_sigma = 1.4826;
   return ordered(std::move(values), place);
 }
 
+/// How far each element lies from the median of the `2·half + 1` about it, of as many at an end;
+/// all 0 of fewer.
+[[nodiscard]] std::vector<double> distance_from_neighbours(const std::vector<double>& series,
+                                                           std::size_t half);
+
 /// Whether `value` is among `values`.
 template <typename T, typename Value>
 [[nodiscard]] bool contains(const std::vector<T>& values, const Value& value) {
