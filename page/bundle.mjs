@@ -39,8 +39,8 @@ function inlined(source) { return source.replaceAll('</script', '<\\/script').re
 const hash = (source) => `'sha256-${createHash('sha256').update(source).digest('base64')}'`;
 
 /** The program as packed_program.js unpacks it: its streams as .lzma, with their size in the head, which xz leaves open. */
-function packed(streams, nice) {
-  const lzma = execFileSync('xz', ['--format=lzma', `--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=${nice}`, '--stdout'],
+function packed(streams) {
+  const lzma = execFileSync('xz', ['--format=lzma', '--lzma1=preset=9e,lc=1,lp=0,pb=0,nice=273', '--stdout'],
     { input: streams, maxBuffer: 1 << 28 });
   lzma.writeBigUInt64LE(BigInt(streams.length), 5);
   return lzma.toString('base64');
@@ -52,16 +52,12 @@ const parts = {
   style: css,
   script,
 };
-// Indentation is for those who read the source.
-const template = readFileSync(join(here, 'index.html'), 'utf8').replaceAll(/\n\s+/g, '\n');
-const filled = (program) => template.replace(/\{\{(\w+)\}\}/g, (whole, name) => ({ ...parts, program })[name]);
 const wasm = readFileSync(options.program);
 const streams = streamsOf(wasm);
 if (!wasm.equals(moduleOf(streams))) throw new Error('the program does not come back from its streams');
-// Which length of a match ends the search for a longer one packs best is chance: the shortest of some.
-const pages = Array.from({ length: 34 }, (_, k) => filled(packed(streams, 72 + 6 * k)))
-  .map((page) => ({ page, zipped: gzipSync(page, { level: 9 }).length }));
-const { page, zipped } = pages.reduce((a, b) => (b.zipped < a.zipped ? b : a));
+parts.program = packed(streams);
+// Indentation is for those who read the source.
+const page = readFileSync(join(here, 'index.html'), 'utf8').replaceAll(/\n\s+/g, '\n').replace(/\{\{(\w+)\}\}/g, (whole, name) => parts[name]);
 mkdirSync(dirname(options.output), { recursive: true });
 writeFileSync(options.output, page);
-console.log(`${options.output}: ${Buffer.byteLength(page)} bytes, ${zipped} with gzip`);
+console.log(`${options.output}: ${Buffer.byteLength(page)} bytes, ${gzipSync(page, { level: 9 }).length} with gzip`);

@@ -109,7 +109,7 @@ export function whatIfTable(now, pinned, fields) {
   return [
     fields.length
       ? table('Fields that differ', ['field', 'pinned', 'now'], fields.map(({ path, before, after }) => [path, before, after]))
-      : el('p', {}, 'The design is as pinned. Move a slider to compare.'),
+      : el('p', {}, 'The design is as pinned. Move a slider: the table and the pale curves keep the pinned design in sight.'),
     table('The pinned design and this one', ['', 'pinned', 'now', 'change'], rows),
   ];
 }

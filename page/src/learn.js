@@ -20,7 +20,7 @@ export function buildLearn(place, { startWorker, spec, take }) {
   const drop = el('div', { class: 'drop' },
     el('p', {}, el('strong', {}, 'Drop flight or power logs here'), ' or ',
       el('label', { for: 'log-files', class: 'button quiet' }, 'choose files'), input),
-    el('p', { class: 'quiet-text' }, 'ArduPilot .bin and .log, PX4 .ulg, CSV; also packed as .gz.'));
+    el('p', { class: 'quiet-text' }, 'ArduPilot .bin and .log, PX4 .ulg, CSV; also packed as .gz. Nothing leaves this computer: the page has no way to send anything.'));
   const mass = option('Mass as flown', 'g', 'mass_g', 'the spec’s');
   const pitch = option('Pitch in level flight', '°', 'pitch_offset_deg', '0');
   const power = el('select', { id: 'learn-power' });

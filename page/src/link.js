@@ -23,7 +23,7 @@ export const holdsState = (fragment) => fragment.startsWith(prefix);
 
 /** The state in a fragment. Throws an Error in words for people where it is none. */
 export async function stateOf(fragment) {
-  const damaged = new Error('This link is damaged. ' +
+  const damaged = new Error('This link is damaged: only a part of it arrived, or it was changed on the way. ' +
     'Ask for it again, whole, or for the spec as a file. What the page showed before is still here.');
   let state;
   try {

@@ -226,7 +226,7 @@ const commandLine = (words) => el('p', { class: 'command-line' }, el('code', {},
 
 function whatIfView() {
   if (!pinnedAnswer) {
-    return el('div', {}, el('p', {}, 'Pin the design, then change it: both stand side by side.'),
+    return el('div', {}, el('p', {}, 'Pin the design as it stands, then change it: both stand side by side, here, in the numbers above and in the curves.'),
       el('p', {}, el('button', { type: 'button', class: 'primary', onclick: togglePin }, 'Pin this design')));
   }
   return whatIfTable(shownAnswer.result, pinnedAnswer.result, differences(state.pinned, state.spec));

@@ -1,48 +1,49 @@
-// A WebAssembly module as streams of like bytes (instructions here, indices of variables there …) and back: LZMA
-// packs them a tenth smaller than the mixture. It takes the instructions that the program has, no vectors or threads.
+// A WebAssembly module as streams of like bytes (instructions here, offsets there …) and back: LZMA packs them a tenth
+// smaller than the mixture. It takes the instructions that the program has, no vectors or threads.
 
-// The streams. A variable that a load reads is an address; numbers lie by what the next instruction does with them.
-const [rest, instructions, variables, addresses, functions, offsets, numbers, summands, stored, passed, labels, constants, count] = Array(13).keys();
+// The streams. What follows an instruction lies by that; a number, and which variable is read, by the instruction behind.
+const [rest, instructions, locals, offsets, constants, kinds] = Array(6).keys();
+const of = (instruction) => kinds + instruction;
+const numbersFor = (next) => kinds + 256 + next;
+const readFor = (next) => kinds + 512 + next;
+const count = kinds + 768;
 
 const code = 10; // the section of the functions' bodies
 const end = 0x0b;
+const delegate = 0x18;
 const isBlock = (instruction) => instruction >= 0x02 && instruction <= 0x06 && instruction !== 0x05;
-const isLoad = (instruction) => instruction >= 0x28 && instruction <= 0x35;
-const isStore = (instruction) => instruction >= 0x36 && instruction <= 0x3e;
-const add = 0x6a;
-const call = 0x10;
-const numbersFor = (next) => (next === add ? summands : isStore(next) ? stored : next === call ? passed : numbers);
 
-/** What to move behind each instruction that has operands. */
+/** What to move behind each instruction that has operands, most into its own stream. */
 const operands = Array(256);
 const put = (first, last, move) => operands.fill(move, first, last + 1);
-const label = (way) => way.whole(labels);
-put(0x02, 0x04, label); // block, loop, if
-put(0x06, 0x09, label); // try, catch, throw, rethrow
-put(0x0c, 0x0d, label);
-put(0x0e, 0x0e, (way) => { for (let others = way.whole(labels); others >= 0; --others) way.whole(labels); });
-put(call, call, (way) => way.whole(functions));
-put(0x11, 0x11, (way) => { way.whole(functions); way.whole(functions); });
-put(0x18, 0x18, label); // delegate
-put(0x1c, 0x1c, (way) => way.bytes(labels, way.whole(labels)));
-put(0x20, 0x20, (way) => way.whole(isLoad(way.next()) ? addresses : variables));
-put(0x21, 0x22, (way) => way.whole(variables));
-put(0x23, 0x24, label);
-put(0x28, 0x3e, (way) => { way.whole(instructions); way.whole(offsets); }); // the alignment goes with the instruction
-put(0x3f, 0x40, label);
-put(0x41, 0x41, (way) => way.whole(numbersFor(way.next())));
-put(0x42, 0x42, (way) => way.whole(numbers));
+const one = (way, own) => way.whole(own);
+const two = (way, own) => { way.whole(own); way.whole(own); };
+const number = (way) => way.whole(numbersFor(way.next()));
+put(0x02, 0x04, one); // block, loop, if
+put(0x06, 0x09, one); // try, catch, throw, rethrow
+put(0x0c, 0x0d, one); // branches
+put(0x0e, 0x0e, (way, own) => { for (let others = way.whole(own); others >= 0; --others) way.whole(own); });
+put(0x10, 0x10, one); // call
+put(0x11, 0x11, two);
+put(delegate, delegate, one);
+put(0x1c, 0x1c, (way, own) => way.bytes(own, way.whole(own)));
+put(0x20, 0x20, (way) => way.whole(readFor(way.next())));
+put(0x21, 0x22, (way) => way.whole(of(0x21))); // a variable that is set, which of both ways is alike
+put(0x23, 0x24, one);
+put(0x28, 0x3e, (way, own) => { way.whole(own); way.whole(offsets); }); // loads and stores, their alignment first
+put(0x3f, 0x40, one);
+put(0x41, 0x42, number);
 put(0x43, 0x43, (way) => way.bytes(constants, 4));
 put(0x44, 0x44, (way) => way.bytes(constants, 8));
-put(0xfc, 0xfc, (way) => { const which = way.whole(instructions); way.bytes(labels, which < 8 ? 0 : which === 10 ? 2 : 1); });
+put(0xfc, 0xfc, (way, own) => { const which = way.whole(own); way.bytes(own, which < 8 ? 0 : which === 10 ? 2 : 1); });
 
 function moveFunction(way) {
-  for (let groups = way.whole(labels); groups > 0; --groups) { way.whole(labels); way.byte(labels); }
+  for (let groups = way.whole(locals); groups > 0; --groups) two(way, locals);
   for (let depth = 1; depth > 0;) {
     const instruction = way.byte(instructions);
-    operands[instruction]?.(way);
+    operands[instruction]?.(way, of(instruction));
     if (isBlock(instruction)) ++depth;
-    if (instruction === end || instruction === 0x18) --depth;
+    if (instruction === end || instruction === delegate) --depth;
   }
 }
 
