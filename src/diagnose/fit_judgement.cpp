@@ -158,6 +158,12 @@ class PlaceGains {
   [[nodiscard]] double at(std::size_t parameter, double place) const {
     std::vector<double> values = started(record_, fit_.values, group_);
     values[parameter] = place;
+    return of(values);
+  }
+  [[nodiscard]] double at_start() const { return of(started(record_, fit_.values, group_)); }
+
+ private:
+  [[nodiscard]] double of(const std::vector<double>& values) const {
     MatrixXd slopes = group_slopes(record_, {group_}, values);
     slopes = weight_.asDiagonal() * slopes;
     if (free_.cols() > 0)
@@ -167,7 +173,6 @@ class PlaceGains {
     return leaves_bounds(step) ? 0 : along.dot(step);
   }
 
- private:
   /// Whether a size would go below a bound that it starts from, as for a mass that is dropped.
   [[nodiscard]] bool leaves_bounds(const VectorXd& step) const {
     Index column = 0;
@@ -389,6 +394,10 @@ std::optional<Selection::Aliased> aliased_in(const Record& record, const BlockFi
     if (!contains(aliased.with, owner)) aliased.with.push_back(owner);
   }
   return aliased;
+}
+
+double linear_gain(const Record& record, const BlockFit& fit, std::size_t group) {
+  return PlaceGains(record, fit, group).at_start();
 }
 
 void choose_places(Record& record, const BlockFit& fit, std::size_t group) {

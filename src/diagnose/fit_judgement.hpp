@@ -101,6 +101,10 @@ struct Unearned {
 [[nodiscard]] MatrixXd slopes_at_start(const Record& record, std::vector<double> values,
                                        std::size_t group);
 
+/// By how much `group` would lower the squared error of `fit` beside what is free in it, if the
+/// prediction were linear in its sizes, from their first values on.
+[[nodiscard]] double linear_gain(const Record& record, const BlockFit& fit, std::size_t group);
+
 /// Places the parameters of `group` that have places where the group promises most beside what is
 /// free in `fit`: where it would lower the squared error most if the prediction were linear in its
 /// sizes. Between two places the better half is followed down to a hundredth of their distance.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -62,6 +63,7 @@ class Search {
     do {
       search_beside_usual();
       name_usual();
+      put_one_for_two();
       put_in_order(base);
     } while (drop_unearned(base));
     place_candidates();
@@ -461,6 +463,50 @@ class Search {
     current_ = fit(selected_, &current_);
   }
 
+  /// Puts one candidate in the place of two names where it explains at least as much as both: found
+  /// one after the other they may only mimic it together, as a wind and an asymmetry do a pull.
+  void put_one_for_two() {
+    while (std::optional<OneForTwo> found = best_one_for_two()) {
+      const std::size_t by = found->by.group;
+      tell("found " + group(by).id + " instead of two");
+      Groups others = found->two;
+      for (const std::size_t g : found->two) {
+        for (const std::size_t c : rivals(g, fit(selected_without(g), &current_))) {
+          if (c != by && !contains(others, c)) others.push_back(c);
+        }
+      }
+      for (const std::size_t g : found->two) leave(g);
+      selected_.push_back(by);
+      current_ = std::move(found->by.fit);
+      instead_of_.insert_or_assign(by, InsteadOf{std::move(found->two), std::move(others)});
+    }
+  }
+
+  struct OneForTwo {
+    Groups two;
+    Trial by;
+  };
+
+  [[nodiscard]] std::optional<OneForTwo> best_one_for_two() const {
+    std::optional<OneForTwo> best;
+    for (const std::size_t a : selected_) {
+      for (const std::size_t b : selected_) {
+        if (a >= b || is_placed(group(a)) || is_placed(group(b))) continue;
+        const BlockFit rest = fit(without_group(selected_without(a), b), &current_);
+        const double earned = rest.squared_error() - current_.squared_error();
+        for (const std::size_t c : candidates()) {
+          if (is_placed(group(c)) || linear_gain(record_, rest, c) < rival_gain * earned) continue;
+          Trial trial =
+              judge(c, rest, fit(with_group(without_group(selected_without(a), b), c), &rest));
+          const double most = best ? best->by.fit.squared_error() : current_.squared_error();
+          if (trial.worth_a_name && trial.fit.squared_error() <= most)
+            best = OneForTwo{{a, b}, std::move(trial)};
+        }
+      }
+    }
+    return best;
+  }
+
   /// The names by what each adds to those before it. None stays that adds nothing there.
   void put_in_order(const BlockFit& base) {
     Groups order;
@@ -589,26 +635,42 @@ class Search {
   }
 
   [[nodiscard]] Groups rivals(std::size_t g, const BlockFit& without) const {
-    const double earned = without.squared_error() - current_.squared_error();
     std::vector<std::pair<double, std::size_t>> found;
     for (std::size_t c = 0; c < record_.problem().groups.size(); ++c) {
       if (!is_open(c) || group(c).replaces == g) continue;
       const BlockFit rival = fit(with_group(selected_without(g), c), &current_);
-      const BlockDifference excess = difference(rival.block_error, current_.block_error);
-      // A step at the very beginning is all but steady: what is looked for at many places puts
-      // others in doubt only where it does clearly better.
-      const double allowed =
-          is_placed(group(c)) && !is_placed(group(g)) ? -student_factor_ : student_factor_;
-      // Where few blocks have most of the error, its sum is uncertain though all blocks agree.
-      const Gain of_found = typical_gain_between(rival, current_);
-      if (without.squared_error() - rival.squared_error() >= rival_gain * earned &&
-          rival.squared_error() * (1 - rival_gain) < current_.squared_error() &&
-          excess.sum <= allowed * excess.se &&
-          !earns_a_name(record_, g, of_found, options_.least_gain_percent)) {
+      const bool only_placed = is_placed(group(c)) && !is_placed(group(g));
+      if (explains_as_well(rival, g, without, only_placed)) {
         found.emplace_back(rival.squared_error(), c);
       }
     }
-    return in_order_of_nearness(std::move(found));
+    Groups told = in_order_of_nearness(std::move(found));
+    const auto instead = instead_of_.find(g);
+    if (instead == instead_of_.end()) return told;
+    Groups both = selected_without(g);
+    for (const std::size_t c : instead->second.two) both.push_back(c);
+    if (!explains_as_well(fit(sorted(both), &current_), g, without, false)) return told;
+    for (const std::size_t c : instead->second.others) {
+      if (is_open(c) && !contains(told, c)) told.push_back(c);
+    }
+    return told;
+  }
+
+  /// Whether `rival`, in which others stand in the place of the name, leaves open which of them is
+  /// at work.
+  [[nodiscard]] bool explains_as_well(const BlockFit& rival, std::size_t g, const BlockFit& without,
+                                      bool only_placed) const {
+    const double earned = without.squared_error() - current_.squared_error();
+    const BlockDifference excess = difference(rival.block_error, current_.block_error);
+    // A step at the very beginning is all but steady: what is looked for at many places puts
+    // others in doubt only where it does clearly better.
+    const double allowed = only_placed ? -student_factor_ : student_factor_;
+    // Where few blocks have most of the error, its sum is uncertain though all blocks agree.
+    const Gain of_found = typical_gain_between(rival, current_);
+    return without.squared_error() - rival.squared_error() >= rival_gain * earned &&
+           rival.squared_error() * (1 - rival_gain) < current_.squared_error() &&
+           excess.sum <= allowed * excess.se &&
+           !earns_a_name(record_, g, of_found, options_.least_gain_percent);
   }
 
   [[nodiscard]] ModelFit model_fit(const BlockFit& fit) const {
@@ -634,6 +696,12 @@ class Search {
   Groups beside_;  ///< usual groups, while others are sought beside them
   std::set<std::size_t> aliased_;
   Groups unearned_usual_;  ///< that were taken back
+  /// What a name stands for.
+  struct InsteadOf {
+    Groups two;     ///< names
+    Groups others;  ///< these, and what may be at work in the place of one of them
+  };
+  std::map<std::size_t, InsteadOf> instead_of_;
   std::set<Groups> left_;  ///< sets of which a name was taken back, so that the search ends
   BlockFit current_;
 };

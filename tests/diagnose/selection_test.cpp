@@ -162,6 +162,38 @@ TEST_CASE("two effects at once are both selected, the larger first") {
   CHECK(found.base.holdout_rmse == Approx(found.selected[0].rmse_before));
 }
 
+TEST_CASE("one effect that two mimic together takes their place, and they stay in its set") {
+  // Column 3 is mimicked by 1, which is sought beside everything, and 2, which is simpler.
+  const auto record_of = [](Random& random, double with_1, double with_2) {
+    std::vector<Column> columns = LinearRecord::drawn(random, 4);
+    for (std::size_t i = 0; i < rows; ++i) columns[3][i] = 2 * columns[1][i] + columns[2][i];
+    LinearRecord record(random, {2.0, with_1, with_2, 0.0}, 0.8, columns);
+    record.problem.groups[1].usual = true;
+    record.problem.groups[3].numbers = 2;
+    return record;
+  };
+  Random random(67);
+  int alone = 0;
+  int with_set = 0;
+  constexpr int draws = 40;
+  for (int draw = 0; draw < draws; ++draw) {
+    const Selection mimicked = select_effects(record_of(random, 2, 1).problem);
+    if (mimicked.selected.size() == 1) {
+      CHECK(mimicked.selected.front().group == 3);
+      std::vector<std::size_t> others = mimicked.selected.front().indistinguishable;
+      std::sort(others.begin(), others.end());
+      with_set += others == std::vector<std::size_t>{1, 2} ? 1 : 0;
+      ++alone;
+    }
+    // Both are there where 3 has another share of them.
+    CHECK(select_effects(record_of(random, 2, -1).problem).selected.size() == 2);
+  }
+  // A size too many makes a record the worse held out where a normal deviate squared is below 2: in
+  // 84 %, 34 of 40 ± 2.3. In some 3 is found at once, and what two do is not asked.
+  CHECK(alone >= 26);
+  CHECK(with_set >= 10);
+}
+
 TEST_CASE("effects that explain equally well are reported together") {
   Random random(6);
   std::vector<Column> columns = LinearRecord::drawn(random, 4);
