@@ -489,19 +489,21 @@ class Search {
 
   [[nodiscard]] std::optional<OneForTwo> best_one_for_two() const {
     std::optional<OneForTwo> best;
+    const auto consider = [&](std::size_t a, std::size_t b) {
+      const Groups others = without_group(selected_without(a), b);
+      const BlockFit rest = fit(others, &current_);
+      const double earned = rest.squared_error() - current_.squared_error();
+      for (const std::size_t c : candidates()) {
+        if (is_placed(group(c)) || linear_gain(record_, rest, c) < rival_gain * earned) continue;
+        Trial trial = judge(c, rest, fit(with_group(others, c), &rest));
+        const BlockFit& least = best ? best->by.fit : current_;
+        if (!trial.worth_a_name || trial.fit.squared_error() > least.squared_error()) continue;
+        best = OneForTwo{{a, b}, std::move(trial)};
+      }
+    };
     for (const std::size_t a : selected_) {
       for (const std::size_t b : selected_) {
-        if (a >= b || is_placed(group(a)) || is_placed(group(b))) continue;
-        const BlockFit rest = fit(without_group(selected_without(a), b), &current_);
-        const double earned = rest.squared_error() - current_.squared_error();
-        for (const std::size_t c : candidates()) {
-          if (is_placed(group(c)) || linear_gain(record_, rest, c) < rival_gain * earned) continue;
-          Trial trial =
-              judge(c, rest, fit(with_group(without_group(selected_without(a), b), c), &rest));
-          const double most = best ? best->by.fit.squared_error() : current_.squared_error();
-          if (trial.worth_a_name && trial.fit.squared_error() <= most)
-            best = OneForTwo{{a, b}, std::move(trial)};
-        }
+        if (a < b && !is_placed(group(a)) && !is_placed(group(b))) consider(a, b);
       }
     }
     return best;
