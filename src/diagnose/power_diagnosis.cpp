@@ -514,7 +514,7 @@ void size_up(const LogModel& view, const Selection& selection, Unexplained& told
   const bool as_misread = strongest.channel == "height_m" && strongest.unit == "ohm";
   told.shape = fmt::format(
       "{}, by {} {}; no effect of the catalogue does, so it stays unnamed{}", strongest.shape,
-      std::abs(size) < 99.5 ? fmt::format("{:+.2g}", size) : fmt::format("{:+.0f}", size),
+      told.size < 99.5 ? fmt::format("{:+.2g}", size) : fmt::format("{:+.0f}", size),
       strongest.unit,
       as_misread ? "; a height that is misread for a minute at a time leaves the same" : "");
 }
